@@ -1,0 +1,32 @@
+# What Paim links, all from the distribution's packages (the list is in ./packages).
+find_package(Eigen3 3.3 REQUIRED NO_MODULE)
+find_package(fmt REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(TBB REQUIRED)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
+
+# OpenEXR 3 brings a CMake package; OpenEXR 2 (Ubuntu 22.04) is found through pkg-config.
+find_package(OpenEXR 3 CONFIG QUIET)
+if(OpenEXR_FOUND)
+    add_library(paim_openexr INTERFACE)
+    target_link_libraries(paim_openexr INTERFACE OpenEXR::OpenEXR)
+else()
+    pkg_check_modules(OPENEXR2 REQUIRED IMPORTED_TARGET OpenEXR)
+    add_library(paim_openexr INTERFACE)
+    target_link_libraries(paim_openexr INTERFACE PkgConfig::OPENEXR2)
+endif()
+
+find_path(STB_INCLUDE_DIR NAMES stb_image_write.h PATH_SUFFIXES stb REQUIRED)
+
+if(PAIM_BUILD_TOOLS OR PAIM_BUILD_TESTS OR PAIM_BUILD_PLAYER)
+    find_package(CLI11 REQUIRED)
+    # Embree 4 where the system has it, else Embree 3; paim/trace/embree.h tells them apart.
+    find_package(embree 4 QUIET)
+    if(embree_FOUND)
+        set(PAIM_EMBREE_VERSION 4)
+    else()
+        find_package(embree 3 REQUIRED)
+        set(PAIM_EMBREE_VERSION 3)
+    endif()
+endif()

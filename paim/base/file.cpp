@@ -1,0 +1,124 @@
+// Bounded reads and atomic writes, on POSIX calls so that failures keep their reason.
+#include "paim/base/file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "paim/base/error.h"
+
+namespace paim {
+
+namespace {
+
+// Closes a descriptor when it goes out of scope.
+struct Descriptor {
+    int fd;
+    ~Descriptor() {
+        if (fd >= 0) ::close(fd);
+    }
+};
+
+}  // namespace
+
+std::vector<char> read_file(const std::filesystem::path& path, uint64_t max_size_bytes) {
+    const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
+    if (file.fd < 0) throw_bad_input("{}: cannot open: {}", path.string(), std::strerror(errno));
+    struct stat info {};
+    if (::fstat(file.fd, &info) != 0) {
+        throw_bad_input("{}: cannot read: {}", path.string(), std::strerror(errno));
+    }
+    if (!S_ISREG(info.st_mode)) {
+        throw_bad_input("{}: expected a regular file", path.string());
+    }
+    const auto size_bytes = static_cast<uint64_t>(info.st_size);
+    if (size_bytes > max_size_bytes) {
+        throw_bad_input("{}: {} bytes, expected at most {}", path.string(), size_bytes,
+                        max_size_bytes);
+    }
+    std::vector<char> data(size_bytes);
+    uint64_t done = 0;
+    while (done < size_bytes) {
+        const ssize_t got = ::read(file.fd, data.data() + done, size_bytes - done);
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) throw_bad_input("{}: cannot read: {}", path.string(), std::strerror(errno));
+        if (got == 0) {
+            throw_bad_input("{}: ended after {} bytes, expected {}", path.string(), done,
+                            size_bytes);
+        }
+        done += static_cast<uint64_t>(got);
+    }
+    return data;
+}
+
+AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
+    // Unique among the writers of this and other processes.
+    static std::atomic<unsigned> counter{0};
+    temporary_path_ = path_;
+    temporary_path_ += fmt::format(".{}-{}.tmp", ::getpid(), counter.fetch_add(1));
+    descriptor_ = ::open(temporary_path_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) fail("cannot create");
+}
+
+AtomicFile::~AtomicFile() {
+    if (descriptor_ < 0) return;
+    ::close(descriptor_);
+    ::unlink(temporary_path_.c_str());
+}
+
+void AtomicFile::fail(const char* action) const {
+    throw_output_failed("{}: {}: {}", path_.string(), action, std::strerror(errno));
+}
+
+void AtomicFile::write(const void* data, size_t size_bytes) {
+    write_at(end_, data, size_bytes);
+}
+
+void AtomicFile::write_at(uint64_t offset, const void* data, size_t size_bytes) {
+    const char* bytes = static_cast<const char*>(data);
+    while (size_bytes > 0) {
+        const ssize_t done = ::pwrite(descriptor_, bytes, size_bytes, static_cast<off_t>(offset));
+        if (done < 0 && errno == EINTR) continue;
+        if (done < 0) fail("cannot write");
+        bytes += done;
+        size_bytes -= static_cast<size_t>(done);
+        offset += static_cast<uint64_t>(done);
+    }
+    end_ = std::max(end_, offset);
+}
+
+void AtomicFile::commit() {
+    if (::fsync(descriptor_) != 0) fail("cannot flush");
+    const int closed = ::close(std::exchange(descriptor_, -1));
+    if (closed != 0 || ::rename(temporary_path_.c_str(), path_.c_str()) != 0) {
+        const int reason = errno;
+        ::unlink(temporary_path_.c_str());
+        errno = reason;
+        fail("cannot finish writing");
+    }
+}
+
+void write_file(const std::filesystem::path& path, std::string_view contents) {
+    AtomicFile file(path);
+    file.write(contents);
+    file.commit();
+}
+
+void create_directories(const std::filesystem::path& path) {
+    std::error_code failure;
+    std::filesystem::create_directories(path, failure);
+    if (!failure && !std::filesystem::is_directory(path)) {
+        throw_output_failed("{}: expected a directory, got a file", path.string());
+    }
+    if (failure) {
+        throw_output_failed("{}: cannot create directory: {}", path.string(), failure.message());
+    }
+}
+
+}  // namespace paim

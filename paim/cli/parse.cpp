@@ -1,0 +1,89 @@
+// Parsing of values that several tools take.
+#include "paim/cli/parse.h"
+
+#include <charconv>
+#include <cmath>
+#include <system_error>
+#include <vector>
+
+#include "paim/base/error.h"
+#include "paim/base/version.h"
+
+namespace paim::cli {
+
+namespace {
+
+// The whole text as a finite number, or false.
+bool parse_number(std::string_view text, double& value) {
+    const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return failure == std::errc() && end == text.data() + text.size() && std::isfinite(value);
+}
+
+}  // namespace
+
+int parse(CLI::App& app, int argc, const char* const* argv) {
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& success) {  // --help, --version
+        return app.exit(success);
+    } catch (const CLI::ParseError& error) {
+        app.exit(error);
+        return static_cast<int>(ExitCode::usage);
+    }
+    return -1;
+}
+
+double parse_fraction(const std::string& text, const std::string& option) {
+    std::string_view number = text;
+    const bool percent = number.ends_with('%');
+    if (percent) number.remove_suffix(1);
+    double value = 0.0;
+    if (!parse_number(number, value) || value < 0.0) {
+        throw_usage("{}: expected a fraction such as 0.05 or 5%, got '{}'", option, text);
+    }
+    return percent ? value / 100.0 : value;
+}
+
+Vec3f parse_color(const std::string& text, const std::string& option) {
+    std::vector<float> channels;
+    std::string_view rest = text;
+    while (true) {
+        const size_t comma = rest.find(',');
+        double value = 0.0;
+        if (!parse_number(rest.substr(0, comma), value) || value < 0.0 || value > 1.0) {
+            throw_usage("{}: expected R,G,B or one number, each from 0 to 1, got '{}'", option,
+                        text);
+        }
+        channels.push_back(static_cast<float>(value));
+        if (comma == std::string_view::npos) break;
+        rest.remove_prefix(comma + 1);
+    }
+    if (channels.size() == 1) return Vec3f::Constant(channels[0]);
+    if (channels.size() != 3) {
+        throw_usage("{}: expected R,G,B or one number, got {} numbers", option, channels.size());
+    }
+    return {channels[0], channels[1], channels[2]};
+}
+
+std::pair<int, int> parse_size(const std::string& text, const std::string& option) {
+    constexpr int kMaxSize = 16384;
+    const size_t cross = text.find('x');
+    double width = 0.0, height = 0.0;
+    const auto valid = [](double size) {
+        return size >= 1.0 && size <= kMaxSize && size == std::floor(size);
+    };
+    if (cross == std::string::npos ||
+        !parse_number(std::string_view(text).substr(0, cross), width) ||
+        !parse_number(std::string_view(text).substr(cross + 1), height) || !valid(width) ||
+        !valid(height)) {
+        throw_usage("{}: expected WIDTHxHEIGHT in pixels, each 1 to {}, got '{}'", option, kMaxSize,
+                    text);
+    }
+    return {static_cast<int>(width), static_cast<int>(height)};
+}
+
+std::string version_text(const std::string& tool) {
+    return fmt::format("{} {}", tool, kVersion);
+}
+
+}  // namespace paim::cli

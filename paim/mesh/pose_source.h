@@ -1,0 +1,37 @@
+// A pose sequence with one topology, read one pose at a time so that memory does not grow with it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "paim/base/vector.h"
+#include "paim/mesh/topology.h"
+
+namespace paim {
+
+struct Pose {
+    std::vector<Vec3f> positions;  // [V] scene units
+    std::vector<Vec3f> normals;    // [V] unit; zero where a vertex has no face of any area
+};
+
+class PoseSource {
+  public:
+    virtual ~PoseSource() = default;
+
+    virtual const Topology& topology() const = 0;
+    virtual const Albedo& albedo() const = 0;
+    virtual uint32_t num_poses() const = 0;
+
+    // A name for messages and manifests: a file name, or what made the pose.
+    virtual std::string pose_name(uint32_t p) const = 0;
+
+    // A checksum of what pose p is made from, by which a resumed bake knows that it has not
+    // changed.
+    virtual uint64_t pose_checksum(uint32_t p) const = 0;
+
+    // Reads pose p < num_poses(). May be called from several threads at once.
+    virtual Pose load_pose(uint32_t p) const = 0;
+};
+
+}  // namespace paim

@@ -1,0 +1,42 @@
+// Value forms on the command line: fractions, colours, sizes.
+#include "paim/cli/parse.h"
+
+#include <gtest/gtest.h>
+
+#include "paim/base/error.h"
+#include "paim/cli/progress.h"
+
+namespace paim::cli {
+namespace {
+
+TEST(ParseFraction, TakesFractionsAndPercent) {
+    EXPECT_DOUBLE_EQ(parse_fraction("0.05", "--max-error"), 0.05);
+    EXPECT_DOUBLE_EQ(parse_fraction("5%", "--max-error"), 0.05);
+    for (const char* bad : {"", "%", "x", "-1", "nan", "inf", "1e999", "0.1x"}) {
+        EXPECT_THROW(parse_fraction(bad, "--max-error"), Error) << bad;
+    }
+}
+
+TEST(ParseColor, TakesThreeOrOne) {
+    EXPECT_EQ(parse_color("0.5", "--albedo"), Vec3f(0.5f, 0.5f, 0.5f));
+    EXPECT_EQ(parse_color("1,0,0.25", "--albedo"), Vec3f(1.0f, 0.0f, 0.25f));
+    for (const char* bad : {"", "1,2,3", "1,1", "1,1,1,1", "a,b,c", "1,,1"}) {
+        EXPECT_THROW(parse_color(bad, "--albedo"), Error) << bad;
+    }
+}
+
+TEST(ParseSize, TakesWholePixels) {
+    EXPECT_EQ(parse_size("640x480", "--size"), std::make_pair(640, 480));
+    for (const char* bad : {"", "640", "640x", "x480", "0x1", "1.5x2", "99999x1", "-1x5"}) {
+        EXPECT_THROW(parse_size(bad, "--size"), Error) << bad;
+    }
+}
+
+TEST(FormatDuration, ReadsWell) {
+    EXPECT_EQ(format_duration(1.23), "1.2 s");
+    EXPECT_EQ(format_duration(185.0), "3 min 05 s");
+    EXPECT_EQ(format_duration(7800.0), "2 h 10 min");
+}
+
+}  // namespace
+}  // namespace paim::cli
