@@ -1,0 +1,46 @@
+// A compressed animation in memory: what a .paim file holds.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "paim/mesh/topology.h"
+#include "paim/transfer/layout.h"
+
+namespace paim {
+
+// How components are stored in the file; means and weights are always f32.
+enum class Precision : uint32_t { f32 = 0, f16 = 1 };
+
+// A data matrix as mean + components · weights (E3, E4): column p is
+//   mean + Σ_k weights[k][p] · components[k].
+// Rows are plane-major: row = plane · V + v. Components have unit RMS (|component_k|² = rows), so that
+// half floats hold them well; weights carry the singular value.
+struct LowRankMatrix {
+    uint32_t num_vertices = 0;
+    uint32_t num_planes = 0;
+    uint32_t num_poses = 0;
+    uint32_t num_components = 0;
+    Precision precision = Precision::f32;
+    std::vector<float> mean;              // [planes][V]
+    std::vector<float> components;        // [K][planes][V]
+    std::vector<float> weights;           // [K][P]
+    std::vector<double> singular_values;  // [rank of the full matrix], descending, unshrunk
+
+    size_t num_rows() const { return size_t{num_planes} * num_vertices; }
+};
+
+struct Model {
+    Topology topology;
+    Albedo albedo;
+    TransferLayout layout;
+    LowRankMatrix geometry;  // 3 planes: x, y, z
+    LowRankMatrix transfer;  // layout.num_planes() planes
+    float frames_per_second = 24.0f;
+    std::string name;
+
+    uint32_t num_poses() const { return geometry.num_poses; }
+};
+
+}  // namespace paim

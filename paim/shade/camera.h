@@ -1,0 +1,33 @@
+// A pinhole camera that the player and the reference renderer share, so that their images line up.
+#pragma once
+
+#include "paim/base/vector.h"
+#include "paim/mesh/bounds.h"
+
+namespace paim {
+
+struct Camera {
+    Vec3f eye{0.0f, 0.0f, 1.0f};
+    Vec3f target{0.0f, 0.0f, 0.0f};
+    Vec3f up{0.0f, 1.0f, 0.0f};
+    float vertical_fov_rad = 0.6108652f;  // 35°
+
+    // Orthonormal right, up, backward (right-handed; the camera looks along −backward).
+    Eigen::Matrix3f axes() const;
+
+    // World to camera, row by row orthonormal, 4×4 for OpenGL (column-major Eigen).
+    Eigen::Matrix4f view() const;
+
+    // OpenGL clip-space projection (z to −1 … 1). 0 < near < far, scene units.
+    Eigen::Matrix4f projection(float aspect, float near_distance, float far_distance) const;
+
+    // Unit direction of the ray through image coordinates u, v in [0, 1], (0, 0) the upper left corner.
+    Vec3f ray_direction(float u, float v, float aspect) const;
+};
+
+// A camera that sees all of the bounds, from slightly above; azimuth_rad about +Y (0 looks along −Z,
+// from +Z), elevation_rad above the horizon.
+Camera frame_bounds(const Bounds& bounds, float aspect, float azimuth_rad = 0.5f,
+                    float elevation_rad = 0.3f);
+
+}  // namespace paim
