@@ -110,7 +110,7 @@ void write_file(const std::filesystem::path& path, std::string_view contents) {
     file.commit();
 }
 
-void create_directories(const std::filesystem::path& path) {
+void ensure_directory(const std::filesystem::path& path) {
     std::error_code failure;
     std::filesystem::create_directories(path, failure);
     if (!failure && !std::filesystem::is_directory(path)) {

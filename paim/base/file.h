@@ -40,6 +40,6 @@ class AtomicFile {
 void write_file(const std::filesystem::path& path, std::string_view contents);
 
 // Creates the directory and its parents. Error (output failed) if it cannot be, or is a file.
-void create_directories(const std::filesystem::path& path);
+void ensure_directory(const std::filesystem::path& path);
 
 }  // namespace paim

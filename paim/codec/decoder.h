@@ -30,8 +30,8 @@ class Decoder {
     virtual uint32_t num_vertices() const = 0;
     virtual uint32_t num_poses() const = 0;
 
-    // Rebuilds the pose at `time` in poses: 0 … P−1, fractions interpolate the weights linearly; clamped
-    // to that range. Reuses what `out` holds; allocates nothing when its sizes already fit.
+    // Rebuilds the pose at `time` in poses: 0 … P−1, fractions interpolate the weights linearly;
+    // clamped to that range. Reuses what `out` holds.
     virtual void decode(double time, const DecodeLimits& limits, DecodedPose& out) const = 0;
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,8 +16,8 @@ enum class Precision : uint32_t { f32 = 0, f16 = 1 };
 
 // A data matrix as mean + components · weights (E3, E4): column p is
 //   mean + Σ_k weights[k][p] · components[k].
-// Rows are plane-major: row = plane · V + v. Components have unit RMS (|component_k|² = rows), so that
-// half floats hold them well; weights carry the singular value.
+// Rows are plane-major: row = plane · V + v. Components have unit RMS (|component_k|² = rows), so
+// that half floats hold them well; weights carry the singular value.
 struct LowRankMatrix {
     uint32_t num_vertices = 0;
     uint32_t num_planes = 0;
@@ -29,6 +30,9 @@ struct LowRankMatrix {
     std::vector<double> singular_values;  // [rank of the full matrix], descending, unshrunk
 
     size_t num_rows() const { return size_t{num_planes} * num_vertices; }
+    std::span<const float> component(uint32_t k) const {
+        return std::span(components).subspan(k * num_rows(), num_rows());
+    }
 };
 
 struct Model {
@@ -39,6 +43,7 @@ struct Model {
     LowRankMatrix transfer;  // layout.num_planes() planes
     float frames_per_second = 24.0f;
     std::string name;
+    std::string provenance_json;  // a JSON object: how it was made, for people and paim-info
 
     uint32_t num_poses() const { return geometry.num_poses; }
 };

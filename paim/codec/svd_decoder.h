@@ -1,5 +1,6 @@
 // The reference decoder: M + U·W, plane by plane.
-// Based on: Cardoso and Kry, Error Analysis of Precomputed Radiance Transfer for Deforming Geometry, 2012
+// Based on: Cardoso and Kry, Error Analysis of Precomputed Radiance Transfer for Deforming
+// Geometry, 2012
 #pragma once
 
 #include "paim/codec/decoder.h"

@@ -10,8 +10,8 @@
 
 namespace paim {
 
-// How linear radiance becomes a display value: scale by 2^exposure_ev, clamp to [0, 1], then the sRGB
-// curve (gamma 0) or x^(1/gamma).
+// How linear radiance becomes a display value: scale by 2^exposure_ev, clamp to [0, 1], then the
+// sRGB curve (gamma 0) or x^(1/gamma).
 struct ToneCurve {
     float exposure_ev = 0.0f;
     float gamma = 0.0f;

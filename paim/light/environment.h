@@ -7,17 +7,18 @@
 
 namespace paim {
 
-// Unit direction of image coordinates: u, v in [0, 1], (0, 0) is the upper left corner of the first pixel:
-// latitude π/2 − π v, longitude π − 2π u, direction (sin lon cos lat, sin lat, cos lon cos lat).
+// Unit direction of image coordinates: u, v in [0, 1], (0, 0) is the upper left corner of the first
+// pixel: latitude π/2 − π v, longitude π − 2π u, direction (sin lon cos lat, sin lat, cos lon cos
+// lat).
 Vec3d direction_from_latlong(double u, double v);
 
 // The inverse, u in [0, 1), v in [0, 1]; direction need not be unit but not zero.
 std::pair<double, double> latlong_from_direction(const Vec3d& direction);
 
 // Projects a lat-long map: each pixel is constant over its exact solid angle
-// Δlon · (sin lat_top − sin lat_bottom); the basis is taken at the pixel's centre (docs/conventions.md).
-// image  RGB linear radiance, finite; any size >= 1x1
-// bands  1 … sh::kMaxBands
+// Δlon · (sin lat_top − sin lat_bottom); the basis is taken at the pixel's centre
+// (docs/conventions.md). image  RGB linear radiance, finite; any size >= 1x1 bands  1 …
+// sh::kMaxBands
 LightCoefficients project_latlong(const Image& image, int bands);
 
 class EnvironmentLight : public Light {

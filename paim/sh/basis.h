@@ -1,5 +1,6 @@
 // The real, orthonormal spherical-harmonic basis without Condon–Shortley phase, polar axis z.
-// Based on: Peter-Pike Sloan, Efficient Spherical Harmonic Evaluation, 2013 (sin^m θ folded into the
+// Based on: Peter-Pike Sloan, Efficient Spherical Harmonic Evaluation, 2013 (sin^m θ folded into
+// the
 //           azimuthal factor, so that nothing divides by it at the poles)
 #pragma once
 

@@ -1,6 +1,8 @@
 // Rotation of coefficients: f'(ω) = f(R⁻¹ω).
-// Based on: Ivanic and Ruedenberg, Rotation Matrices for Real Spherical Harmonics, J. Phys. Chem. 100,
-//           1996, with the errata of 102, 1998 (and V for m < 0 corrected once more, see rotate.cpp)
+// Based on: Ivanic and Ruedenberg, Rotation Matrices for Real Spherical Harmonics, J. Phys. Chem.
+// 100,
+//           1996, with the errata of 102, 1998 (and V for m < 0 corrected once more, see
+//           rotate.cpp)
 #pragma once
 
 #include <Eigen/Core>

@@ -21,12 +21,13 @@ struct Camera {
     // OpenGL clip-space projection (z to −1 … 1). 0 < near < far, scene units.
     Eigen::Matrix4f projection(float aspect, float near_distance, float far_distance) const;
 
-    // Unit direction of the ray through image coordinates u, v in [0, 1], (0, 0) the upper left corner.
+    // Unit direction of the ray through image coordinates u, v in [0, 1], (0, 0) the upper left
+    // corner.
     Vec3f ray_direction(float u, float v, float aspect) const;
 };
 
-// A camera that sees all of the bounds, from slightly above; azimuth_rad about +Y (0 looks along −Z,
-// from +Z), elevation_rad above the horizon.
+// A camera that sees all of the bounds, from slightly above; azimuth_rad about +Y (0 looks along
+// −Z, from +Z), elevation_rad above the horizon.
 Camera frame_bounds(const Bounds& bounds, float aspect, float azimuth_rad = 0.5f,
                     float elevation_rad = 0.3f);
 

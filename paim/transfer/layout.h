@@ -11,8 +11,8 @@ enum class TransferKind : uint32_t {
     diffuse = 0,  // albedo-free, divided by π (docs/equations.md E1)
 };
 
-// Values are stored plane by plane: plane = channel · bands² + i, each contiguous over the vertices, so
-// row r = plane · V + v of a data matrix belongs to vertex v.
+// Values are stored plane by plane: plane = channel · bands² + i, each contiguous over the
+// vertices, so row r = plane · V + v of a data matrix belongs to vertex v.
 struct TransferLayout {
     TransferKind kind = TransferKind::diffuse;
     uint32_t bands = 0;     // 1 … sh::kMaxBands

@@ -1,0 +1,109 @@
+// The .bake directory: manifest.json, mesh.bin and one self-contained, checksummed file a pose.
+// Layout: docs/format.md.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "paim/format/container_reader.h"
+#include "paim/mesh/pose_source.h"
+#include "paim/transfer/layout.h"
+
+namespace paim {
+
+// Everything that decides the bytes of a bake. Two bakes with the same identity may share a
+// directory.
+struct BakeIdentity {
+    TransferLayout layout;
+    uint32_t rays = 0;  // per vertex
+    uint64_t seed = 0;
+    std::string normals;  // "faces" or "file"
+    uint32_t num_vertices = 0;
+    uint32_t num_triangles = 0;
+    uint64_t mesh_xxh3 = 0;  // of triangles and albedo
+    struct Source {
+        std::string name;
+        uint64_t xxh3 = 0;
+        bool operator==(const Source&) const = default;
+    };
+    std::vector<Source> poses;  // [P]
+
+    uint32_t num_poses() const { return static_cast<uint32_t>(poses.size()); }
+    bool operator==(const BakeIdentity&) const = default;
+};
+
+// Checksum of what all poses share.
+uint64_t mesh_checksum(const Topology& topology, const Albedo& albedo);
+
+// What the bake of one pose found out about itself.
+struct PoseStatistics {
+    uint64_t rays = 0;          // traced
+    uint64_t blocked = 0;       // of these
+    uint32_t zero_normals = 0;  // vertices without a normal: their transfer is 0
+    double transfer_rms = 0.0;  // over vertices and coefficients
+    double noise_rms = 0.0;     // its estimated standard error, from two independent halves
+};
+
+// One baked pose. Planes as in transfer/layout.h.
+struct BakedPose {
+    std::vector<float> positions;  // [3][V] scene units
+    std::vector<float> normals;    // [3][V]
+    std::vector<float> transfer;   // [planes][V]
+    PoseStatistics statistics;
+};
+
+// Writes a bake, possibly one that was begun before.
+class BakeWriter {
+  public:
+    // Creates the directory, or goes on with the one that is there. Errors: bad input if it holds a
+    // bake of another identity (the first difference is named) or other files; output failed.
+    BakeWriter(std::filesystem::path directory, const BakeIdentity& identity,
+               const Topology& topology, const Albedo& albedo);
+
+    // Whether pose p is there, whole and of this identity.
+    bool has_pose(uint32_t p) const;
+
+    // All or nothing; may be called from several threads.
+    void write_pose(uint32_t p, const BakedPose& pose) const;
+
+  private:
+    std::filesystem::path directory_;
+    BakeIdentity identity_;
+};
+
+// Reads a complete bake.
+class BakeReader {
+  public:
+    // Errors (bad input) name the file: not a bake, damaged, poses missing.
+    explicit BakeReader(std::filesystem::path directory);
+
+    const std::filesystem::path& directory() const { return directory_; }
+    const BakeIdentity& identity() const { return identity_; }
+    const Topology& topology() const { return topology_; }
+    const Albedo& albedo() const { return albedo_; }
+    uint32_t num_poses() const { return identity_.num_poses(); }
+
+    // Reads every byte of pose p and checks it. May be called from several threads.
+    BakedPose read_pose(uint32_t p) const;
+    PoseStatistics read_statistics(uint32_t p) const;
+
+    // Checks the checksums of all poses, once, before rows are streamed.
+    void verify_all() const;
+
+    // Rows [first, first + count) of positions (3 · V rows) or transfer (planes · V rows) of pose
+    // p.
+    void read_position_rows(uint32_t p, uint64_t first, uint64_t count, float* out) const;
+    void read_transfer_rows(uint32_t p, uint64_t first, uint64_t count, float* out) const;
+
+  private:
+    std::filesystem::path directory_;
+    BakeIdentity identity_;
+    Topology topology_;
+    Albedo albedo_;
+};
+
+std::filesystem::path bake_pose_file(const std::filesystem::path& directory, uint32_t p);
+
+}  // namespace paim

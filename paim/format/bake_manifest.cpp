@@ -1,0 +1,121 @@
+// The manifest of a .bake directory.
+#include "paim/format/bake_manifest.h"
+
+#include <charconv>
+#include <limits>
+
+#include "paim/base/error.h"
+#include "paim/base/file.h"
+#include "paim/base/hash.h"
+#include "paim/format/metadata.h"
+
+namespace paim {
+
+using nlohmann::ordered_json;
+
+namespace {
+
+constexpr uint32_t kManifestVersion = 1;
+constexpr uint32_t kMaxCount = std::numeric_limits<int32_t>::max();
+constexpr uint64_t kMaxSizeBytes = 64 << 20;
+
+// 64-bit numbers travel as 16 hexadecimal digits, since JSON readers may round them.
+std::string hex(uint64_t value) {
+    return fmt::format("{:016x}", value);
+}
+
+uint64_t parse_hex(const std::string& text, const std::string& file, const char* what) {
+    uint64_t value = 0;
+    const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value, 16);
+    if (text.size() != 16 || failure != std::errc() || end != text.data() + text.size()) {
+        throw_bad_input("{}: '{}': expected 16 hexadecimal digits, got '{}'", file, what, text);
+    }
+    return value;
+}
+
+}  // namespace
+
+std::string manifest_text(const BakeIdentity& identity) {
+    ordered_json json;
+    json["format"] = "paim-bake";
+    json["version"] = kManifestVersion;
+    json["transfer_kind"] = "diffuse";
+    json["bands"] = identity.layout.bands;
+    json["channels"] = identity.layout.channels;
+    json["rays"] = identity.rays;
+    json["seed"] = hex(identity.seed);
+    json["normals"] = identity.normals;
+    json["num_vertices"] = identity.num_vertices;
+    json["num_triangles"] = identity.num_triangles;
+    json["mesh_xxh3"] = hex(identity.mesh_xxh3);
+    ordered_json poses = ordered_json::array();
+    for (const auto& pose : identity.poses) {
+        poses.push_back({{"name", pose.name}, {"xxh3", hex(pose.xxh3)}});
+    }
+    json["poses"] = std::move(poses);
+    return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+BakeIdentity read_manifest(const std::filesystem::path& path) {
+    const std::vector<char> bytes = read_file(path, kMaxSizeBytes);
+    const std::string file = path.string();
+    const Metadata metadata({bytes.data(), bytes.size()}, file);
+    if (metadata.text("format") != "paim-bake") throw_bad_input("{}: not a bake's manifest", file);
+    if (const uint32_t version = metadata.integer("version", 1, kMaxCount);
+        version != kManifestVersion) {
+        throw_unsupported("{}: bake version {}, expected {}", file, version, kManifestVersion);
+    }
+    if (metadata.text("transfer_kind") != "diffuse") {
+        throw_unsupported("{}: transfer of kind '{}'", file, metadata.text("transfer_kind"));
+    }
+    BakeIdentity identity;
+    identity.layout.bands = metadata.integer("bands", 1, sh::kMaxBands);
+    identity.layout.channels = metadata.integer("channels", 1, 3);
+    identity.rays = metadata.integer("rays", 1, kMaxCount);
+    identity.seed = parse_hex(metadata.text("seed"), file, "seed");
+    identity.normals = metadata.text("normals");
+    identity.num_vertices = metadata.integer("num_vertices", 1, kMaxCount);
+    identity.num_triangles = metadata.integer("num_triangles", 1, kMaxCount);
+    identity.mesh_xxh3 = parse_hex(metadata.text("mesh_xxh3"), file, "mesh_xxh3");
+    const auto poses = metadata.json().find("poses");
+    if (poses == metadata.json().end() || !poses->is_array() || poses->empty()) {
+        throw_bad_input("{}: 'poses': expected a list of at least one pose", file);
+    }
+    for (const ordered_json& entry : *poses) {
+        const Metadata pose(entry.dump(-1, ' ', false, ordered_json::error_handler_t::replace),
+                            file);
+        identity.poses.push_back({pose.text("name"), parse_hex(pose.text("xxh3"), file, "xxh3")});
+    }
+    return identity;
+}
+
+std::string first_difference(const BakeIdentity& there, const BakeIdentity& wanted) {
+    const auto differ = [](const char* what, const auto& a, const auto& b) {
+        return a == b ? std::string() : fmt::format("{}: {} there, {} asked for", what, a, b);
+    };
+    for (const std::string& difference :
+         {differ("bands", there.layout.bands, wanted.layout.bands),
+          differ("channels", there.layout.channels, wanted.layout.channels),
+          differ("rays", there.rays, wanted.rays), differ("seed", there.seed, wanted.seed),
+          differ("normals", there.normals, wanted.normals),
+          differ("vertices", there.num_vertices, wanted.num_vertices),
+          differ("triangles", there.num_triangles, wanted.num_triangles),
+          differ("poses", there.num_poses(), wanted.num_poses()),
+          differ("checksum of faces and albedo", hex(there.mesh_xxh3), hex(wanted.mesh_xxh3))}) {
+        if (!difference.empty()) return difference;
+    }
+    for (uint32_t p = 0; p < wanted.num_poses(); ++p) {
+        if (there.poses[p] == wanted.poses[p]) continue;
+        return fmt::format("pose {}: {} ({}) there, {} ({}) asked for", p, there.poses[p].name,
+                           hex(there.poses[p].xxh3), wanted.poses[p].name,
+                           hex(wanted.poses[p].xxh3));
+    }
+    return {};
+}
+
+uint64_t identity_checksum(const BakeIdentity& identity) {
+    const std::string text = manifest_text(identity);
+    return xxh3(text.data(), text.size());
+}
+
+}  // namespace paim

@@ -1,0 +1,114 @@
+// Reads .bake directories.
+#include <limits>
+#include <utility>
+
+#include "paim/base/error.h"
+#include "paim/base/parallel.h"
+#include "paim/format/bake_directory.h"
+#include "paim/format/bake_manifest.h"
+#include "paim/format/mesh_sections.h"
+#include "paim/format/metadata.h"
+#include "paim/format/paim_sections.h"
+
+namespace paim {
+
+namespace {
+
+const Section& require_planes(const ContainerReader& reader, Tag tag, uint32_t num_planes,
+                              uint32_t num_vertices) {
+    const Section& section = reader.require(tag, ScalarType::f32);
+    const auto& shape = section.spec.shape;
+    if (shape[0] != 1 || shape[1] != num_planes || shape[2] != num_vertices) {
+        throw_bad_input("{}: section {}: {} x {} x {} values, expected {} x {}", reader.path(),
+                        tag.str(), shape[0], shape[1], shape[2], num_planes, num_vertices);
+    }
+    return section;
+}
+
+PoseStatistics read_statistics_of(const ContainerReader& reader, const BakeIdentity& identity,
+                                  uint32_t p) {
+    const Metadata metadata(reader.read_text(reader.require(section::kMetadata, ScalarType::u8)),
+                            reader.path());
+    const std::string bake = fmt::format("{:016x}", identity_checksum(identity));
+    if (metadata.text("bake") != bake) {
+        throw_bad_input("{}: belongs to bake {}, expected {}", reader.path(), metadata.text("bake"),
+                        bake);
+    }
+    metadata.integer("pose", p, p);
+    constexpr double kMaxExact = 9007199254740992.0;  // 2^53
+    constexpr double kMax = std::numeric_limits<double>::max();
+    PoseStatistics statistics;
+    statistics.rays = static_cast<uint64_t>(metadata.number("rays", 0.0, kMaxExact));
+    statistics.blocked = static_cast<uint64_t>(metadata.number("blocked", 0.0, kMaxExact));
+    statistics.zero_normals =
+        metadata.integer("zero_normals", 0, std::numeric_limits<int32_t>::max());
+    statistics.transfer_rms = metadata.number("transfer_rms", 0.0, kMax);
+    statistics.noise_rms = metadata.number("noise_rms", 0.0, kMax);
+    return statistics;
+}
+
+}  // namespace
+
+BakeReader::BakeReader(std::filesystem::path directory) : directory_(std::move(directory)) {
+    if (!std::filesystem::is_directory(directory_)) {
+        throw_bad_input("{}: expected a .bake directory", directory_.string());
+    }
+    identity_ = read_manifest(directory_ / "manifest.json");
+    const ContainerReader mesh(directory_ / "mesh.bin", section::kKindMesh);
+    topology_ = read_triangles(mesh, identity_.num_vertices);
+    albedo_ = read_albedo(mesh, identity_.num_vertices);
+    if (mesh_checksum(topology_, albedo_) != identity_.mesh_xxh3) {
+        throw_bad_input("{}: not the mesh that the manifest names", mesh.path());
+    }
+    uint32_t num_missing = 0;
+    uint32_t first_missing = 0;
+    for (uint32_t p = num_poses(); p-- > 0;) {
+        if (std::filesystem::exists(bake_pose_file(directory_, p))) continue;
+        ++num_missing;
+        first_missing = p;
+    }
+    if (num_missing > 0) {
+        throw_bad_input("{}: {} of {} poses are missing, the first is {}; bake them first",
+                        directory_.string(), num_missing, num_poses(), first_missing);
+    }
+}
+
+BakedPose BakeReader::read_pose(uint32_t p) const {
+    const ContainerReader reader(bake_pose_file(directory_, p), section::kKindPose);
+    const auto read = [&](Tag tag, uint32_t num_planes) {
+        std::vector<float> values =
+            reader.read_f32(require_planes(reader, tag, num_planes, identity_.num_vertices));
+        check_finite(reader, tag, values);
+        return values;
+    };
+    BakedPose pose;
+    pose.statistics = read_statistics_of(reader, identity_, p);
+    pose.positions = read(section::kPositions, 3);
+    pose.normals = read(section::kNormals, 3);
+    pose.transfer = read(section::kTransfer, identity_.layout.num_planes());
+    return pose;
+}
+
+PoseStatistics BakeReader::read_statistics(uint32_t p) const {
+    const ContainerReader reader(bake_pose_file(directory_, p), section::kKindPose);
+    return read_statistics_of(reader, identity_, p);
+}
+
+void BakeReader::verify_all() const {
+    parallel_for(num_poses(), 1, [&](size_t p, size_t) { read_pose(static_cast<uint32_t>(p)); });
+}
+
+void BakeReader::read_position_rows(uint32_t p, uint64_t first, uint64_t count, float* out) const {
+    const ContainerReader reader(bake_pose_file(directory_, p), section::kKindPose);
+    reader.read_range(require_planes(reader, section::kPositions, 3, identity_.num_vertices), first,
+                      count, out);
+}
+
+void BakeReader::read_transfer_rows(uint32_t p, uint64_t first, uint64_t count, float* out) const {
+    const ContainerReader reader(bake_pose_file(directory_, p), section::kKindPose);
+    reader.read_range(require_planes(reader, section::kTransfer, identity_.layout.num_planes(),
+                                     identity_.num_vertices),
+                      first, count, out);
+}
+
+}  // namespace paim

@@ -1,0 +1,109 @@
+// Writes .bake directories.
+#include <nlohmann/json.hpp>
+
+#include <utility>
+
+#include "paim/base/check.h"
+#include "paim/base/error.h"
+#include "paim/base/file.h"
+#include "paim/base/hash.h"
+#include "paim/format/bake_directory.h"
+#include "paim/format/bake_manifest.h"
+#include "paim/format/mesh_sections.h"
+#include "paim/format/metadata.h"
+#include "paim/format/paim_sections.h"
+
+namespace paim {
+
+namespace {
+
+std::string pose_metadata(const BakeIdentity& identity, uint32_t p,
+                          const PoseStatistics& statistics) {
+    nlohmann::ordered_json json;
+    json["pose"] = p;
+    json["bake"] = fmt::format("{:016x}", identity_checksum(identity));
+    json["rays"] = statistics.rays;
+    json["blocked"] = statistics.blocked;
+    json["zero_normals"] = statistics.zero_normals;
+    json["transfer_rms"] = statistics.transfer_rms;
+    json["noise_rms"] = statistics.noise_rms;
+    return json.dump(2) + "\n";
+}
+
+void write_mesh(const std::filesystem::path& path, const Topology& topology, const Albedo& albedo) {
+    ContainerWriter writer(path, section::kKindMesh,
+                           {triangles_spec(topology), albedo_spec(albedo)});
+    append_mesh(writer, 0, 1, topology, albedo);
+    writer.commit();
+}
+
+}  // namespace
+
+uint64_t mesh_checksum(const Topology& topology, const Albedo& albedo) {
+    StreamingHash hash;
+    hash.update(&topology.num_vertices, sizeof(topology.num_vertices));
+    hash.update(topology.triangles.data(), topology.triangles.size() * sizeof(Triangle));
+    hash.update(albedo.values.data(), albedo.values.size() * sizeof(Vec3f));
+    return hash.digest();
+}
+
+std::filesystem::path bake_pose_file(const std::filesystem::path& directory, uint32_t p) {
+    return directory / fmt::format("pose_{:06}.bin", p);
+}
+
+BakeWriter::BakeWriter(std::filesystem::path directory, const BakeIdentity& identity,
+                       const Topology& topology, const Albedo& albedo)
+    : directory_(std::move(directory)), identity_(identity) {
+    const std::filesystem::path manifest = directory_ / "manifest.json";
+    if (std::filesystem::exists(manifest)) {
+        const std::string difference = first_difference(read_manifest(manifest), identity_);
+        if (!difference.empty()) {
+            throw_bad_input("{}: holds another bake ({}); choose another output or remove it",
+                            directory_.string(), difference);
+        }
+    } else if (std::filesystem::is_directory(directory_) &&
+               !std::filesystem::is_empty(directory_)) {
+        throw_bad_input("{}: is not empty and not a bake (no manifest.json)", directory_.string());
+    }
+    ensure_directory(directory_);
+    // The manifest comes last: where it is, the mesh is.
+    write_mesh(directory_ / "mesh.bin", topology, albedo);
+    write_file(manifest, manifest_text(identity_));
+}
+
+bool BakeWriter::has_pose(uint32_t p) const {
+    const std::filesystem::path path = bake_pose_file(directory_, p);
+    if (!std::filesystem::exists(path)) return false;
+    try {
+        const ContainerReader reader(path, section::kKindPose);
+        const Metadata metadata(
+            reader.read_text(reader.require(section::kMetadata, ScalarType::u8)), reader.path());
+        reader.verify_all();
+        return metadata.text("bake") == fmt::format("{:016x}", identity_checksum(identity_));
+    } catch (const Error&) {
+        return false;  // damaged: it is baked again
+    }
+}
+
+void BakeWriter::write_pose(uint32_t p, const BakedPose& pose) const {
+    const uint32_t num_vertices = identity_.num_vertices;
+    const uint32_t num_planes = identity_.layout.num_planes();
+    PAIM_CHECK_EQ(pose.transfer.size(), size_t{num_planes} * num_vertices);
+    const std::string metadata = pose_metadata(identity_, p, pose.statistics);
+    const auto planes = [&](Tag tag, uint32_t count) {
+        return SectionSpec{tag, ScalarType::f32, 0, {1, count, num_vertices}};
+    };
+    ContainerWriter writer(
+        bake_pose_file(directory_, p), section::kKindPose,
+        {{section::kMetadata, ScalarType::u8, 0, {1, 1, static_cast<uint32_t>(metadata.size())}},
+         planes(section::kPositions, 3),
+         planes(section::kNormals, 3),
+         planes(section::kTransfer, num_planes)});
+    writer.append(0, metadata.data(), metadata.size());
+    writer.append(1, std::span(pose.positions));
+    writer.append(2, std::span(pose.normals));
+    writer.append(3, std::span(pose.transfer));
+    writer.commit();
+}
+
+}  // namespace paim

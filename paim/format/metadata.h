@@ -1,0 +1,31 @@
+// Checked access to the JSON that Paim files carry.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <string_view>
+
+namespace paim {
+
+// A JSON object whose members are read with their type and range checked. Errors (bad input) name
+// the file, the member, what was expected and what was got.
+class Metadata {
+  public:
+    // Parses the text; at most 64 MiB.
+    Metadata(std::string_view text, std::string file);
+
+    uint32_t integer(const char* key, uint32_t lowest, uint32_t highest) const;
+    double number(const char* key, double lowest, double highest) const;
+    std::string text(const char* key) const;
+    std::string object_text(const char* key) const;  // "{}" if absent
+    const nlohmann::ordered_json& json() const { return json_; }
+
+  private:
+    const nlohmann::ordered_json& member(const char* key) const;
+
+    nlohmann::ordered_json json_;
+    std::string file_;
+};
+
+}  // namespace paim

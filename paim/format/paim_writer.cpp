@@ -1,0 +1,182 @@
+// Writes .paim files.
+#include <Eigen/Core>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "paim/base/check.h"
+#include "paim/base/version.h"
+#include "paim/format/mesh_sections.h"
+#include "paim/format/paim_file.h"
+#include "paim/format/paim_sections.h"
+
+namespace paim {
+
+namespace {
+
+constexpr Part kParts[] = {Part::geometry, Part::transfer};
+
+const LowRankMatrix& part_of(const Model& model, Part part) {
+    return part == Part::geometry ? model.geometry : model.transfer;
+}
+
+ScalarType scalar_type(Precision precision) {
+    return precision == Precision::f16 ? ScalarType::f16 : ScalarType::f32;
+}
+
+std::string metadata(const Model& model) {
+    nlohmann::ordered_json json;
+    json["paim_version"] = kVersion;
+    json["name"] = model.name;
+    json["num_vertices"] = model.topology.num_vertices;
+    json["num_poses"] = model.num_poses();
+    json["frames_per_second"] = model.frames_per_second;
+    json["transfer_kind"] = "diffuse";
+    json["bands"] = model.layout.bands;
+    json["channels"] = model.layout.channels;
+    json["geometry_components"] = model.geometry.num_components;
+    json["transfer_components"] = model.transfer.num_components;
+    json["provenance"] =
+        nlohmann::ordered_json::parse(model.provenance_json.empty() ? "{}" : model.provenance_json);
+    return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+std::vector<ComponentId> component_order(const Model& model) {
+    struct Ranked {
+        ComponentId id;
+        double share;
+    };
+    std::vector<Ranked> ranked;
+    for (const Part part : kParts) {
+        const LowRankMatrix& matrix = part_of(model, part);
+        const double largest = matrix.singular_values.empty() ? 0.0 : matrix.singular_values[0];
+        double energy = 0.0;  // relative to the largest value, which may be too big to square
+        for (const double s : matrix.singular_values) energy += (s / largest) * (s / largest);
+        for (uint32_t k = 0; k < matrix.num_components; ++k) {
+            const double ratio = matrix.singular_values[k] / largest;
+            ranked.push_back({{part, k}, ratio * ratio / energy});
+        }
+    }
+    std::stable_sort(ranked.begin(), ranked.end(),
+                     [](const Ranked& a, const Ranked& b) { return a.share > b.share; });
+    std::vector<ComponentId> order(ranked.size());
+    std::transform(ranked.begin(), ranked.end(), order.begin(),
+                   [](const Ranked& r) { return r.id; });
+    return order;
+}
+
+// Which section holds what.
+struct PaimWriter::Index {
+    std::string metadata;
+    std::vector<SectionSpec> specs;
+    size_t spectrum[2], weights[2], mean[2];
+    std::vector<size_t> component[2];
+
+    explicit Index(const Model& model) : metadata(paim::metadata(model)) {
+        specs.push_back({section::kMetadata,
+                         ScalarType::u8,
+                         0,
+                         {1, 1, static_cast<uint32_t>(metadata.size())}});
+        specs.push_back(triangles_spec(model.topology));
+        specs.push_back(albedo_spec(model.albedo));
+        for (const Part part : kParts) {
+            const auto i = static_cast<size_t>(part);
+            const LowRankMatrix& matrix = part_of(model, part);
+            spectrum[i] = add({section::kSpectrum[i],
+                               ScalarType::f64,
+                               0,
+                               {1, 1, static_cast<uint32_t>(matrix.singular_values.size())}});
+            weights[i] = add({section::kWeights[i],
+                              ScalarType::f32,
+                              0,
+                              {1, matrix.num_components, matrix.num_poses}});
+        }
+        for (const Part part : kParts) {
+            const auto i = static_cast<size_t>(part);
+            const LowRankMatrix& matrix = part_of(model, part);
+            mean[i] = add({section::kMean[i],
+                           ScalarType::f32,
+                           0,
+                           {1, matrix.num_planes, matrix.num_vertices}});
+            component[i].resize(matrix.num_components);
+        }
+        for (const auto& [part, k] : component_order(model)) {
+            const auto i = static_cast<size_t>(part);
+            const LowRankMatrix& matrix = part_of(model, part);
+            component[i][k] = add({section::kComponent[i],
+                                   scalar_type(matrix.precision),
+                                   k,
+                                   {1, matrix.num_planes, matrix.num_vertices}});
+        }
+    }
+
+    size_t add(SectionSpec spec) {
+        specs.push_back(spec);
+        return specs.size() - 1;
+    }
+};
+
+uint64_t paim_size_bytes(const Model& model) {
+    // The metadata of a copy without the large parts is the same.
+    return container_size_bytes(PaimWriter::section_specs(model));
+}
+
+std::vector<SectionSpec> PaimWriter::section_specs(const Model& model) {
+    return Index(model).specs;
+}
+
+PaimWriter::PaimWriter(const std::filesystem::path& path, const Model& model)
+    : PaimWriter(path, model, Index(model)) {}
+
+PaimWriter::PaimWriter(const std::filesystem::path& path, const Model& model, Index index)
+    : precision_{model.geometry.precision, model.transfer.precision},
+      mean_section_{index.mean[0], index.mean[1]},
+      component_section_{std::move(index.component[0]), std::move(index.component[1])},
+      writer_(path, section::kKindAnimation, std::move(index.specs)) {
+    writer_.append(0, index.metadata.data(), index.metadata.size());
+    append_mesh(writer_, 1, 2, model.topology, model.albedo);
+    for (const Part part : kParts) {
+        const auto i = static_cast<size_t>(part);
+        const LowRankMatrix& matrix = part_of(model, part);
+        writer_.append(index.spectrum[i], std::span(matrix.singular_values));
+        writer_.append(index.weights[i], std::span(matrix.weights));
+    }
+}
+
+void PaimWriter::append_mean(Part part, std::span<const float> rows) {
+    writer_.append(mean_section_[static_cast<size_t>(part)], rows);
+}
+
+void PaimWriter::append_component(ComponentId id, std::span<const float> rows) {
+    const auto i = static_cast<size_t>(id.part);
+    const size_t section = component_section_[i][id.k];
+    if (precision_[i] == Precision::f32) {
+        writer_.append(section, rows);
+        return;
+    }
+    std::vector<uint16_t> halves(rows.size());
+    std::transform(rows.begin(), rows.end(), halves.begin(), [](float value) {
+        return Eigen::numext::bit_cast<uint16_t>(Eigen::half(value));
+    });
+    writer_.append(section, std::span<const uint16_t>(halves));
+}
+
+void write_paim(const std::filesystem::path& path, const Model& model) {
+    PaimWriter writer(path, model);
+    for (const Part part : kParts) {
+        const LowRankMatrix& matrix = part_of(model, part);
+        PAIM_CHECK_EQ(matrix.mean.size(), matrix.num_rows());
+        PAIM_CHECK_EQ(matrix.components.size(), matrix.num_components * matrix.num_rows());
+        writer.append_mean(part, matrix.mean);
+        for (uint32_t k = 0; k < matrix.num_components; ++k) {
+            writer.append_component({part, k}, matrix.component(k));
+        }
+    }
+    writer.commit();
+}
+
+}  // namespace paim

@@ -1,0 +1,57 @@
+// A pinhole camera.
+#include "paim/shade/camera.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace paim {
+
+Eigen::Matrix3f Camera::axes() const {
+    const Vec3f backward = (eye - target).normalized();
+    const Vec3f right = up.cross(backward).normalized();
+    Eigen::Matrix3f axes;
+    axes << right, backward.cross(right), backward;
+    return axes;
+}
+
+Eigen::Matrix4f Camera::view() const {
+    const Eigen::Matrix3f to_camera = axes().transpose();
+    Eigen::Matrix4f view = Eigen::Matrix4f::Identity();
+    view.topLeftCorner<3, 3>() = to_camera;
+    view.topRightCorner<3, 1>() = -to_camera * eye;
+    return view;
+}
+
+Eigen::Matrix4f Camera::projection(float aspect, float near_distance, float far_distance) const {
+    const float scale = 1.0f / std::tan(0.5f * vertical_fov_rad);
+    const float depth = near_distance - far_distance;
+    Eigen::Matrix4f projection = Eigen::Matrix4f::Zero();
+    projection(0, 0) = scale / aspect;
+    projection(1, 1) = scale;
+    projection(2, 2) = (far_distance + near_distance) / depth;
+    projection(2, 3) = 2.0f * far_distance * near_distance / depth;
+    projection(3, 2) = -1.0f;
+    return projection;
+}
+
+Vec3f Camera::ray_direction(float u, float v, float aspect) const {
+    const float half_height = std::tan(0.5f * vertical_fov_rad);
+    const Vec3f local((2.0f * u - 1.0f) * half_height * aspect, (1.0f - 2.0f * v) * half_height,
+                      -1.0f);
+    return (axes() * local).normalized();
+}
+
+Camera frame_bounds(const Bounds& bounds, float aspect, float azimuth_rad, float elevation_rad) {
+    Camera camera;
+    const float radius = std::max(0.5f * bounds.diagonal(), 1e-30f);
+    const float half_fov = 0.5f * camera.vertical_fov_rad;
+    const float narrower = std::min(half_fov, std::atan(std::tan(half_fov) * aspect));
+    const Vec3f direction(std::sin(azimuth_rad) * std::cos(elevation_rad), std::sin(elevation_rad),
+                          std::cos(azimuth_rad) * std::cos(elevation_rad));
+    camera.target = bounds.empty() ? Vec3f::Zero() : bounds.center();
+    // The bounding sphere touches the edge of the image.
+    camera.eye = camera.target + direction * (radius / std::sin(narrower));
+    return camera;
+}
+
+}  // namespace paim
