@@ -1,5 +1,5 @@
-// How spherical-harmonic coefficients are numbered (docs/conventions.md): i = l(l+1)+m, B bands have
-// B² coefficients, l = 0 … B−1.
+// How spherical-harmonic coefficients are numbered (docs/conventions.md): i = l(l+1)+m, B bands
+// have B² coefficients, l = 0 … B−1.
 #pragma once
 
 namespace paim::sh {
@@ -7,9 +7,13 @@ namespace paim::sh {
 // The most bands that any function here takes; the basis is tested to this.
 constexpr int kMaxBands = 64;
 
-constexpr int num_coefficients(int bands) { return bands * bands; }
+constexpr int num_coefficients(int bands) {
+    return bands * bands;
+}
 
-constexpr int index(int l, int m) { return l * (l + 1) + m; }
+constexpr int index(int l, int m) {
+    return l * (l + 1) + m;
+}
 
 // The band l of coefficient i.
 constexpr int band_of(int i) {

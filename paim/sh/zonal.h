@@ -13,8 +13,8 @@ namespace paim::sh {
 // returns [bands²] for bands = zonal.size(); axis unit
 std::vector<double> zonal_to_axis(std::span<const double> zonal, const Vec3d& axis);
 
-// Zonal coefficients of the function that is 1 within half_angle_rad of +z and 0 elsewhere, in closed
-// form. returns [bands]; 0 <= half_angle_rad <= π
+// Zonal coefficients of the function that is 1 within half_angle_rad of +z and 0 elsewhere, in
+// closed form. returns [bands]; 0 <= half_angle_rad <= π
 std::vector<double> cone_zonal(int bands, double half_angle_rad);
 
 }  // namespace paim::sh
