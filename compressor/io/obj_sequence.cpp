@@ -30,8 +30,8 @@ std::string reference_name(const std::filesystem::path& first, const std::filesy
 
 }  // namespace
 
-ObjSequence::ObjSequence(std::vector<std::filesystem::path> files, ObjOptions options)
-    : files_(std::move(files)), options_(std::move(options)) {
+ObjSequence::ObjSequence(std::vector<std::filesystem::path> files, const ObjOptions& options)
+    : files_(std::move(files)), options_(options) {
     if (files_.empty()) throw_bad_input("no OBJ files: expected at least one");
     if (files_.size() > UINT32_MAX) throw_bad_input("{} OBJ files: too many", files_.size());
     check_files();

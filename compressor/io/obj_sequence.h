@@ -32,7 +32,7 @@ class ObjSequence : public PoseSource {
     // files  at least one; find_obj_files() gives them. The same file may be several poses.
     // Errors (bad input): any file unreadable, above 4 GiB, damaged or unlike the first; of
     // several, the first in the order of the sequence is reported, on any number of threads.
-    explicit ObjSequence(std::vector<std::filesystem::path> files, ObjOptions options = {});
+    explicit ObjSequence(std::vector<std::filesystem::path> files, const ObjOptions& options = {});
 
     const Topology& topology() const override { return topology_; }
     const Albedo& albedo() const override { return albedo_; }

@@ -15,7 +15,7 @@ using Clock = std::chrono::steady_clock;
 // Reads the text as a sequence of one pose and returns the error, or "no error". These files
 // have at most 4 MB, the largest of them mostly vertices and faces that take a hundred bytes for
 // eight: half a gigabyte is far more than they need, as is the time.
-std::string open_and_load(const std::string& text, ObjOptions options = {}) {
+std::string open_and_load(const std::string& text, const ObjOptions& options = {}) {
     const auto start = Clock::now();
     const ObjTestFiles files({text});
     const std::string message =

@@ -62,7 +62,7 @@ inline std::string bad_input_of(const std::function<void()>& action) {
 
 // The error of opening a sequence of these contents as 0.obj, 1.obj, ...
 inline std::string sequence_error(const std::vector<std::string>& contents,
-                                  ObjOptions options = {}) {
+                                  const ObjOptions& options = {}) {
     const ObjTestFiles files(contents);
     return files.shortened(bad_input_of([&] { ObjSequence(files.files(), options); }));
 }
