@@ -1,4 +1,5 @@
-// A light as the shading sees it: RGB spherical-harmonic coefficients of incident radiance at a place.
+// A light as the shading sees it: RGB spherical-harmonic coefficients of incident radiance at a
+// place.
 #pragma once
 
 #include <vector>
