@@ -1,26 +1,12 @@
-// PNG output, and the tone curve from linear radiance to display values.
+// PNG output.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <filesystem>
-#include <vector>
 
 #include "paim/image/image.h"
+#include "paim/image/tone.h"
 
 namespace paim {
-
-// How linear radiance becomes a display value: scale by 2^exposure_ev, clamp to [0, 1], then the
-// sRGB curve (gamma 0) or x^(1/gamma).
-struct ToneCurve {
-    float exposure_ev = 0.0f;
-    float gamma = 0.0f;
-
-    uint8_t apply(float linear) const;  // NaN gives 0
-};
-
-// [height · width] display values.
-std::vector<std::array<uint8_t, 3>> tone_map(const Image& image, const ToneCurve& curve);
 
 // Writes an 8-bit RGB PNG, all or nothing. Errors: output failed.
 void write_png(const std::filesystem::path& path, const Image& image, const ToneCurve& curve = {});

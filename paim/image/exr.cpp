@@ -1,0 +1,258 @@
+// EXR through OpenEXR's C++ interface, in a form that versions 2.5 and 3 share.
+#include "paim/image/exr.h"
+
+#include <ImathBox.h>
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfIO.h>
+#include <ImfInputFile.h>
+#include <ImfOutputFile.h>
+#include <ImfPartType.h>
+#include <ImfRgbaFile.h>
+#include <ImfTiledInputFile.h>
+#include <ImfVersion.h>
+
+#include <algorithm>
+#include <cstring>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "paim/base/error.h"
+#include "paim/base/file.h"
+#include "paim/image/exr_header.h"
+
+namespace paim {
+
+namespace {
+
+// Lines decoded at a time: the most that any compression puts into one chunk.
+constexpr int kBlockLines = 256;
+
+// A rectangle of decoded pixels in the file's coordinates.
+struct Block {
+    Imath::Box2i box;
+    std::vector<Vec3f> pixels;
+
+    explicit Block(const Imath::Box2i& bounds)
+        : box(bounds), pixels(static_cast<size_t>(width()) * static_cast<size_t>(height())) {}
+    int width() const { return box.max.x - box.min.x + 1; }
+    int height() const { return box.max.y - box.min.y + 1; }
+};
+
+// Copies the part of the block that lies in the display window.
+void paste(const Block& block, const Imath::Box2i& display, Image& image) {
+    const int x_begin = std::max(block.box.min.x, display.min.x);
+    const int x_end = std::min(block.box.max.x, display.max.x) + 1;
+    const int y_begin = std::max(block.box.min.y, display.min.y);
+    const int y_end = std::min(block.box.max.y, display.max.y) + 1;
+    if (x_begin >= x_end) return;
+    for (int y = y_begin; y < y_end; ++y) {
+        const Vec3f* row = block.pixels.data() + static_cast<ptrdiff_t>(y - block.box.min.y) *
+                                                     static_cast<ptrdiff_t>(block.width());
+        std::copy(row + (x_begin - block.box.min.x), row + (x_end - block.box.min.x),
+                  &image.at(x_begin - display.min.x, y_begin - display.min.y) +
+                      static_cast<ptrdiff_t>(y - y_begin) * image.width);
+    }
+}
+
+// Slices that let OpenEXR write the named channels, as float, into the block's three components.
+Imf::FrameBuffer frame_buffer(Block& block, const std::vector<std::string>& names) {
+    constexpr auto kXStride = static_cast<ptrdiff_t>(sizeof(Vec3f));
+    const ptrdiff_t y_stride = kXStride * block.width();
+    // OpenEXR wants the address of pixel (0, 0), wherever that is.
+    char* origin = reinterpret_cast<char*>(block.pixels.data()) - block.box.min.x * kXStride -
+                   block.box.min.y * y_stride;
+    Imf::FrameBuffer buffer;
+    for (size_t c = 0; c < names.size(); ++c) {
+        buffer.insert(names[c], Imf::Slice(Imf::FLOAT, origin + c * sizeof(float), sizeof(Vec3f),
+                                           static_cast<size_t>(y_stride)));
+    }
+    return buffer;
+}
+
+// Grey: the one channel that was read is copied to the other two.
+void spread_grey(Block& block) {
+    for (Vec3f& pixel : block.pixels) pixel = Vec3f::Constant(pixel.x());
+}
+
+// How the picture is coded, from the channels of the first part.
+struct Coding {
+    std::vector<std::string> names;  // R, G, B or Y; empty for luminance-chroma
+    bool grey = false;
+};
+
+// A tile description alone does not make a file tiled.
+bool is_tiled(const Imf::InputFile& file) {
+    const Imf::Header& header = file.header();
+    return header.hasType() ? header.type() == Imf::TILEDIMAGE : Imf::isTiled(file.version());
+}
+
+Coding find_coding(const Imf::InputFile& input, const std::string& file) {
+    const Imf::Header& header = input.header();
+    const Imf::ChannelList& channels = header.channels();
+    const auto has = [&](const char* name) {
+        const Imf::Channel* channel = channels.findChannel(name);
+        if (channel == nullptr) return false;
+        const bool chroma = std::strlen(name) > 1;
+        if (!chroma && (channel->xSampling != 1 || channel->ySampling != 1)) {
+            throw_bad_input("{}: channel {} is sampled every {} x {} pixels, expected 1 x 1", file,
+                            name, channel->xSampling, channel->ySampling);
+        }
+        return true;
+    };
+    if (has("R") && has("G") && has("B")) return {{"R", "G", "B"}, false};
+    if (has("Y") && has("RY") && has("BY")) {
+        if (is_tiled(input)) {
+            throw_bad_input("{}: tiled luminance-chroma, expected scan lines", file);
+        }
+        return {};
+    }
+    if (has("Y")) return {{"Y"}, true};
+    std::string names;
+    for (auto c = channels.begin(); c != channels.end(); ++c) {
+        names += names.empty() ? "" : ", ";
+        names += c.name();
+    }
+    throw_bad_input("{}: channels {}, expected R, G, B or Y", file, names.empty() ? "none" : names);
+}
+
+// The box that blocks of full lines need to cover: the data window's lines within the display's.
+template <typename ReadLines>
+void read_line_blocks(const Imath::Box2i& data, const Imath::Box2i& display, ReadLines read_lines) {
+    const int y_end = std::min(data.max.y, display.max.y) + 1;
+    for (int y = std::max(data.min.y, display.min.y); y < y_end; y += kBlockLines) {
+        read_lines(
+            Imath::Box2i({data.min.x, y}, {data.max.x, std::min(y + kBlockLines, y_end) - 1}));
+    }
+}
+
+void read_scan_lines(Imf::InputFile& file, const Coding& coding, Image& image) {
+    const Imath::Box2i& display = file.header().displayWindow();
+    read_line_blocks(file.header().dataWindow(), display, [&](const Imath::Box2i& box) {
+        Block block(box);
+        file.setFrameBuffer(frame_buffer(block, coding.names));
+        file.readPixels(box.min.y, box.max.y);
+        if (coding.grey) spread_grey(block);
+        paste(block, display, image);
+    });
+}
+
+void read_tiles(Imf::TiledInputFile& file, const Coding& coding, Image& image) {
+    const Imath::Box2i& display = file.header().displayWindow();
+    for (int ty = 0; ty < file.numYTiles(0); ++ty) {
+        for (int tx = 0; tx < file.numXTiles(0); ++tx) {
+            const Imath::Box2i box = file.dataWindowForTile(tx, ty, 0, 0);
+            if (!box.intersects(display)) continue;
+            Block block(box);
+            file.setFrameBuffer(frame_buffer(block, coding.names));
+            file.readTile(tx, ty, 0, 0);
+            if (coding.grey) spread_grey(block);
+            paste(block, display, image);
+        }
+    }
+}
+
+// Luminance-chroma: OpenEXR's own conversion, which gives half precision.
+void read_luminance_chroma(Imf::RgbaInputFile& file, Image& image) {
+    const Imath::Box2i& display = file.displayWindow();
+    read_line_blocks(file.dataWindow(), display, [&](const Imath::Box2i& box) {
+        Block block(box);
+        std::vector<Imf::Rgba> line(static_cast<size_t>(block.width()));
+        auto pixel = block.pixels.begin();
+        for (int y = box.min.y; y <= box.max.y; ++y) {
+            file.setFrameBuffer(line.data() - box.min.x, 1, 0);
+            file.readPixels(y);
+            for (const Imf::Rgba& c : line) *pixel++ = Vec3f(c.r, c.g, c.b);
+        }
+        paste(block, display, image);
+    });
+}
+
+Image read_checked(const std::string& name) {
+    Imf::InputFile file(name.c_str());
+    const Coding coding = find_coding(file, name);
+    if (!file.isComplete()) throw_bad_input("{}: truncated: pixels are missing", name);
+    const Imath::Box2i& display = file.header().displayWindow();
+    Image image(display.max.x - display.min.x + 1, display.max.y - display.min.y + 1);
+    if (coding.names.empty()) {
+        Imf::RgbaInputFile rgba(name.c_str());
+        read_luminance_chroma(rgba, image);
+    } else if (is_tiled(file)) {
+        Imf::TiledInputFile tiled(name.c_str());
+        read_tiles(tiled, coding, image);
+    } else {
+        read_scan_lines(file, coding, image);
+    }
+    return image;
+}
+
+// A growing file in memory.
+class MemoryStream : public Imf::OStream {
+  public:
+    explicit MemoryStream(const char* name) : Imf::OStream(name) {}
+
+    void write(const char bytes[], int size_bytes) override {
+        const auto size = static_cast<size_t>(size_bytes);
+        if (position_ + size > data_.size()) data_.resize(position_ + size);
+        std::copy_n(bytes, size, data_.data() + position_);
+        position_ += size;
+    }
+    uint64_t tellp() override { return position_; }
+    void seekp(uint64_t position) override { position_ = position; }
+
+    const std::vector<char>& data() const { return data_; }
+
+  private:
+    std::vector<char> data_;
+    size_t position_ = 0;
+};
+
+void encode(const Image& image, MemoryStream& stream) {
+    Imf::Header header(image.width, image.height);
+    header.compression() = Imf::ZIP_COMPRESSION;
+    Imf::FrameBuffer buffer;
+    // OpenEXR's slices are for reading and writing alike, so they want a mutable address.
+    char* origin = reinterpret_cast<char*>(const_cast<Vec3f*>(image.pixels.data()));
+    const char* const names[] = {"R", "G", "B"};
+    for (size_t c = 0; c < 3; ++c) {
+        header.channels().insert(names[c], Imf::Channel(Imf::FLOAT));
+        buffer.insert(names[c], Imf::Slice(Imf::FLOAT, origin + c * sizeof(float), sizeof(Vec3f),
+                                           sizeof(Vec3f) * static_cast<size_t>(image.width)));
+    }
+    Imf::OutputFile file(stream, header);
+    file.setFrameBuffer(buffer);
+    file.writePixels(image.height);
+}
+
+}  // namespace
+
+Image read_exr(const std::filesystem::path& path, const ExrLimits& limits) {
+    check_exr_header(path, limits);
+    try {
+        return read_checked(path.string());
+    } catch (const Error&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        throw_bad_input("{}: not enough memory for its pixels", path.string());
+    } catch (const std::exception& failure) {
+        throw_bad_input("{}: truncated or damaged: {}", path.string(), failure.what());
+    }
+}
+
+void write_exr(const std::filesystem::path& path, const Image& image) {
+    PAIM_CHECK_LE(1, image.width);
+    PAIM_CHECK_LE(1, image.height);
+    MemoryStream stream(path.c_str());
+    try {
+        encode(image, stream);
+    } catch (const std::exception& failure) {
+        throw_output_failed("{}: cannot encode: {}", path.string(), failure.what());
+    }
+    AtomicFile file(path);
+    file.write(stream.data().data(), stream.data().size());
+    file.commit();
+}
+
+}  // namespace paim
