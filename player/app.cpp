@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "paim/base/error.h"
+#include "paim/image/png.h"
 #include "player/gl/check.h"
 #include "player/gl/window.h"
 #include "player/render/pose_bounds_cache.h"

@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "paim/image/png.h"
+#include "paim/image/tone.h"
 #include "player/render/frame.h"
 
 namespace paim::player {

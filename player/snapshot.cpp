@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "paim/image/exr.h"
+#include "paim/image/png.h"
 #include "player/gl/headless_context.h"
 #include "player/render/scene_renderer.h"
 #include "player/report.h"

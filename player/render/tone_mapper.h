@@ -1,7 +1,7 @@
 // Shows a picture of linear radiance on the screen, as ToneCurve does for files.
 #pragma once
 
-#include "paim/image/png.h"
+#include "paim/image/tone.h"
 #include "player/gl/fullscreen.h"
 #include "player/gl/program.h"
 #include "player/gl/target.h"

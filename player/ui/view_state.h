@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "paim/image/png.h"
+#include "paim/image/tone.h"
 #include "player/render/frame.h"
 
 namespace paim::player {
