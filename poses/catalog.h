@@ -1,0 +1,25 @@
+// The sequences that paim-poses knows by name.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "poses/sequence.h"
+
+namespace paim::poses {
+
+struct CatalogEntry {
+    std::string_view name;
+    std::string_view description;  // one line, for --help
+    uint32_t min_vertices, max_vertices;
+    bool colored;
+    std::unique_ptr<Sequence> (*make)(uint32_t num_vertices);
+};
+
+std::span<const CatalogEntry> catalog();
+
+// Error(usage) that lists the known names, if there is none of this one.
+const CatalogEntry& find_sequence(std::string_view name);
+
+}  // namespace paim::poses

@@ -1,0 +1,145 @@
+// The octopus' loop: travelling waves along the arms, curling tips, a breathing mantle.
+#include "poses/octopus_motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace paim::poses {
+
+namespace {
+
+constexpr size_t kNumSections = 513;
+constexpr double kSectionsEnd = 5.0;  // beyond the tip's cap
+constexpr double kStep = kSectionsEnd / (kNumSections - 1);
+
+constexpr double kStandingHeight = 1.12;  // of the arms' roots above the ground
+constexpr double kBob = 0.05;
+
+double smoothstep(double low, double high, double x) {
+    const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
+    return t * t * (3.0 - 2.0 * t);
+}
+
+// A number in 0 … 1 that differs from arm to arm without a pattern that the eye would find.
+double variety(int arm, int aspect) {
+    constexpr std::array<double, kNumArms> kValues{0.15, 0.80, 0.45, 1.00, 0.30, 0.65, 0.00, 0.55};
+    return kValues[static_cast<size_t>((arm * 3 + aspect * 5) % kNumArms)];
+}
+
+// Pitch and yaw of arm k's axis at distance s, at a moment of the loop. All terms vanish at the
+// body. Each has one whole period a loop, so that the loop closes.
+std::pair<double, double> bend(int arm, double s, double phase_rad) {
+    const double own_rad = 2.0 * kPi * (3.0 * arm / kNumArms + 0.1 * variety(arm, 0));
+    // Down from the web, then out along the ground.
+    const double posture = -1.08 * smoothstep(0.72, 1.75, s) +
+                           (1.02 + 0.1 * variety(arm, 1)) * smoothstep(1.5, 2.75, s);
+    // Waves travel outwards and grow on their way.
+    const double wave_ramp = smoothstep(1.0, 2.8, s);
+    const double wave = 0.42 * wave_ramp * std::sin(2.1 * s - phase_rad + own_rad);
+    const double sway =
+        0.5 * smoothstep(0.9, 2.6, s) * std::sin(1.5 * s - phase_rad + own_rad + 1.9) +
+        0.16 * smoothstep(0.8, 1.6, s) * std::sin(phase_rad + 2.0 * own_rad);
+    // The tips roll up into a logarithmic spiral, more and less as the wave arrives.
+    const double rolled = 0.62 + 0.38 * std::sin(phase_rad - own_rad - 0.9);
+    const double left = kArmLength + 0.38 - s, from = 2.45;
+    const double curl = s < kArmLength - from + 0.38
+                            ? 0.0
+                            : (2.3 + 0.9 * variety(arm, 2)) *
+                                  smoothstep(kArmLength - from + 0.38, 4.0, s) *
+                                  std::log(from / std::max(left, 0.05));
+    const double aside = 0.35 * (2.0 * variety(arm, 3) - 1.0) * smoothstep(2.6, 4.7, s);
+    return {posture + wave + rolled * curl, sway + aside};
+}
+
+}  // namespace
+
+ArmCurve::ArmCurve(int arm, double phase_rad) : axes_(arm_axes(arm)) {
+    // Simpson's rule on the direction between sections.
+    Vec3d center = Vec3d::Zero();
+    for (size_t i = 0; i < kNumSections; ++i) {
+        const double s = static_cast<double>(i) * kStep;
+        const auto [pitch, yaw] = bend(arm, s, phase_rad);
+        if (i > 0) {
+            const auto [middle_pitch, middle_yaw] = bend(arm, s - 0.5 * kStep, phase_rad);
+            const Section& last = sections_.back();
+            center += kStep / 6.0 *
+                      (direction(last.pitch_rad, last.yaw_rad) +
+                       4.0 * direction(middle_pitch, middle_yaw) + direction(pitch, yaw));
+        }
+        sections_.push_back({center, pitch, yaw});
+    }
+}
+
+Vec3d ArmCurve::direction(double pitch_rad, double yaw_rad) const {
+    return std::cos(pitch_rad) *
+               (std::cos(yaw_rad) * axes_.outward + std::sin(yaw_rad) * axes_.lateral) +
+           std::sin(pitch_rad) * Vec3d::UnitY();
+}
+
+Vec3d ArmCurve::place(double s, double up, double lateral) const {
+    const double scaled = std::clamp(s / kStep, 0.0, static_cast<double>(kNumSections - 1));
+    const auto i = std::min(static_cast<size_t>(scaled), kNumSections - 2);
+    const double t = scaled - static_cast<double>(i);
+    const Section &a = sections_[i], &b = sections_[i + 1];
+    const double pitch = a.pitch_rad + t * (b.pitch_rad - a.pitch_rad);
+    const double yaw = a.yaw_rad + t * (b.yaw_rad - a.yaw_rad);
+    // Cubic through both sections with their directions.
+    const double t2 = t * t, t3 = t2 * t;
+    const Vec3d center = (2 * t3 - 3 * t2 + 1) * a.center + (3 * t2 - 2 * t3) * b.center +
+                         (t3 - 2 * t2 + t) * kStep * direction(a.pitch_rad, a.yaw_rad) +
+                         (t3 - t2) * kStep * direction(b.pitch_rad, b.yaw_rad);
+    const Vec3d side = -std::sin(yaw) * axes_.outward + std::cos(yaw) * axes_.lateral;
+    return center + up * direction(pitch + 0.5 * kPi, yaw) + lateral * side;
+}
+
+OctopusMotion::OctopusMotion(double phase_rad) : phase_rad_(phase_rad) {
+    for (int arm = 0; arm < kNumArms; ++arm) arms_.emplace_back(arm, phase_rad);
+}
+
+Vec3d OctopusMotion::place_on_arms(const Vec3d& rest) const {
+    const double azimuth = std::atan2(rest.x(), rest.z()) / kSector_rad;  // in arms
+    const double reach = std::hypot(rest.x(), rest.z());
+    const auto on_arm = [&](int arm) {
+        const double offset_rad = (azimuth - arm - 0.5) * kSector_rad;
+        const int index = (arm + 2 * kNumArms) % kNumArms;
+        return arms_[static_cast<size_t>(index)].place(reach * std::cos(offset_rad), rest.y(),
+                                                       reach * std::sin(offset_rad));
+    };
+    // Position between the arm's axis (0) and the edges of its sector (±1).
+    const int own = static_cast<int>(std::floor(azimuth));
+    const double offset_rad = (azimuth - own - 0.5) * kSector_rad;
+    const double between = std::tan(offset_rad) / std::tan(0.5 * kSector_rad);
+    const double others = 0.5 * smoothstep(0.4, 1.0, std::abs(between));
+    Vec3d placed = on_arm(own);
+    if (others > 0.0) {
+        placed += others * (on_arm(own + (between > 0.0 ? 1 : -1)) - placed);
+    }
+    return placed;
+}
+
+Vec3d OctopusMotion::place_body(const Vec3d& rest) const {
+    // Breathing widens the mantle; nodding bends the neck back and to the side.
+    const double mantle = smoothstep(0.9, 2.2, rest.y());
+    const double breath = 1.0 + 0.045 * mantle * std::sin(phase_rad_ + 0.6);
+    Vec3d placed(rest.x() * breath, rest.y(), rest.z() * breath);
+    constexpr double kNeckHeight = 0.9;
+    const double bent = smoothstep(0.5, 2.6, rest.y());
+    const double back_rad = -bent * (0.42 + 0.06 * std::sin(phase_rad_));
+    const double side_rad = bent * 0.08 * std::sin(phase_rad_ + 1.3);
+    placed.y() -= kNeckHeight;
+    placed = Eigen::AngleAxisd(side_rad, Vec3d::UnitZ()) *
+             (Eigen::AngleAxisd(back_rad, Vec3d::UnitX()) * placed);
+    placed.y() += kNeckHeight;
+    return placed;
+}
+
+Vec3d OctopusMotion::place(const Vec3d& rest) const {
+    const double body = smoothstep(0.25, 0.75, rest.y());
+    Vec3d placed = Vec3d::Zero();
+    if (body > 0.0) placed += body * place_body(rest);
+    if (body < 1.0) placed += (1.0 - body) * place_on_arms(rest);
+    placed.y() += kStandingHeight + kBob * std::sin(phase_rad_);
+    return placed;
+}
+
+}  // namespace paim::poses

@@ -1,0 +1,149 @@
+// The octopus at rest as an implicit surface.
+// Based on: Quílez, Distance functions and smooth minimum (round cones; exponential smooth minimum)
+#include "poses/octopus_shape.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace paim::poses {
+
+namespace {
+
+constexpr double kArmStart = 0.45;        // distance of the arms' first sphere from the axis
+constexpr double kArmStartRadius = 0.32;  // and its radius
+constexpr double kBodyBlend = 0.13;       // width of the fillets between mantle, head and arms
+constexpr double kEyeBlend = 0.05;
+
+// Eyes sit on the head, a little above its middle.
+constexpr double kEyeAzimuth_rad = 0.72;
+constexpr double kEyeAxisDistance = 0.66;
+constexpr double kEyeHeight = 0.98;
+constexpr double kEyeRadius = 0.235;
+
+FieldValue sphere(const Vec3d& point, const Vec3d& center, double radius) {
+    const Vec3d offset = point - center;
+    const double distance = std::max(offset.norm(), 1e-12);
+    return {distance - radius, offset / distance};
+}
+
+// Signed distance of the hull of two spheres on a line.
+FieldValue round_cone(const Vec3d& point, const Vec3d& start, const Vec3d& direction, double length,
+                      double start_radius, double end_radius) {
+    const Vec3d offset = point - start;
+    const double along = offset.dot(direction);
+    const Vec3d across = offset - along * direction;
+    const double off_axis = std::max(across.norm(), 1e-12);
+    const double slope = (start_radius - end_radius) / length;
+    const double cosine = std::sqrt(1.0 - slope * slope);
+    const double position = along * cosine - off_axis * slope;
+    if (position < 0.0) return sphere(point, start, start_radius);
+    if (position > cosine * length) return sphere(point, start + length * direction, end_radius);
+    return {off_axis * cosine + along * slope - start_radius,
+            across / off_axis * cosine + slope * direction};
+}
+
+// −k log Σ exp(−d/k): smooth wherever its parts are, and the same in any order.
+template <size_t N>
+FieldValue smooth_union(const std::array<FieldValue, N>& parts, double blend) {
+    double nearest = parts[0].value;
+    for (const FieldValue& part : parts) nearest = std::min(nearest, part.value);
+    double sum = 0.0;
+    Vec3d gradient = Vec3d::Zero();
+    for (const FieldValue& part : parts) {
+        const double weight = std::exp((nearest - part.value) / blend);
+        sum += weight;
+        gradient += weight * part.gradient;
+    }
+    return {nearest - blend * std::log(sum), gradient / sum};
+}
+
+Vec3d eye_center(double side) {
+    return {side * std::sin(kEyeAzimuth_rad) * kEyeAxisDistance, kEyeHeight,
+            std::cos(kEyeAzimuth_rad) * kEyeAxisDistance};
+}
+
+double smoothstep(double low, double high, double x) {
+    const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
+    return t * t * (3.0 - 2.0 * t);
+}
+
+}  // namespace
+
+ArmAxes arm_axes(int arm) {
+    const double azimuth_rad = (arm + 0.5) * kSector_rad;
+    const double sine = std::sin(azimuth_rad), cosine = std::cos(azimuth_rad);
+    return {{sine, 0.0, cosine}, {cosine, 0.0, -sine}};
+}
+
+double arm_radius(double s) {
+    const double t = std::clamp((s - kArmStart) / (kArmLength - kArmStart), 0.0, 1.0);
+    return kArmStartRadius + t * (kArmTipRadius - kArmStartRadius);
+}
+
+FieldValue octopus_body(const Vec3d& point) {
+    static const std::array<ArmAxes, kNumArms> axes = [] {
+        std::array<ArmAxes, kNumArms> all;
+        for (int arm = 0; arm < kNumArms; ++arm) all[static_cast<size_t>(arm)] = arm_axes(arm);
+        return all;
+    }();
+    std::array<FieldValue, kNumArms + 2> parts;
+    for (size_t arm = 0; arm < kNumArms; ++arm) {
+        parts[arm] = round_cone(point, kArmStart * axes[arm].outward, axes[arm].outward,
+                                kArmLength - kArmStart, kArmStartRadius, kArmTipRadius);
+    }
+    parts[kNumArms] = sphere(point, {0.0, 0.62, 0.0}, 0.6);  // head
+    parts[kNumArms + 1] = round_cone(point, {0.0, 1.3, 0.0}, Vec3d::UnitY(), 1.0, 0.62, 0.98);
+    return smooth_union(parts, kBodyBlend);
+}
+
+FieldValue octopus_field(const Vec3d& point) {
+    return smooth_union(std::array{octopus_body(point), sphere(point, eye_center(-1.0), kEyeRadius),
+                                   sphere(point, eye_center(1.0), kEyeRadius)},
+                        kEyeBlend);
+}
+
+Vec3d project_to_octopus(const Vec3d& point) {
+    // Newton's method converges quadratically on a field that is nearly a distance; the steps are
+    // short enough never to jump across an arm.
+    constexpr int kMaxSteps = 24;
+    constexpr double kMaxStep = 0.1;
+    Vec3d moved = point;
+    for (int step = 0; step < kMaxSteps; ++step) {
+        const FieldValue field = octopus_field(moved);
+        const double distance =
+            std::clamp(field.value / std::max(field.gradient.norm(), 0.2), -kMaxStep, kMaxStep);
+        moved -= distance * field.gradient.normalized();
+        if (std::abs(distance) < 1e-9) break;
+    }
+    return moved;
+}
+
+Vec3f octopus_albedo(const Vec3d& point) {
+    const Vec3d coral(0.80, 0.17, 0.10), dusk(0.50, 0.06, 0.07), cream(0.92, 0.62, 0.47);
+    const Vec3d white(0.93, 0.92, 0.88), dark(0.02, 0.015, 0.02);
+    const Vec3d up = octopus_field(point).gradient.normalized();
+
+    // Deeper red towards the crown and the arms' tips; the underside of the arms is pale.
+    const double reach = std::hypot(point.x(), point.z());
+    Vec3d albedo = coral + 0.75 * smoothstep(1.9, 3.4, point.y()) * (dusk - coral) +
+                   0.6 * smoothstep(2.0, kArmLength, reach) * (dusk - coral);
+    const double below =
+        (1.0 - smoothstep(-0.45, 0.15, up.y())) * (1.0 - smoothstep(0.0, 0.25, point.y()));
+    albedo += below * (cream - albedo);
+
+    for (const double side : {-1.0, 1.0}) {
+        const Vec3d center = eye_center(side);
+        const Vec3d offset = point - center;
+        if (offset.norm() > 1.15 * kEyeRadius) continue;
+        // The eyes look outwards and a little to the front.
+        const Vec3d gaze =
+            Vec3d(side * std::sin(kEyeAzimuth_rad * 0.85), 0.12, std::cos(kEyeAzimuth_rad * 0.85))
+                .normalized();
+        const double cosine = offset.normalized().dot(gaze);
+        albedo += smoothstep(0.50, 0.62, cosine) * (white - albedo);
+        albedo += smoothstep(0.80, 0.87, cosine) * (dark - albedo);
+    }
+    return albedo.cast<float>();
+}
+
+}  // namespace paim::poses

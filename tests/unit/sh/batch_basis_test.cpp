@@ -1,0 +1,77 @@
+// Sixteen directions at once against the slow reference, and the independence of lanes.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "paim/sh/basis.h"
+#include "paim/sh/basis_reference.h"
+#include "tests/unit/sh/directions.h"
+
+namespace paim::sh {
+namespace {
+
+constexpr int kBatch = BatchBasis::kBatch;
+
+struct Lanes {
+    float x[kBatch], y[kBatch], z[kBatch];
+    void set(int j, const Vec3d& d) {
+        x[j] = static_cast<float>(d.x());
+        y[j] = static_cast<float>(d.y());
+        z[j] = static_cast<float>(d.z());
+    }
+};
+
+class BatchBasisOfBands : public testing::TestWithParam<int> {};
+
+TEST_P(BatchBasisOfBands, AgreesWithTheReference) {
+    const int bands = GetParam();
+    const BatchBasis basis(bands);
+    std::vector<float> values(static_cast<size_t>(num_coefficients(bands) * kBatch));
+    const std::vector<Vec3d> directions = test_directions();
+    for (size_t first = 0; first < directions.size(); first += kBatch) {
+        Lanes lanes{};
+        for (int j = 0; j < kBatch; ++j) lanes.set(j, directions[first + static_cast<size_t>(j)]);
+        basis.evaluate(lanes.x, lanes.y, lanes.z, values.data());
+        for (int j = 0; j < kBatch; ++j) {
+            const Vec3d& d = directions[first + static_cast<size_t>(j)];
+            for (int l = 0; l < bands; ++l) {
+                // Half a rounding of z, 2^-25, times y_l0's slope l(l+1)/2 next to a pole, twice
+                // for those of the recurrence; 8 roundings are everything else.
+                const double tolerance = 0x1.0p-24 * (8.0 + 0.5 * l * (l + 1.0)) * band_maximum(l);
+                for (int m = -l; m <= l; ++m) {
+                    ASSERT_NEAR(values[static_cast<size_t>(index(l, m) * kBatch + j)],
+                                basis_reference(l, m, d), tolerance)
+                        << l << " " << m << " at " << d.transpose();
+                }
+            }
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Bands, BatchBasisOfBands, testing::Values(1, 2, 3, 5, 7, 10, 32, 64));
+
+TEST(BatchBasis, LanesDoNotTouchOneAnother) {
+    const BatchBasis basis(6);
+    const std::vector<Vec3d> directions = test_directions();
+    Lanes mixed{};
+    for (int j = 0; j < kBatch; ++j) mixed.set(j, directions[static_cast<size_t>(j)]);
+    std::vector<float> all(36 * kBatch), one(36 * kBatch);
+    basis.evaluate(mixed.x, mixed.y, mixed.z, all.data());
+    for (int j = 0; j < kBatch; ++j) {
+        Lanes same{};
+        for (int k = 0; k < kBatch; ++k) same.set(k, directions[static_cast<size_t>(j)]);
+        basis.evaluate(same.x, same.y, same.z, one.data());
+        for (size_t i = 0; i < 36; ++i) {
+            EXPECT_EQ(one[i * kBatch], all[i * kBatch + static_cast<size_t>(j)]);
+        }
+    }
+}
+
+TEST(BatchBasisDeathTest, RefusesTooManyBands) {
+    EXPECT_DEATH(BatchBasis(65), "check failed.*bands");
+    EXPECT_DEATH(BatchBasis(0), "check failed.*bands");
+}
+
+}  // namespace
+}  // namespace paim::sh
