@@ -1,0 +1,230 @@
+// The window's loop.
+#include "player/app.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+
+#include "paim/base/error.h"
+#include "paim/image/png.h"
+#include "player/gl/check.h"
+#include "player/gl/window.h"
+#include "player/render/pose_bounds_cache.h"
+#include "player/render/scene_renderer.h"
+#include "player/render/tone_mapper.h"
+#include "player/ui/imgui_layer.h"
+#include "player/ui/keys.h"
+#include "player/ui/orbit_camera.h"
+#include "player/ui/overlay.h"
+
+namespace paim::player {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kMessageSeconds = 6.0;
+constexpr double kIdleWaitSeconds = 0.1;  // between frames while nothing moves
+constexpr int kSnapshotSamples = 2;
+
+// What of a model to upload: all of it, so that limits can be raised again, or, where that is more
+// than this driver's textures hold, what the options ask for.
+DecodeLimits upload_limits(const Model& model, const DecodeLimits& wanted) {
+    const DecodeLimits all;
+    return upload_fits(model, all, gl::max_texture_size()) ? all : wanted;
+}
+
+class App {
+  public:
+    App(const Options& options, const Scene& scene)
+        : options_(options),
+          scene_(scene),
+          window_(options.size.first, options.size.second,
+                  options.model_path.filename().string() + " - paim-play"),
+          renderer_(scene.model, scene.environment, upload_limits(scene.model, options.limits)),
+          bounds_(scene.model),
+          environment_name_(options.environment_path ? options.environment_path->filename().string()
+                                                     : "built-in sky") {
+        const UploadPlan& plan = renderer_.plan();
+        range_ = {scene.model.num_poses(), plan.geometry_components, plan.transfer_components,
+                  plan.layout.bands};
+        view_.time = options.pose;
+        view_.limits = options.limits;
+        view_.tone_curve = options.tone_curve;
+        view_.env_rotation_deg = std::remainder(options.env_rotation_rad * 180.0 / kPi, 360.0);
+        view_.background = options.background;
+        frame_all();
+        listen();
+        imgui_.emplace(window_);
+    }
+
+    void run() {
+        auto last = Clock::now();
+        for (int i = 0; !window_.should_close() && i != options_.window_frames.value_or(-1); ++i) {
+            const bool moving = view_.playing || view_.turning || options_.window_frames;
+            window_.poll(moving ? 0.0 : kIdleWaitSeconds);
+            const auto now = Clock::now();
+            const double elapsed_s = std::chrono::duration<double>(now - last).count();
+            last = now;
+            advance(view_, range_, scene_.model.frames_per_second, elapsed_s);
+            draw();
+        }
+    }
+
+  private:
+    void listen() {
+        gl::WindowEvents& events = window_.events();
+        events.on_key = [this](int key, bool shift) {
+            if (!imgui_->wants_text()) carry_out(command_of_key(key, shift));
+        };
+        events.on_drag = [this](gl::MouseButton button, double dx, double dy) {
+            if (imgui_->wants_mouse()) return;
+            const auto x = static_cast<float>(dx / window_.height());
+            const auto y = static_cast<float>(dy / window_.height());
+            if (button == gl::MouseButton::left) {
+                camera_.orbit(x, y);
+            } else {
+                camera_.pan(x, y);
+            }
+        };
+        events.on_scroll = [this](double steps) {
+            if (!imgui_->wants_mouse()) camera_.zoom(static_cast<float>(steps));
+        };
+        events.on_drop = [this](const auto& paths) {
+            if (!paths.empty()) change_light(paths.front());
+        };
+    }
+
+    void carry_out(Command command) {
+        if (command == Command::quit) {
+            window_.close();
+        } else if (command == Command::frame_all) {
+            frame_all();
+        } else if (command == Command::snapshot) {
+            save_view();
+        } else {
+            apply(command, view_, range_);
+        }
+    }
+
+    void frame_all() {
+        const auto [width, height] = window_.framebuffer_size();
+        const float aspect =
+            static_cast<float>(std::max(1, width)) / static_cast<float>(std::max(1, height));
+        camera_.frame(options_.camera, scene_.bounds, aspect);
+    }
+
+    Frame current_frame() {
+        Frame frame;
+        frame.time = view_.time;
+        frame.limits = view_.limits;
+        frame.env_rotation_rad = view_.env_rotation_deg * kPi / 180.0;
+        frame.camera = camera_.camera();
+        frame.bounds = bounds_.at(view_.time, view_.limits.geometry_components);
+        frame.background = view_.background;
+        return frame;
+    }
+
+    void draw() {
+        const auto [width, height] = window_.framebuffer_size();
+        if (width == 0 || height == 0) return;  // minimised
+        const auto start = Clock::now();
+        const int samples = options_.supersample.value_or(1);
+        if (!target_ || target_->width() != width * samples ||
+            target_->height() != height * samples) {
+            target_.emplace(width * samples, height * samples);
+        }
+        renderer_.draw(current_frame(), *target_);
+        window_.bind();
+        tone_mapper_.draw(*target_, samples, view_.tone_curve);
+        imgui_->begin_frame();
+        draw_overlay(overlay_info(), range_, view_);
+        imgui_->end_frame();
+        gl::check_errors("drawing");
+        window_.swap();
+        const double frame_ms =
+            std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+        frame_ms_ += (frame_ms_ == 0.0 ? 1.0 : 0.1) * (frame_ms - frame_ms_);
+    }
+
+    OverlayInfo overlay_info() const {
+        OverlayInfo info;
+        info.title = options_.model_path.filename().string();
+        info.environment = environment_name_;
+        info.renderer = renderer_name_;
+        if (Clock::now() < message_end_) info.message = message_;
+        info.file_bytes = scene_.size_bytes;
+        info.num_vertices = scene_.model.topology.num_vertices;
+        info.num_triangles = static_cast<uint32_t>(scene_.model.topology.triangles.size());
+        info.frame_ms = frame_ms_;
+        info.cost = frame_cost(scene_.model, view_.limits);
+        return info;
+    }
+
+    void say(const std::string& message) {
+        message_ = message;
+        message_end_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                          std::chrono::duration<double>(kMessageSeconds));
+    }
+
+    void change_light(const std::filesystem::path& path) {
+        try {
+            renderer_.set_environment(load_environment(path));
+            environment_name_ = path.filename().string();
+            say("light: " + environment_name_);
+        } catch (const Error& error) {
+            say(error.what());
+        }
+    }
+
+    void save_view() {
+        try {
+            const auto [width, height] = window_.framebuffer_size();
+            if (width == 0 || height == 0) return;
+            const int samples = options_.supersample.value_or(kSnapshotSamples);
+            const Image image = renderer_.render(current_frame(), width, height, samples);
+            const std::filesystem::path path = free_name();
+            write_png(path, image, view_.tone_curve);
+            say("saved " + path.string());
+        } catch (const Error& error) {
+            say(error.what());
+        }
+    }
+
+    // NAME-001.png in the current directory, or the first number that is not taken.
+    std::filesystem::path free_name() const {
+        for (int i = 1;; ++i) {
+            const auto name = fmt::format("{}-{:03}.png", options_.model_path.stem().string(), i);
+            std::error_code ignored;
+            if (!std::filesystem::exists(name, ignored)) return name;
+        }
+    }
+
+    const Options& options_;
+    const Scene& scene_;
+    gl::Window window_;
+    std::string renderer_name_ = window_.description();
+    SceneRenderer renderer_;
+    ToneMapper tone_mapper_;
+    PoseBoundsCache bounds_;
+    std::optional<gl::Target> target_;
+    std::optional<ImGuiLayer> imgui_;
+    OrbitCamera camera_;
+    ViewState view_;
+    ViewRange range_;
+    std::string environment_name_;
+    std::string message_;
+    Clock::time_point message_end_{};
+    double frame_ms_ = 0.0;
+};
+
+}  // namespace
+
+void run_app(const Options& options, const Scene& scene) {
+    App(options, scene).run();
+}
+
+}  // namespace paim::player

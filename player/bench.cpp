@@ -1,0 +1,117 @@
+// --bench.
+#include "player/bench.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "paim/base/parallel.h"
+#include "paim/codec/svd_decoder.h"
+#include "paim/light/environment.h"
+#include "paim/shade/shade.h"
+#include "player/gl/check.h"
+#include "player/gl/headless_context.h"
+#include "player/render/scene_renderer.h"
+#include "player/report.h"
+
+namespace paim::player {
+
+namespace {
+
+constexpr int kWarmUpFrames = 3;
+
+struct Times {
+    double median_ms;
+    double min_ms;
+};
+
+Times measure(int num_frames, const std::function<void(int)>& draw_frame) {
+    using Clock = std::chrono::steady_clock;
+    for (int i = 0; i < std::min(kWarmUpFrames, num_frames); ++i) draw_frame(i);
+    std::vector<double> times_ms;
+    for (int i = 0; i < num_frames; ++i) {
+        const auto start = Clock::now();
+        draw_frame(i);
+        times_ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
+    }
+    std::sort(times_ms.begin(), times_ms.end());
+    return {times_ms[times_ms.size() / 2], times_ms[0]};
+}
+
+// Frame i of the benchmark: fractional poses, and a light that turns once.
+void set_frame(Frame& frame, int i, int num_frames, uint32_t num_poses) {
+    frame.time = std::fmod(0.37 * i, static_cast<double>(num_poses));
+    frame.env_rotation_rad = 2.0 * kPi * i / num_frames;
+}
+
+Times measure_gpu(const Options& options, const Scene& scene, Frame frame, int samples) {
+    SceneRenderer renderer(scene.model, scene.environment, options.limits);
+    const gl::Target target(options.size.first * samples, options.size.second * samples);
+    const int num_frames = *options.bench_frames;
+    const Times times = measure(num_frames, [&](int i) {
+        set_frame(frame, i, num_frames, scene.model.num_poses());
+        renderer.draw(frame, target);
+        glFinish();
+    });
+    gl::check_errors("drawing");
+    return times;
+}
+
+// The same weights, decoding, turned light and shading; no picture.
+Times measure_cpu(const Options& options, const Scene& scene, Frame frame) {
+    const uint32_t bands = options.limits.bands;
+    const LightCoefficients light =
+        EnvironmentLight(scene.environment).coefficients(Vec3f::Zero(), static_cast<int>(bands));
+    const SvdDecoder decoder(scene.model);
+    DecodedPose pose;
+    std::vector<Vec3f> radiance;
+    const int num_frames = *options.bench_frames;
+    return measure(num_frames, [&](int i) {
+        set_frame(frame, i, num_frames, scene.model.num_poses());
+        decoder.decode(frame.time, frame.limits, pose);
+        shade(pose.layout, pose.transfer, scene.model.albedo,
+              turn_about_y(light, frame.env_rotation_rad), radiance);
+    });
+}
+
+}  // namespace
+
+void run_bench(const Options& options, const Scene& scene) {
+    const auto context = gl::make_headless_context();
+    const int samples = options.supersample.value_or(1);
+    Frame frame = first_frame(options, scene);
+    frame.bounds = scene.bounds;
+    const Times gpu = measure_gpu(options, scene, frame, samples);
+    const Times cpu = measure_cpu(options, scene, frame);
+    const double ratio = gpu.median_ms / cpu.median_ms;
+    const int num_threads = max_parallelism();
+
+    if (options.json) {
+        nlohmann::ordered_json json =
+            describe_frame(options, scene, context->description(), samples);
+        json["frames"] = *options.bench_frames;
+        json["frame_median_ms"] = gpu.median_ms;
+        json["frame_min_ms"] = gpu.min_ms;
+        json["cpu_decode_and_shade_median_ms"] = cpu.median_ms;
+        json["cpu_decode_and_shade_min_ms"] = cpu.min_ms;
+        json["cpu_threads"] = num_threads;
+        json["frame_to_cpu_ratio"] = ratio;
+        fmt::print("{}\n", json.dump(2));
+        return;
+    }
+    fmt::print("{}\n", context->description());
+    fmt::print("{} frames of {} x {} samples, {} vertices\n", *options.bench_frames,
+               options.size.first * samples, options.size.second * samples,
+               scene.model.topology.num_vertices);
+    fmt::print("frame, drawn and finished       {:9.3f} ms median, {:9.3f} ms least\n",
+               gpu.median_ms, gpu.min_ms);
+    fmt::print("decoded and shaded on the CPU   {:9.3f} ms median, {:9.3f} ms least, {} threads\n",
+               cpu.median_ms, cpu.min_ms, num_threads);
+    fmt::print("ratio of the medians            {:9.3f}\n", ratio);
+}
+
+}  // namespace paim::player

@@ -1,0 +1,13 @@
+// How long a frame takes, beside the same decoding and shading on the CPU.
+#pragma once
+
+#include "player/options.h"
+#include "player/scene.h"
+
+namespace paim::player {
+
+// Draws options.bench_frames frames without a display and prints the times, as JSON if
+// options.json.
+void run_bench(const Options& options, const Scene& scene);
+
+}  // namespace paim::player

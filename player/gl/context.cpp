@@ -1,0 +1,35 @@
+// What is common to all contexts.
+#include "player/gl/context.h"
+
+#include <epoxy/gl.h>
+
+#include "paim/base/error.h"
+
+namespace paim::player::gl {
+
+namespace {
+
+std::string text(GLenum name) {
+    const GLubyte* value = glGetString(name);
+    return value != nullptr ? reinterpret_cast<const char*>(value) : "unknown";
+}
+
+}  // namespace
+
+std::string Context::description() const {
+    // OpenGL ES already starts its version with its name.
+    const std::string api = epoxy_is_desktop_gl() ? "OpenGL " : "";
+    return text(GL_RENDERER) + ", " + api + text(GL_VERSION);
+}
+
+void require_version() {
+    const bool desktop = epoxy_is_desktop_gl();
+    const int version = epoxy_gl_version();  // 33 is 3.3
+    if (version < (desktop ? 33 : 30)) {
+        throw_unsupported("this driver gives {} {}.{} ({}), expected OpenGL 3.3 or OpenGL ES 3.0",
+                          desktop ? "OpenGL" : "OpenGL ES", version / 10, version % 10,
+                          text(GL_RENDERER));
+    }
+}
+
+}  // namespace paim::player::gl

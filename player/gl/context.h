@@ -1,0 +1,20 @@
+// A current OpenGL context, wherever it comes from: a window or no display at all.
+#pragma once
+
+#include <string>
+
+namespace paim::player::gl {
+
+// Current on the thread that made it, for as long as it lives.
+class Context {
+  public:
+    virtual ~Context() = default;
+
+    // Renderer and version, e.g. "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 3.3 (Core Profile) …".
+    std::string description() const;
+};
+
+// Throws Error(unsupported) unless the current context is OpenGL >= 3.3 or OpenGL ES >= 3.0.
+void require_version();
+
+}  // namespace paim::player::gl

@@ -1,0 +1,40 @@
+// A shader program from GLSL source in the common subset of GLSL 3.30 and GLSL ES 3.00.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <string>
+#include <string_view>
+
+#include "player/gl/handle.h"
+
+namespace paim::player::gl {
+
+class Program {
+  public:
+    // The sources have no #version line: the one that fits the current context is put before them.
+    // Throws Error(unsupported) with `name`, the stage and the driver's log.
+    Program(std::string name, std::string_view vertex_source, std::string_view fragment_source);
+
+    void use() const { glUseProgram(handle_.id()); }
+
+    // Uniforms of the program, which must be in use. A name that the compiler optimised away is
+    // ignored.
+    void set(const char* uniform, int value) const;
+    void set(const char* uniform, float value) const;
+    void set(const char* uniform, const Eigen::Vector2f& value) const;
+    void set(const char* uniform, const Eigen::Matrix3f& value) const;
+    void set(const char* uniform, const Eigen::Matrix4f& value) const;
+
+    // Binds a 2D texture to the unit and hands the unit to the sampler.
+    void set_texture(const char* sampler, int unit, const TextureHandle& texture) const;
+
+  private:
+    GLint location(const char* uniform) const {
+        return glGetUniformLocation(handle_.id(), uniform);
+    }
+
+    ProgramHandle handle_;
+};
+
+}  // namespace paim::player::gl

@@ -1,0 +1,24 @@
+// paim-play: plays a .paim under a light that can be changed and turned.
+#include "paim/cli/run_main.h"
+#include "player/app.h"
+#include "player/bench.h"
+#include "player/options.h"
+#include "player/scene.h"
+#include "player/snapshot.h"
+
+int main(int argc, char** argv) {
+    using namespace paim::player;
+    return paim::cli::run_main("paim-play", [&] {
+        Options options;
+        if (const int code = parse_options(argc, argv, options); code >= 0) return code;
+        const Scene scene = load_scene(options);
+        if (options.snapshot_path) {
+            take_snapshot(options, scene);
+        } else if (options.bench_frames) {
+            run_bench(options, scene);
+        } else {
+            run_app(options, scene);
+        }
+        return 0;
+    });
+}

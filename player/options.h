@@ -1,0 +1,42 @@
+// The command line of paim-play.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+#include "paim/image/tone.h"
+#include "player/render/frame.h"
+
+namespace paim::player {
+
+// Where the camera stands, relative to the frame that shows the whole animation.
+struct CameraOptions {
+    float azimuth_rad = 0.5f;  // frame_bounds()'s defaults
+    float elevation_rad = 0.3f;
+    float distance_factor = 1.0f;
+};
+
+struct Options {
+    std::filesystem::path model_path;
+    std::optional<std::filesystem::path> environment_path;  // else the built-in sky
+    DecodeLimits limits;
+    ToneCurve tone_curve;
+    double pose = 0.0;
+    double env_rotation_rad = 0.0;
+    std::pair<int, int> size{1280, 720};  // pixels
+    std::optional<int> supersample;       // else 2 for snapshots, 1 otherwise
+    Background background;
+    CameraOptions camera;
+    std::optional<std::filesystem::path> snapshot_path;
+    std::optional<int> bench_frames;
+    std::optional<int> window_frames;  // then quit
+    bool json = false;
+};
+
+// Fills the options. Returns an exit code where there is nothing more to do (help, version, a
+// command line that CLI11 refuses), or -1. Throws Error(usage) that names the option for values out
+// of range.
+int parse_options(int argc, const char* const* argv, Options& options);
+
+}  // namespace paim::player

@@ -1,0 +1,29 @@
+// Fills the picture with what is behind the mesh.
+#pragma once
+
+#include "paim/image/image.h"
+#include "player/gl/data_texture.h"
+#include "player/gl/fullscreen.h"
+#include "player/gl/program.h"
+#include "player/render/frame.h"
+
+namespace paim::player {
+
+class BackgroundRenderer {
+  public:
+    BackgroundRenderer();
+
+    // The lat-long map to show from now on. An image larger than this driver's textures is averaged
+    // down until it fits.
+    void set_environment(const Image& image);
+
+    // Clears depth and draws the background over all of the current target.
+    void draw(const Frame& frame, float aspect) const;
+
+  private:
+    gl::Program program_;
+    gl::FullscreenTriangle triangle_;
+    gl::TextureHandle environment_;
+};
+
+}  // namespace paim::player

@@ -1,0 +1,26 @@
+// What one picture shows.
+#pragma once
+
+#include "paim/base/vector.h"
+#include "paim/codec/decoder.h"
+#include "paim/mesh/bounds.h"
+#include "paim/shade/camera.h"
+
+namespace paim::player {
+
+struct Background {
+    enum class Kind { environment, color };
+    Kind kind = Kind::environment;
+    Vec3f color = Vec3f::Zero();  // linear radiance
+};
+
+struct Frame {
+    double time = 0.0;  // in poses
+    DecodeLimits limits;
+    double env_rotation_rad = 0.0;  // about +Y, counter-clockwise seen from above
+    Camera camera;
+    Bounds bounds;  // hold the mesh at this time; near and far planes come from them
+    Background background;
+};
+
+}  // namespace paim::player

@@ -1,0 +1,42 @@
+// Background, then model.
+#include "player/render/scene_renderer.h"
+
+#include "paim/light/environment.h"
+#include "player/gl/check.h"
+
+namespace paim::player {
+
+SceneRenderer::SceneRenderer(const Model& model, const Image& environment,
+                             const DecodeLimits& limits)
+    : model_renderer_(model, limits) {
+    set_environment(environment);
+}
+
+void SceneRenderer::set_environment(const Image& environment) {
+    const EnvironmentLight light(environment);
+    light_ = light.coefficients(Vec3f::Zero(), static_cast<int>(plan().layout.bands));
+    turned_light_ = light_;
+    turned_rad_ = 0.0;
+    background_renderer_.set_environment(environment);
+}
+
+void SceneRenderer::draw(const Frame& frame, const gl::Target& target) {
+    if (frame.env_rotation_rad != turned_rad_) {
+        turned_light_ = turn_about_y(light_, frame.env_rotation_rad);
+        turned_rad_ = frame.env_rotation_rad;
+    }
+    const float aspect = static_cast<float>(target.width()) / static_cast<float>(target.height());
+    target.bind();
+    background_renderer_.draw(frame, aspect);
+    model_renderer_.draw(frame, turned_light_, aspect);
+}
+
+Image SceneRenderer::render(const Frame& frame, int width, int height, int samples) {
+    const gl::Target target(width * samples, height * samples);
+    draw(frame, target);
+    gl::check_errors("drawing");
+    Image image = target.read();
+    return samples == 1 ? image : downsample(image, samples);
+}
+
+}  // namespace paim::player

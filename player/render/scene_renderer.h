@@ -1,0 +1,41 @@
+// A model under a light before its background: all that one frame needs.
+#pragma once
+
+#include "paim/codec/model.h"
+#include "paim/image/image.h"
+#include "paim/light/light.h"
+#include "player/gl/target.h"
+#include "player/render/background_renderer.h"
+#include "player/render/frame.h"
+#include "player/render/model_renderer.h"
+
+namespace paim::player {
+
+class SceneRenderer {
+  public:
+    // Keeps a reference to the model; the environment is copied. Nothing beyond the limits is
+    // uploaded. Errors (unsupported): the model does not fit into this driver's textures.
+    // environment  lat-long, linear radiance; Error(bad input) if a value is negative or not finite
+    SceneRenderer(const Model& model, const Image& environment, const DecodeLimits& limits);
+
+    // Replaces light and background. On an error the old ones stay.
+    void set_environment(const Image& environment);
+
+    // What of the model can be shown.
+    const UploadPlan& plan() const { return model_renderer_.plan(); }
+
+    // Draws into the target.
+    void draw(const Frame& frame, const gl::Target& target);
+
+    // The picture of width × height pixels, each the mean of samples × samples.
+    Image render(const Frame& frame, int width, int height, int samples);
+
+  private:
+    ModelRenderer model_renderer_;
+    BackgroundRenderer background_renderer_;
+    LightCoefficients light_;         // not turned
+    LightCoefficients turned_light_;  // by turned_rad_
+    double turned_rad_ = 0.0;
+};
+
+}  // namespace paim::player

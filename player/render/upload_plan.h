@@ -1,0 +1,36 @@
+// How a model is laid out in textures, and whether they hold it.
+#pragma once
+
+#include <cstdint>
+
+#include "paim/codec/decoder.h"
+#include "paim/codec/model.h"
+
+namespace paim::player {
+
+// Coefficients of one vertex in a texel.
+constexpr uint32_t kGroupSize = 4;
+
+struct UploadPlan {
+    TransferLayout layout;         // of what is uploaded: bands as limited
+    uint32_t geometry_components;  // that are uploaded
+    uint32_t transfer_components;
+    uint32_t groups_per_channel;  // texels of one vertex and channel
+    int width_log2;               // of all textures
+
+    uint32_t num_groups() const { return layout.channels * groups_per_channel; }
+};
+
+// Texels of all components of the part.
+int64_t geometry_texels(const Model& model, uint32_t num_components);
+int64_t transfer_texels(const Model& model, uint32_t num_components, uint32_t bands);
+
+// Plans the upload of what of the model is within the limits. Throws Error(unsupported) that names
+// the texture limit, and the components that would fit, where a texture of at most max_texture_size
+// by max_texture_size cannot hold a part.
+UploadPlan plan_upload(const Model& model, const DecodeLimits& limits, int max_texture_size);
+
+// True if plan_upload() would not throw.
+bool upload_fits(const Model& model, const DecodeLimits& limits, int max_texture_size);
+
+}  // namespace paim::player

@@ -1,0 +1,46 @@
+// Describing frames.
+#include "player/report.h"
+
+#include "paim/codec/sequence_bounds.h"
+#include "player/render/cost.h"
+#include "player/ui/orbit_camera.h"
+
+namespace paim::player {
+
+nlohmann::ordered_json describe_frame(const Options& options, const Scene& scene,
+                                      const std::string& renderer, int samples) {
+    const Cost cost = frame_cost(scene.model, options.limits);
+    nlohmann::ordered_json json;
+    json["file"] = options.model_path.string();
+    json["environment"] =
+        options.environment_path ? options.environment_path->string() : "built-in sky";
+    json["vertices"] = scene.model.topology.num_vertices;
+    json["triangles"] = scene.model.topology.triangles.size();
+    json["poses"] = scene.model.num_poses();
+    json["geometry_components"] = cost.geometry_components;
+    json["transfer_components"] = cost.transfer_components;
+    json["bands"] = cost.bands;
+    json["channels"] = scene.model.layout.channels;
+    json["file_bytes"] = scene.size_bytes;
+    json["bytes_in_use"] = cost.bytes;
+    json["multiply_adds_per_vertex"] = cost.multiply_adds;
+    json["size"] = {options.size.first, options.size.second};
+    json["supersample"] = samples;
+    json["renderer"] = renderer;
+    return json;
+}
+
+Frame first_frame(const Options& options, const Scene& scene) {
+    Frame frame;
+    frame.time = options.pose;
+    frame.limits = options.limits;
+    frame.env_rotation_rad = options.env_rotation_rad;
+    const float aspect =
+        static_cast<float>(options.size.first) / static_cast<float>(options.size.second);
+    frame.camera = start_camera(options.camera, scene.bounds, aspect);
+    frame.bounds = pose_bounds(scene.model, options.pose, options.limits.geometry_components);
+    frame.background = options.background;
+    return frame;
+}
+
+}  // namespace paim::player

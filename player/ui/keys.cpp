@@ -1,0 +1,215 @@
+// Keys to commands, commands to changes of the view.
+#include "player/ui/keys.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace paim::player {
+
+namespace {
+
+struct Binding {
+    int key;
+    bool shift;
+    Command command;
+};
+
+constexpr std::array kBindings = {
+    Binding{GLFW_KEY_SPACE, false, Command::play_pause},
+    Binding{GLFW_KEY_LEFT, false, Command::previous_pose},
+    Binding{GLFW_KEY_RIGHT, false, Command::next_pose},
+    Binding{GLFW_KEY_HOME, false, Command::first_pose},
+    Binding{GLFW_KEY_END, false, Command::last_pose},
+    Binding{GLFW_KEY_LEFT_BRACKET, false, Command::fewer_transfer_components},
+    Binding{GLFW_KEY_RIGHT_BRACKET, false, Command::more_transfer_components},
+    Binding{GLFW_KEY_SEMICOLON, false, Command::fewer_geometry_components},
+    Binding{GLFW_KEY_APOSTROPHE, false, Command::more_geometry_components},
+    Binding{GLFW_KEY_B, true, Command::fewer_bands},
+    Binding{GLFW_KEY_B, false, Command::more_bands},
+    Binding{GLFW_KEY_E, true, Command::lower_exposure},
+    Binding{GLFW_KEY_E, false, Command::raise_exposure},
+    Binding{GLFW_KEY_G, true, Command::lower_gamma},
+    Binding{GLFW_KEY_G, false, Command::raise_gamma},
+    Binding{GLFW_KEY_COMMA, false, Command::turn_light_clockwise},
+    Binding{GLFW_KEY_PERIOD, false, Command::turn_light_counter_clockwise},
+    Binding{GLFW_KEY_L, false, Command::auto_turn},
+    Binding{GLFW_KEY_K, false, Command::next_background},
+    Binding{GLFW_KEY_F, false, Command::frame_all},
+    Binding{GLFW_KEY_S, false, Command::snapshot},
+    Binding{GLFW_KEY_TAB, false, Command::toggle_panel},
+    Binding{GLFW_KEY_H, false, Command::toggle_help},
+    Binding{GLFW_KEY_ESCAPE, false, Command::quit},
+};
+
+constexpr std::array kHelp = {
+    KeyHelp{"Space", "play or pause"},
+    KeyHelp{"Left, Right", "one pose back, forth"},
+    KeyHelp{"Home, End", "first, last pose"},
+    KeyHelp{"[  ]", "fewer, more transfer components"},
+    KeyHelp{";  '", "fewer, more geometry components"},
+    KeyHelp{"Shift+B, B", "fewer, more bands"},
+    KeyHelp{"Shift+E, E", "exposure down, up by 1/4 stop"},
+    KeyHelp{"Shift+G, G", "gamma down, up; below 1 is sRGB"},
+    KeyHelp{",  .", "turn the light by 5 degrees"},
+    KeyHelp{"L", "turn the light by itself"},
+    KeyHelp{"K", "next background: environment, black, grey, white"},
+    KeyHelp{"F", "frame the whole animation"},
+    KeyHelp{"S", "save the view as a PNG"},
+    KeyHelp{"Tab", "hide or show the panels"},
+    KeyHelp{"H", "hide or show this help"},
+    KeyHelp{"Esc", "quit"},
+};
+
+constexpr float kExposureStep = 0.25f;
+constexpr float kGammaStep = 0.2f;
+constexpr double kTurnStepDegrees = 5.0;
+
+uint32_t fewer(uint32_t value, uint32_t lowest) {
+    return value > lowest ? value - 1 : lowest;
+}
+
+uint32_t more(uint32_t value, uint32_t highest) {
+    return value < highest ? value + 1 : highest;
+}
+
+// A whole pose `step` away from the one shown, round the ends.
+void step_pose(ViewState& view, const ViewRange& range, int step) {
+    const auto num_poses = static_cast<double>(range.num_poses);
+    const double pose = std::min(view.time, num_poses - 1.0);
+    const double next = step < 0 ? std::ceil(pose) - 1.0 : std::floor(pose) + 1.0;
+    view.time = next < 0.0 ? num_poses - 1.0 : next >= num_poses ? 0.0 : next;
+    view.playing = false;
+}
+
+void show_pose(ViewState& view, double pose) {
+    view.time = pose;
+    view.playing = false;
+}
+
+// 0 (sRGB), 1, 1.2, … 5.
+void change_gamma(ViewState& view, float step) {
+    float& gamma = view.tone_curve.gamma;
+    if (gamma == 0.0f) {
+        gamma = step > 0.0f ? 1.0f : 0.0f;
+        return;
+    }
+    gamma = std::round((gamma + step) * 10.0f) / 10.0f;
+    if (gamma < 1.0f) gamma = 0.0f;
+    gamma = std::min(gamma, 5.0f);
+}
+
+void next_background(Background& background) {
+    if (background.kind == Background::Kind::environment) {
+        background = {Background::Kind::color, Vec3f::Zero()};
+    } else if (background.color == Vec3f::Zero()) {
+        background.color = Vec3f::Constant(0.2f);
+    } else if (background.color != Vec3f::Ones()) {
+        background.color = Vec3f::Ones();
+    } else {
+        background = {};
+    }
+}
+
+}  // namespace
+
+std::span<const KeyHelp> key_help() {
+    return kHelp;
+}
+
+std::string keys_help() {
+    std::string text = "Keys in the window:\n";
+    for (const KeyHelp& line : kHelp) {
+        text += fmt::format("  {:<12}  {}\n", line.keys, line.meaning);
+    }
+    return text;
+}
+
+Command command_of_key(int glfw_key, bool shift) {
+    for (const Binding& binding : kBindings) {
+        if (binding.key == glfw_key && binding.shift == shift) return binding.command;
+    }
+    return Command::none;
+}
+
+void apply(Command command, ViewState& view, const ViewRange& range) {
+    DecodeLimits& limits = view.limits;
+    switch (command) {
+        case Command::play_pause:
+            view.playing = !view.playing;
+            break;
+        case Command::previous_pose:
+            step_pose(view, range, -1);
+            break;
+        case Command::next_pose:
+            step_pose(view, range, 1);
+            break;
+        case Command::first_pose:
+            show_pose(view, 0.0);
+            break;
+        case Command::last_pose:
+            show_pose(view, static_cast<double>(range.num_poses) - 1.0);
+            break;
+        case Command::fewer_transfer_components:
+            limits.transfer_components = fewer(limits.transfer_components, 0);
+            break;
+        case Command::more_transfer_components:
+            limits.transfer_components =
+                more(limits.transfer_components, range.transfer_components);
+            break;
+        case Command::fewer_geometry_components:
+            limits.geometry_components = fewer(limits.geometry_components, 0);
+            break;
+        case Command::more_geometry_components:
+            limits.geometry_components =
+                more(limits.geometry_components, range.geometry_components);
+            break;
+        case Command::fewer_bands:
+            limits.bands = fewer(limits.bands, 1);
+            break;
+        case Command::more_bands:
+            limits.bands = more(limits.bands, range.bands);
+            break;
+        case Command::lower_exposure:
+            view.tone_curve.exposure_ev -= kExposureStep;
+            break;
+        case Command::raise_exposure:
+            view.tone_curve.exposure_ev += kExposureStep;
+            break;
+        case Command::lower_gamma:
+            change_gamma(view, -kGammaStep);
+            break;
+        case Command::raise_gamma:
+            change_gamma(view, kGammaStep);
+            break;
+        case Command::turn_light_clockwise:
+            view.env_rotation_deg = std::remainder(view.env_rotation_deg - kTurnStepDegrees, 360.0);
+            break;
+        case Command::turn_light_counter_clockwise:
+            view.env_rotation_deg = std::remainder(view.env_rotation_deg + kTurnStepDegrees, 360.0);
+            break;
+        case Command::auto_turn:
+            view.turning = !view.turning;
+            break;
+        case Command::next_background:
+            next_background(view.background);
+            break;
+        case Command::toggle_panel:
+            view.show_panel = !view.show_panel;
+            break;
+        case Command::toggle_help:
+            view.show_help = !view.show_help;
+            break;
+        case Command::none:
+        case Command::frame_all:
+        case Command::snapshot:
+        case Command::quit:
+            break;
+    }
+}
+
+}  // namespace paim::player

@@ -1,0 +1,57 @@
+// The keyboard: one table says which key does what, for the window, its help and --help alike.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "player/ui/view_state.h"
+
+namespace paim::player {
+
+enum class Command {
+    none,
+    play_pause,
+    previous_pose,
+    next_pose,
+    first_pose,
+    last_pose,
+    fewer_transfer_components,
+    more_transfer_components,
+    fewer_geometry_components,
+    more_geometry_components,
+    fewer_bands,
+    more_bands,
+    lower_exposure,
+    raise_exposure,
+    lower_gamma,
+    raise_gamma,
+    turn_light_clockwise,
+    turn_light_counter_clockwise,
+    auto_turn,
+    next_background,
+    toggle_panel,
+    toggle_help,
+    // Those that change more than the view:
+    frame_all,
+    snapshot,
+    quit,
+};
+
+// A line of the help.
+struct KeyHelp {
+    const char* keys;
+    const char* meaning;
+};
+
+std::span<const KeyHelp> key_help();
+
+// The table as text, for --help.
+std::string keys_help();
+
+// What a GLFW key, with or without Shift, asks for.
+Command command_of_key(int glfw_key, bool shift);
+
+// Carries out a command on the view; does nothing for those that change more than it.
+void apply(Command command, ViewState& view, const ViewRange& range);
+
+}  // namespace paim::player

@@ -1,0 +1,34 @@
+// Small animations made by code, whose decoding and shading on the CPU is known.
+#pragma once
+
+#include <vector>
+
+#include "paim/codec/decoder.h"
+#include "paim/codec/model.h"
+#include "paim/light/light.h"
+
+namespace paim::player {
+
+struct TestModelOptions {
+    uint32_t bands = 5;
+    uint32_t channels = 1;
+    uint32_t num_poses = 4;
+    uint32_t geometry_components = 3;
+    uint32_t transfer_components = 5;
+    Precision precision = Precision::f32;
+    bool albedo_per_vertex = false;
+    uint32_t num_rings = 8;  // of the sphere, with twice as many segments
+};
+
+// A unit sphere that bends and shimmers: smooth random components, so that neighbouring vertices
+// differ little and pixels at triangle edges do not decide a comparison.
+Model make_test_model(const TestModelOptions& options);
+
+// Random coefficients whose constant part outweighs the rest, so that radiance is mostly positive.
+LightCoefficients make_test_light(int bands);
+
+// Radiance of every vertex at `time` as SvdDecoder and shade() give it.
+std::vector<Vec3f> vertex_radiance(const Model& model, double time, const DecodeLimits& limits,
+                                   const LightCoefficients& light);
+
+}  // namespace paim::player
