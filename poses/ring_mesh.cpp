@@ -22,7 +22,7 @@ void add(uint32_t a, uint32_t b, uint32_t c, Facing facing, std::vector<Triangle
 struct Edge {
     uint32_t from, to;
     uint32_t face[2];
-    double squared_length;
+    double length;
 };
 
 std::vector<Edge> find_edges(const Topology& topology, const std::vector<Vec3d>& positions) {
@@ -50,7 +50,7 @@ std::vector<Edge> find_edges(const Topology& topology, const std::vector<Vec3d>&
         edges.push_back({sides[i].from,
                          sides[i].to,
                          {sides[i].face, sides[i + 1].face},
-                         (positions[sides[i].from] - positions[sides[i].to]).squaredNorm()});
+                         (positions[sides[i].from] - positions[sides[i].to]).norm()});
     }
     return edges;
 }
@@ -92,10 +92,14 @@ void close_ring(const Ring& ring, uint32_t pole, Facing facing, std::vector<Tria
     }
 }
 
-void split_longest_edges(uint32_t count, Topology& topology, std::vector<Vec3d>& positions) {
+void split_longest_edges(uint32_t count, const std::function<double(const Vec3d&)>& fineness,
+                         Topology& topology, std::vector<Vec3d>& positions) {
     std::vector<Edge> edges = find_edges(topology, positions);
+    for (Edge& edge : edges) {
+        edge.length *= fineness(0.5 * (positions[edge.from] + positions[edge.to]));
+    }
     std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-        if (a.squared_length != b.squared_length) return a.squared_length > b.squared_length;
+        if (a.length != b.length) return a.length > b.length;
         return std::tie(a.from, a.to) < std::tie(b.from, b.to);
     });
     std::vector<bool> used(topology.triangles.size(), false);

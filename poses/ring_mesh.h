@@ -24,9 +24,10 @@ void stitch_rings(const Ring& outer, const Ring& inner, Facing facing,
 void close_ring(const Ring& ring, uint32_t pole, Facing facing, std::vector<Triangle>& triangles);
 
 // Adds `count` vertices at the middles of the longest edges, no two of them on one face, so that a
-// closed mesh gets exactly the size asked for. Throws Error(unsupported) if there are too few
-// edges.
-void split_longest_edges(uint32_t count, Topology& topology, std::vector<Vec3d>& positions);
+// closed mesh gets exactly the size asked for. An edge's length is multiplied by the fineness at
+// its middle. Throws Error(unsupported) if there are too few edges.
+void split_longest_edges(uint32_t count, const std::function<double(const Vec3d&)>& fineness,
+                         Topology& topology, std::vector<Vec3d>& positions);
 
 // Moves every vertex half way to the average of its neighbours and back onto the surface, `count`
 // times: evens out the triangles of a closed mesh.
