@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "paim/base/check.h"
+#include "poses/mesh_refine.h"
 #include "poses/octopus_plan.h"
 #include "poses/octopus_profile.h"
 #include "poses/octopus_shape.h"
@@ -134,17 +135,20 @@ class Builder {
 
 RestMesh make_rest_octopus(uint32_t num_vertices) {
     // The last vertices go where they are needed most, a part at a time: eyes, then long edges.
-    constexpr double kRegularShare = 0.97;
-    constexpr uint32_t kNumRounds = 3;
-    RestMesh mesh = Builder(static_cast<uint32_t>(kRegularShare * num_vertices)).build();
+    constexpr uint32_t kMinIrregular = 90, kIrregularPart = 32, kNumRounds = 3;
+    const uint32_t irregular = std::max(kMinIrregular, num_vertices / kIrregularPart);
+    RestMesh mesh = Builder(num_vertices - irregular).build();
     for (Vec3d& position : mesh.positions) position = lift_to_eyes(position);
     for (uint32_t round = 0; round < kNumRounds; ++round) {
         relax(mesh.topology, 3, project_to_octopus, mesh.positions);
         const uint32_t missing = num_vertices - mesh.topology.num_vertices;
         split_longest_edges(missing / (kNumRounds - round), octopus_fineness, mesh.topology,
                             mesh.positions);
+        flip_edges(2, mesh.positions, mesh.topology);
     }
-    relax(mesh.topology, 3, project_to_octopus, mesh.positions);
+    relax(mesh.topology, 4, project_to_octopus, mesh.positions);
+    flip_edges(2, mesh.positions, mesh.topology);
+    relax(mesh.topology, 2, project_to_octopus, mesh.positions);
     return mesh;
 }
 

@@ -33,9 +33,9 @@ TEST_P(OctopusOfSize, HasSoundTrianglesInEveryPose) {
         const double volume = signed_volume(octopus->topology(), positions);
         EXPECT_GT(volume, 11.0) << "pose " << p;
         EXPECT_LT(volume, 14.0) << "pose " << p;
-        // Half of a square has 0.87, a triangle five times as long as wide 0.34. The worst of all
-        // sizes lie at the arms' tips, where rings of six vertices are stretched and sheared.
-        EXPECT_GT(worst_quality(octopus->topology(), positions), 0.15) << "pose " << p;
+        // Half of a square has 0.87, a triangle five times as long as wide 0.34. Bending an arm of
+        // radius r by κ stretches its outside by 1 + κr and squeezes its inside, up to 1.5 to 1.
+        EXPECT_GT(worst_quality(octopus->topology(), positions), 0.2) << "pose " << p;
     }
 }
 
