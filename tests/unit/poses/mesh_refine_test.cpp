@@ -58,9 +58,11 @@ TEST(FlipEdges, TurnsNeedlesAndKeepsTheSurface) {
     EXPECT_NEAR(signed_volume(topology, rounded), 8.0, 1e-12);  // base 8, height 3
 }
 
-TEST(FlipEdges, LeavesATetrahedronAlone) {
-    Topology topology = kTetrahedron;  // any turned edge exists already
-    flip_edges(2, kCorners, topology);
+// A flat tetrahedron: turning the long edge on top would repeat the one below.
+TEST(FlipEdges, NeverMakesAnEdgeTwice) {
+    Topology topology = kTetrahedron;
+    const std::vector<Vec3d> positions{{-4, 0, 0.2}, {0, -1, 0}, {4, 0, 0.2}, {0, 1, 0}};
+    flip_edges(2, positions, topology);
     EXPECT_EQ(topology, kTetrahedron);
 }
 
