@@ -54,15 +54,15 @@ void BackgroundRenderer::set_environment(const Image& image) {
     gl::check_errors("uploading the environment");
 }
 
-void BackgroundRenderer::draw(const Frame& frame, float aspect) const {
+void BackgroundRenderer::clear(const Frame& frame) const {
+    const Vec3f& color = frame.background.color;
+    glClearColor(color[0], color[1], color[2], 1.0f);
     glClearDepthf(1.0f);
-    glClear(GL_DEPTH_BUFFER_BIT);
-    if (frame.background.kind == Background::Kind::color) {
-        const Vec3f& color = frame.background.color;
-        glClearColor(color[0], color[1], color[2], 1.0f);
-        glClear(GL_COLOR_BUFFER_BIT);
-        return;
-    }
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}
+
+void BackgroundRenderer::draw(const Frame& frame, float aspect) const {
+    if (frame.background.kind != Background::Kind::environment) return;
     // The map turns by the angle, so directions are looked up turned back by it.
     const Eigen::Matrix3f light_from_world =
         Eigen::AngleAxisf(static_cast<float>(-frame.env_rotation_rad), Vec3f::UnitY())
@@ -72,6 +72,8 @@ void BackgroundRenderer::draw(const Frame& frame, float aspect) const {
     program_.set("light_axes", Eigen::Matrix3f(light_from_world * frame.camera.axes()));
     program_.set("half_extent", Eigen::Vector2f(half_height * aspect, half_height));
     program_.set_texture("environment", 0, environment_);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LEQUAL);  // the triangle lies on the far plane, at the depth that was cleared to
     triangle_.draw();
 }
 

@@ -17,7 +17,10 @@ class BackgroundRenderer {
     // down until it fits.
     void set_environment(const Image& image);
 
-    // Clears depth and draws the background over all of the current target.
+    // Clears colour and depth of the current target; before the mesh is drawn.
+    void clear(const Frame& frame) const;
+
+    // Draws the environment, if the frame shows it, where there is no mesh.
     void draw(const Frame& frame, float aspect) const;
 
   private:
