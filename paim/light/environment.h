@@ -2,6 +2,8 @@
 // Conventions: docs/conventions.md (those of OpenEXR's lat-long maps).
 #pragma once
 
+#include <utility>
+
 #include "paim/image/image.h"
 #include "paim/light/light.h"
 
@@ -23,10 +25,14 @@ LightCoefficients project_latlong(const Image& image, int bands);
 
 class EnvironmentLight : public Light {
   public:
-    // Throws Error(bad input) if the image is empty, or has a value that is negative or not finite.
+    // Throws Error(bad input), naming the pixel, if the image is empty, has a value that is not
+    // finite, or values below zero that sum to more than 5 % of those above. Smaller ones, which
+    // lossy compression leaves round bright lights, are used as they are: clamping them would
+    // brighten the map, while in sums over many pixels they cancel the ringing that they belong to.
     explicit EnvironmentLight(Image image);
 
     const Image& image() const { return image_; }
+    // Projects the image anew at each call.
     LightCoefficients coefficients(const Vec3f& position, int bands) const override;
 
     // Radiance from a direction (bilinear, wrapping in longitude).

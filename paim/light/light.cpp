@@ -1,0 +1,27 @@
+// Turning a light's coefficients.
+#include "paim/light/light.h"
+
+#include <Eigen/Geometry>
+
+#include "paim/base/check.h"
+#include "paim/sh/rotate.h"
+
+namespace paim {
+
+LightCoefficients turn_about_y(const LightCoefficients& light, double angle_rad) {
+    PAIM_CHECK_EQ(light.values.size(), static_cast<size_t>(sh::num_coefficients(light.bands)));
+    // Counter-clockwise seen from +Y is the right-hand rule: +Z goes to +X in a quarter turn.
+    const sh::Rotation rotation(light.bands,
+                                Eigen::AngleAxisd(angle_rad, Vec3d::UnitY()).toRotationMatrix());
+    LightCoefficients turned{light.bands, std::vector<Vec3f>(light.values.size())};
+    std::vector<float> in(light.values.size());
+    std::vector<float> out(light.values.size());
+    for (int c = 0; c < 3; ++c) {
+        for (size_t i = 0; i < in.size(); ++i) in[i] = light.values[i][c];
+        rotation.apply(in, out);
+        for (size_t i = 0; i < out.size(); ++i) turned.values[i][c] = out[i];
+    }
+    return turned;
+}
+
+}  // namespace paim
