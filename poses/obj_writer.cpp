@@ -53,7 +53,7 @@ std::string obj_file_name(std::string_view name, uint32_t p, uint32_t num_poses)
 void write_obj_sequence(const std::string& name, const Sequence& sequence, uint32_t num_poses,
                         bool colored, const std::filesystem::path& directory,
                         const std::function<void()>& written) {
-    paim::create_directories(directory);
+    ensure_directory(directory);
     const ObjWriter writer(name, sequence, colored);
     parallel_for(num_poses, 1, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {

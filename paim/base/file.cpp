@@ -28,7 +28,8 @@ struct Descriptor {
 }  // namespace
 
 std::vector<char> read_file(const std::filesystem::path& path, uint64_t max_size_bytes) {
-    const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
+    // Not blocking, so that a pipe is refused below instead of waited for; files do not care.
+    const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
     if (file.fd < 0) throw_bad_input("{}: cannot open: {}", path.string(), std::strerror(errno));
     struct stat info {};
     if (::fstat(file.fd, &info) != 0) {

@@ -73,6 +73,10 @@ class BakeWriter {
     BakeIdentity identity_;
 };
 
+// What the bake of pose p found out about itself. Errors (bad input) name the file.
+PoseStatistics read_bake_statistics(const std::filesystem::path& directory,
+                                    const BakeIdentity& identity, uint32_t p);
+
 // Reads a complete bake.
 class BakeReader {
   public:
@@ -87,7 +91,9 @@ class BakeReader {
 
     // Reads every byte of pose p and checks it. May be called from several threads.
     BakedPose read_pose(uint32_t p) const;
-    PoseStatistics read_statistics(uint32_t p) const;
+    PoseStatistics read_statistics(uint32_t p) const {
+        return read_bake_statistics(directory_, identity_, p);
+    }
 
     // Checks the checksums of all poses, once, before rows are streamed.
     void verify_all() const;

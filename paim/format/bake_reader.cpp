@@ -89,9 +89,10 @@ BakedPose BakeReader::read_pose(uint32_t p) const {
     return pose;
 }
 
-PoseStatistics BakeReader::read_statistics(uint32_t p) const {
-    const ContainerReader reader(bake_pose_file(directory_, p), section::kKindPose);
-    return read_statistics_of(reader, identity_, p);
+PoseStatistics read_bake_statistics(const std::filesystem::path& directory,
+                                    const BakeIdentity& identity, uint32_t p) {
+    const ContainerReader reader(bake_pose_file(directory, p), section::kKindPose);
+    return read_statistics_of(reader, identity, p);
 }
 
 void BakeReader::verify_all() const {

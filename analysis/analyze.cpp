@@ -1,0 +1,99 @@
+// What paim-analyze does, step by step.
+#include "analysis/analyze.h"
+
+#include <nlohmann/json.hpp>
+
+#include "analysis/csv.h"
+#include "analysis/curves.h"
+#include "analysis/plots.h"
+#include "analysis/reference.h"
+#include "analysis/report.h"
+#include "compressor/encode/encode.h"
+#include "paim/base/error.h"
+#include "paim/base/file.h"
+#include "paim/base/parallel.h"
+#include "paim/cli/progress.h"
+#include "paim/format/paim_file.h"
+
+namespace paim {
+
+namespace {
+
+// All components in f32, through the same encoder and file as the tools use.
+Model encode_everything(const BakeReader& bake, const std::filesystem::path& directory) {
+    struct Remover {
+        std::filesystem::path path;
+        ~Remover() {
+            std::error_code ignored;
+            std::filesystem::remove(path, ignored);
+        }
+    };
+    const Remover file{directory / "all-components.paim.tmp"};
+    EncodeOptions options;
+    options.geometry.kind = ComponentChoice::Kind::all;
+    options.transfer.kind = ComponentChoice::Kind::all;
+    options.name = bake.directory().stem().string();
+    encode(bake, options, file.path);
+    return read_paim(file.path);
+}
+
+nlohmann::ordered_json curve_json(const Curve& curve, const std::vector<NamedLight>& lights) {
+    auto points = nlohmann::ordered_json::array();
+    for (const CurvePoint& point : curve.points) {
+        nlohmann::ordered_json json;
+        json["kept"] = point.value;
+        json["all"] = point.all;
+        json["theory_error"] = point.theory_error;
+        json["energy_error"] = point.energy_error;
+        for (size_t light = 0; light < lights.size(); ++light) {
+            json["visual_error"][lights[light].name] = point.visual_error[light];
+        }
+        json["size_bytes"] = point.size_bytes;
+        json["decode_ms"] = point.decode_ms;
+        points.push_back(std::move(json));
+    }
+    return points;
+}
+
+}  // namespace
+
+void analyze(const AnalyzeOptions& options) {
+    const ThreadLimit limit(options.num_threads);
+    const bool quiet = options.quiet || options.json;
+    const BakeReader bake(options.bake_directory);
+    const std::vector<NamedLight> lights =
+        load_lights(options.environments, bake.identity().layout.bands);
+    const bool with_plots = have_gnuplot();
+    if (!with_plots) fmt::print(stderr, "warning: gnuplot is not installed: no SVG curves\n");
+    ensure_directory(options.output);
+
+    const Model model = encode_everything(bake, options.output);
+    const Stage stage(bake, lights, stage_camera(bake, options.azimuth_rad, options.elevation_rad),
+                      options.size_pixels, options.num_poses);
+    cli::Progress progress("measuring", "settings",
+                           num_curve_points(model, options.components, options.bands), quiet);
+    const std::vector<Curve> curves = measure_curves(
+        bake, model, stage, options.components, options.bands, [&] { progress.advance(); });
+    progress.finish();
+
+    nlohmann::ordered_json json;
+    json["directory"] = options.output.string();
+    for (const Curve& curve : curves) {
+        write_file(options.output / (curve.name + ".csv"), curve_csv(curve, lights));
+        if (with_plots) write_plots(options.output, curve, lights);
+        json[curve.name] = curve_json(curve, lights);
+    }
+    const std::string summary = fmt::format(
+        "{} vertices, {} triangles, {} poses of which {} are measured, {} bands. Errors are relative "
+        "to the bake itself.",
+        bake.identity().num_vertices, bake.identity().num_triangles, bake.num_poses(),
+        stage.poses().size(), model.layout.bands);
+    write_report(options.output, "Error analysis of " + model.name, summary, curves, stage, with_plots);
+    if (options.json) {
+        fmt::print("{}\n", json.dump(2));
+    } else {
+        fmt::print("{}\n", (options.output / "index.html").string());
+    }
+}
+
+}  // namespace paim

@@ -1,0 +1,11 @@
+// What paim-analyze does, step by step.
+#pragma once
+
+#include "analysis/options.h"
+
+namespace paim {
+
+// Measures, writes and reports. Throws Error.
+void analyze(const AnalyzeOptions& options);
+
+}  // namespace paim

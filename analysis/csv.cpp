@@ -1,0 +1,39 @@
+// Error curves as CSV.
+#include "analysis/csv.h"
+
+#include <fmt/format.h>
+
+namespace paim {
+
+namespace {
+
+// A field in quotes where it needs them (RFC 4180).
+std::string field(const std::string& text) {
+    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+    std::string quoted = "\"";
+    for (const char c : text) {
+        if (c == '"') quoted += '"';
+        quoted += c;
+    }
+    return quoted + '"';
+}
+
+}  // namespace
+
+std::string curve_csv(const Curve& curve, const std::vector<NamedLight>& lights) {
+    std::string csv = fmt::format(
+        "light,{},all,theory_error [fraction],energy_error [fraction],visual_error [fraction],"
+        "size [bytes],decode [ms per pose]\n",
+        curve.name);
+    for (size_t light = 0; light < lights.size(); ++light) {
+        for (const CurvePoint& point : curve.points) {
+            csv += fmt::format("{},{},{},{:.9g},{:.9g},{:.9g},{},{:.4g}\n",
+                               field(lights[light].name), point.value, point.all ? "yes" : "no",
+                               point.theory_error, point.energy_error, point.visual_error[light],
+                               point.size_bytes, point.decode_ms);
+        }
+    }
+    return csv;
+}
+
+}  // namespace paim

@@ -1,0 +1,13 @@
+// Error curves as CSV, units in the header.
+#pragma once
+
+#include <string>
+
+#include "analysis/curves.h"
+
+namespace paim {
+
+// One line a point and light.
+std::string curve_csv(const Curve& curve, const std::vector<NamedLight>& lights);
+
+}  // namespace paim

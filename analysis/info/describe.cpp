@@ -1,0 +1,123 @@
+// What a .paim file or a .bake directory holds.
+#include "analysis/info/describe.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "paim/format/bake_directory.h"
+#include "paim/format/paim_file.h"
+#include "paim/metrics/spectrum.h"
+
+namespace paim {
+
+using nlohmann::ordered_json;
+
+namespace {
+
+ordered_json describe_part(const LowRankMatrix& matrix) {
+    ordered_json json;
+    json["components"] = matrix.num_components;
+    json["precision"] = matrix.precision == Precision::f16 ? "f16" : "f32";
+    json["theory_error"] = theory_error(matrix.singular_values, matrix.num_components);
+    json["energy_error"] = energy_error(matrix.singular_values, matrix.num_components);
+    const size_t shown = std::min<size_t>(matrix.singular_values.size(), 10);
+    json["largest_singular_values"] = std::vector<double>(
+        matrix.singular_values.begin(), matrix.singular_values.begin() + static_cast<ptrdiff_t>(shown));
+    return json;
+}
+
+ordered_json describe_paim(const std::filesystem::path& path) {
+    const Model model = read_paim(path);
+    ordered_json json;
+    json["file"] = path.string();
+    json["kind"] = "paim";
+    json["name"] = model.name;
+    json["size_bytes"] = std::filesystem::file_size(path);
+    json["num_vertices"] = model.topology.num_vertices;
+    json["num_triangles"] = model.topology.triangles.size();
+    json["num_poses"] = model.num_poses();
+    json["frames_per_second"] = model.frames_per_second;
+    json["bands"] = model.layout.bands;
+    json["channels"] = model.layout.channels;
+    json["albedo"] = model.albedo.values.size() == 1 ? "uniform" : "per vertex";
+    const double per_pose =
+        static_cast<double>(model.topology.num_vertices) * static_cast<double>(model.num_poses());
+    json["bits_per_vertex_per_pose"] =
+        per_pose > 0.0 ? 8.0 * json["size_bytes"].get<double>() / per_pose : 0.0;
+    json["geometry"] = describe_part(model.geometry);
+    json["transfer"] = describe_part(model.transfer);
+    json["provenance"] = ordered_json::parse(model.provenance_json);
+    return json;
+}
+
+ordered_json describe_bake(const std::filesystem::path& path) {
+    const BakeReader bake(path);
+    bake.verify_all();
+    const BakeIdentity& identity = bake.identity();
+    ordered_json json;
+    json["file"] = path.string();
+    json["kind"] = "bake";
+    json["num_vertices"] = identity.num_vertices;
+    json["num_triangles"] = identity.num_triangles;
+    json["num_poses"] = bake.num_poses();
+    json["first_pose"] = identity.poses.front().name;
+    json["last_pose"] = identity.poses.back().name;
+    json["bands"] = identity.layout.bands;
+    json["channels"] = identity.layout.channels;
+    json["rays"] = identity.rays;
+    json["seed"] = fmt::format("{:016x}", identity.seed);
+    json["normals"] = identity.normals;
+    uint64_t rays = 0, blocked = 0, size_bytes = 0, zero_normals = 0;
+    double transfer_energy = 0.0, noise_energy = 0.0;
+    for (uint32_t p = 0; p < bake.num_poses(); ++p) {
+        const PoseStatistics statistics = bake.read_statistics(p);
+        rays += statistics.rays;
+        blocked += statistics.blocked;
+        zero_normals += statistics.zero_normals;
+        transfer_energy += statistics.transfer_rms * statistics.transfer_rms;
+        noise_energy += statistics.noise_rms * statistics.noise_rms;
+        size_bytes += std::filesystem::file_size(bake_pose_file(path, p));
+    }
+    json["size_bytes"] = size_bytes;
+    json["rays_traced"] = rays;
+    json["rays_blocked"] = blocked;
+    json["vertices_without_normal"] = zero_normals;
+    json["relative_noise"] =
+        transfer_energy > 0.0 ? std::sqrt(noise_energy / transfer_energy) : 0.0;
+    return json;
+}
+
+void append_lines(const ordered_json& json, int indent, std::string& text) {
+    for (const auto& [key, value] : json.items()) {
+        std::string label = key;
+        std::replace(label.begin(), label.end(), '_', ' ');
+        text += fmt::format("{:{}}{}:", "", indent, label);
+        if (value.is_object()) {
+            text += '\n';
+            append_lines(value, indent + 2, text);
+        } else if (value.is_number_float()) {
+            text += fmt::format(" {:.6g}\n", value.get<double>());
+        } else if (value.is_array()) {
+            for (const auto& entry : value) text += fmt::format(" {:.5g}", entry.get<double>());
+            text += '\n';
+        } else {
+            text += fmt::format(" {}\n", value.is_string() ? value.get<std::string>() : value.dump());
+        }
+    }
+}
+
+}  // namespace
+
+ordered_json describe(const std::filesystem::path& path) {
+    return std::filesystem::is_directory(path) ? describe_bake(path) : describe_paim(path);
+}
+
+std::string as_text(const ordered_json& description) {
+    std::string text;
+    append_lines(description, 0, text);
+    return text;
+}
+
+}  // namespace paim

@@ -1,0 +1,23 @@
+// paim-info: what a .paim file or a .bake directory holds.
+#include <fmt/format.h>
+
+#include "analysis/info/describe.h"
+#include "paim/cli/parse.h"
+#include "paim/cli/run_main.h"
+
+int main(int argc, char** argv) {
+    return paim::cli::run_main("paim-info", [&] {
+        std::filesystem::path path;
+        bool json = false;
+        CLI::App app("Checks a .paim file or a .bake directory and says what it holds.", "paim-info");
+        app.set_version_flag("--version", paim::cli::version_text("paim-info"));
+        app.footer("Exit codes: 0 ok, 1 usage, 2 missing or damaged, 3 unsupported.");
+        app.add_option("FILE", path, "A .paim file or a .bake directory")->required();
+        app.add_flag("--json", json, "Write one JSON object on stdout and nothing else");
+        const int exit_code = paim::cli::parse(app, argc, argv);
+        if (exit_code >= 0) return exit_code;
+        const auto description = paim::describe(path);
+        fmt::print("{}", json ? description.dump(2) + "\n" : paim::as_text(description));
+        return 0;
+    });
+}

@@ -1,0 +1,89 @@
+// The command line of paim-analyze.
+#include "analysis/options.h"
+
+#include <charconv>
+
+#include "paim/base/error.h"
+#include "paim/base/vector.h"
+#include "paim/cli/parse.h"
+#include "paim/sh/index.h"
+
+namespace paim {
+
+namespace {
+
+// "20,7,4" as numbers, each lowest … highest.
+std::vector<uint32_t> parse_list(const std::string& text, const std::string& option,
+                                 uint32_t lowest, uint32_t highest) {
+    std::vector<uint32_t> values;
+    const char* begin = text.data();
+    const char* end = begin + text.size();
+    while (true) {
+        uint32_t value = 0;
+        const auto [rest, failure] = std::from_chars(begin, end, value);
+        if (failure != std::errc() || (rest != end && *rest != ',') || value < lowest ||
+            value > highest) {
+            throw_usage("{}: expected numbers from {} to {} separated by commas, got '{}'", option,
+                        lowest, highest, text);
+        }
+        values.push_back(value);
+        if (rest == end) return values;
+        begin = rest + 1;
+    }
+}
+
+}  // namespace
+
+std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, int& exit_code) {
+    AnalyzeOptions options;
+    std::string components = "20,7,4,2";
+    std::string bands = "7,4,2";
+    double azimuth_deg = 28.6;
+    double elevation_deg = 17.2;
+    CLI::App app(
+        "Measures what components and bands cost in accuracy, bytes and time, and what they save.\n"
+        "Writes CSV tables, SVG curves, images and an index.html that shows them together.",
+        "paim-analyze");
+    app.set_version_flag("--version", cli::version_text("paim-analyze"));
+    app.footer(
+        "Errors are fractions: theory_error is the share of the singular values that is dropped (E5),\n"
+        "energy_error its root-mean-square form, visual_error what is seen in rendered images (E6).\n"
+        "Exit codes: 0 ok, 1 usage, 2 bad input, 3 unsupported, 4 output failed.");
+    app.add_option("BAKE", options.bake_directory, "The .bake directory to measure")->required();
+    app.add_option("-o,--output", options.output, "Directory for the results")->required();
+    app.add_option("--env", options.environments,
+                   "Lat-long environment map (OpenEXR); may be given several times; default: the "
+                   "built-in sky");
+    app.add_option("--components", components, "Component counts to measure, besides all")
+        ->capture_default_str();
+    app.add_option("--bands", bands,
+                   "Band counts to measure, besides all; those above the bake's are left out")
+        ->capture_default_str();
+    app.add_option("--size", options.size_pixels, "Width and height of the images, pixels, 16 to 4096")
+        ->check(CLI::Range(16, 4096))
+        ->capture_default_str();
+    app.add_option("--poses", options.num_poses,
+                   "Poses that are rendered, evenly spaced over the sequence, 1 or more")
+        ->check(CLI::Range(1u, 1u << 20))
+        ->capture_default_str();
+    app.add_option("--azimuth", azimuth_deg, "Camera angle about +Y, degrees; 0 looks along -Z")
+        ->check(CLI::Range(-360.0, 360.0))
+        ->capture_default_str();
+    app.add_option("--elevation", elevation_deg, "Camera angle above the horizon, degrees")
+        ->check(CLI::Range(-89.0, 89.0))
+        ->capture_default_str();
+    app.add_option("--threads", options.num_threads, "Threads, 0 for every core")
+        ->check(CLI::Range(0, 1024))
+        ->capture_default_str();
+    app.add_flag("--json", options.json, "Write one JSON object on stdout and nothing else");
+    app.add_flag("--quiet", options.quiet, "Show no progress");
+    exit_code = cli::parse(app, argc, argv);
+    if (exit_code >= 0) return std::nullopt;
+    options.components = parse_list(components, "--components", 0, 1u << 20);
+    options.bands = parse_list(bands, "--bands", 1, sh::kMaxBands);
+    options.azimuth_rad = azimuth_deg * kPi / 180.0;
+    options.elevation_rad = elevation_deg * kPi / 180.0;
+    return options;
+}
+
+}  // namespace paim

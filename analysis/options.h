@@ -1,0 +1,30 @@
+// The command line of paim-analyze.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace paim {
+
+struct AnalyzeOptions {
+    std::filesystem::path bake_directory;
+    std::filesystem::path output;
+    std::vector<std::filesystem::path> environments;  // none: the built-in sky
+    std::vector<uint32_t> components{20, 7, 4, 2};    // besides all
+    std::vector<uint32_t> bands{7, 4, 2};             // besides all
+    int size_pixels = 256;
+    uint32_t num_poses = 4;
+    double azimuth_rad = 0.5;
+    double elevation_rad = 0.3;
+    int num_threads = 0;
+    bool json = false;
+    bool quiet = false;
+};
+
+// Parses the command line. Returns nothing when the tool is done, with the exit code in exit_code.
+// Throws Error(usage) for values out of range.
+std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, int& exit_code);
+
+}  // namespace paim

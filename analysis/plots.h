@@ -1,0 +1,21 @@
+// Error curves as SVG, drawn by gnuplot.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "analysis/curves.h"
+
+namespace paim {
+
+// Whether gnuplot can be run.
+bool have_gnuplot();
+
+// Writes NAME.svg (error against the setting) and NAME_bytes.svg, NAME_time.svg (visual error against
+// bytes and decode time) into the directory, with the scripts that draw them inline. Errors (output
+// failed) carry what gnuplot said.
+void write_plots(const std::filesystem::path& directory, const Curve& curve,
+                 const std::vector<NamedLight>& lights);
+
+}  // namespace paim

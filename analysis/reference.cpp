@@ -1,0 +1,75 @@
+// The scene that is measured.
+#include "analysis/reference.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "paim/image/exr.h"
+#include "paim/light/environment.h"
+#include "paim/light/sky.h"
+#include "paim/mesh/bounds.h"
+#include "paim/render/render.h"
+#include "paim/shade/shade.h"
+
+namespace paim {
+
+namespace {
+
+std::vector<Vec3f> to_points(const std::vector<float>& planes) {
+    const size_t count = planes.size() / 3;
+    std::vector<Vec3f> points(count);
+    for (size_t v = 0; v < count; ++v) {
+        points[v] = Vec3f(planes[v], planes[count + v], planes[2 * count + v]);
+    }
+    return points;
+}
+
+}  // namespace
+
+std::vector<NamedLight> load_lights(const std::vector<std::filesystem::path>& environments,
+                                    uint32_t bands) {
+    std::vector<NamedLight> lights;
+    const auto add = [&](const std::string& name, Image image) {
+        const EnvironmentLight light(std::move(image));
+        lights.push_back({name, light.coefficients(Vec3f::Zero(), static_cast<int>(bands))});
+    };
+    if (environments.empty()) add("sky", make_sky());
+    for (const auto& path : environments) add(path.stem().string(), read_exr(path));
+    return lights;
+}
+
+Camera stage_camera(const BakeReader& bake, double azimuth_rad, double elevation_rad) {
+    Bounds bounds;
+    for (uint32_t p = 0; p < bake.num_poses(); ++p) {
+        std::vector<float> planes(size_t{3} * bake.identity().num_vertices);
+        bake.read_position_rows(p, 0, planes.size(), planes.data());
+        bounds.extend(to_points(planes));
+    }
+    return frame_bounds(bounds, 1.0f, static_cast<float>(azimuth_rad),
+                        static_cast<float>(elevation_rad));
+}
+
+Stage::Stage(const BakeReader& bake, std::vector<NamedLight> lights, const Camera& camera,
+             int size_pixels, uint32_t num_poses)
+    : bake_(bake), lights_(std::move(lights)), camera_(camera), size_pixels_(size_pixels) {
+    const uint32_t count = std::min(num_poses, bake.num_poses());
+    for (uint32_t j = 0; j < count; ++j) {
+        poses_.push_back(static_cast<uint32_t>(uint64_t{j} * bake.num_poses() / count));
+    }
+    for (const uint32_t p : poses_) {
+        BakedPose baked = bake.read_pose(p);
+        references_.push_back(render_pose(
+            {bake.identity().layout, std::move(baked.positions), std::move(baked.transfer)}));
+    }
+}
+
+std::vector<Image> Stage::render_pose(const DecodedPose& pose) const {
+    const std::vector<Vec3f> positions = to_points(pose.positions);
+    std::vector<std::vector<Vec3f>> radiance(lights_.size());
+    for (size_t j = 0; j < lights_.size(); ++j) {
+        shade(pose.layout, pose.transfer, bake_.albedo(), lights_[j].coefficients, radiance[j]);
+    }
+    return render_images(bake_.topology(), positions, radiance, camera_, size_pixels_, size_pixels_);
+}
+
+}  // namespace paim

@@ -1,0 +1,55 @@
+// The scene that is measured: light, camera and poses, and the images of the bake itself.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "paim/codec/decoder.h"
+#include "paim/codec/model.h"
+#include "paim/format/bake_directory.h"
+#include "paim/image/image.h"
+#include "paim/light/light.h"
+#include "paim/shade/camera.h"
+
+namespace paim {
+
+struct NamedLight {
+    std::string name;
+    LightCoefficients coefficients;
+};
+
+// The lights of these environment maps, or the built-in sky if there are none.
+// Errors: those of read_exr and EnvironmentLight, naming the file.
+std::vector<NamedLight> load_lights(const std::vector<std::filesystem::path>& environments,
+                                    uint32_t bands);
+
+// Renders baked or decoded poses of one model under several lights, against black.
+class Stage {
+  public:
+    // num_poses poses, evenly spaced, are measured.
+    Stage(const BakeReader& bake, std::vector<NamedLight> lights, const Camera& camera,
+          int size_pixels, uint32_t num_poses);
+
+    const std::vector<NamedLight>& lights() const { return lights_; }
+    const std::vector<uint32_t>& poses() const { return poses_; }
+
+    // Image of a pose (an index into poses()) under each light; the model's colours.
+    std::vector<Image> render_pose(const DecodedPose& pose) const;
+
+    // The bake's own images, rendered once.
+    const std::vector<Image>& reference(size_t pose_index) const { return references_[pose_index]; }
+
+  private:
+    const BakeReader& bake_;
+    std::vector<NamedLight> lights_;
+    Camera camera_;
+    int size_pixels_;
+    std::vector<uint32_t> poses_;
+    std::vector<std::vector<Image>> references_;  // [pose index][light]
+};
+
+// Camera that sees the whole sequence.
+Camera stage_camera(const BakeReader& bake, double azimuth_rad, double elevation_rad);
+
+}  // namespace paim

@@ -1,0 +1,126 @@
+// The page that shows curves, tables and images together.
+#include "analysis/report.h"
+
+#include <fmt/format.h>
+
+#include "paim/base/file.h"
+#include "paim/image/png.h"
+
+namespace paim {
+
+namespace {
+
+constexpr float kDifferenceGain = 4.0f;
+
+constexpr const char* kStyle =
+    "body{font:15px/1.5 system-ui,sans-serif;margin:2em auto;max-width:78em;padding:0 1em;color:#222}"
+    "h1,h2{font-weight:600}table{border-collapse:collapse;margin:1em 0}"
+    "th,td{padding:.25em .8em;text-align:right;border-bottom:1px solid #ddd}"
+    ".strip{display:flex;gap:6px;overflow-x:auto;margin:.5em 0}.strip figure{margin:0}"
+    ".strip img{width:180px;height:180px;display:block;background:#000}"
+    "figcaption{font-size:13px;text-align:center;color:#555}"
+    ".plots{display:flex;flex-wrap:wrap;gap:8px}.plots img{width:32%;min-width:320px}";
+
+std::string escape(const std::string& text) {
+    std::string result;
+    for (const char c : text) {
+        switch (c) {
+            case '&': result += "&amp;"; break;
+            case '<': result += "&lt;"; break;
+            case '>': result += "&gt;"; break;
+            case '"': result += "&quot;"; break;
+            default: result += c;
+        }
+    }
+    return result;
+}
+
+Image difference(const Image& image, const Image& reference) {
+    Image result(image.width, image.height);
+    for (size_t j = 0; j < image.pixels.size(); ++j) {
+        result.pixels[j] = kDifferenceGain * (image.pixels[j] - reference.pixels[j]).cwiseAbs();
+    }
+    return result;
+}
+
+std::string label(const Curve& curve, const CurvePoint& point) {
+    return fmt::format("{}{}{}", point.all ? "all: " : "", point.value,
+                       curve.name == "bands" ? " bands" : " components");
+}
+
+// Writes one image and returns its figure element.
+std::string figure(const std::filesystem::path& directory, const std::string& file,
+                   const std::string& caption, const Image& image) {
+    write_png(directory / file, image);
+    return fmt::format("<figure><img src=\"{0}\" alt=\"{1}\"><figcaption>{1}</figcaption></figure>",
+                       escape(file), escape(caption));
+}
+
+std::string strips(const std::filesystem::path& directory, const Curve& curve, const Stage& stage) {
+    std::string html;
+    for (size_t light = 0; light < stage.lights().size(); ++light) {
+        html += fmt::format("<p>Light: {}</p>\n<div class=\"strip\">",
+                            escape(stage.lights()[light].name));
+        const Image& reference = stage.reference(0)[light];
+        html += figure(directory, fmt::format("images/baked_{}.png", light), "as baked", reference);
+        std::string differences;
+        for (const CurvePoint& point : curve.points) {
+            const std::string stem = fmt::format("images/{}_{}_{}", curve.name, light, point.value);
+            const Image& image = point.images[light];
+            html += figure(directory, stem + ".png", label(curve, point), image);
+            differences += figure(directory, stem + "_difference.png",
+                                  fmt::format("seen: {:.3g} %", 100.0 * point.visual_error[light]),
+                                  difference(image, reference));
+        }
+        html += "</div>\n<div class=\"strip\"><figure style=\"width:180px\"><figcaption>difference "
+                "from the bake, times four</figcaption></figure>" +
+                differences + "</div>\n";
+    }
+    return html;
+}
+
+std::string table(const Curve& curve, const Stage& stage) {
+    std::string html =
+        "<table><tr><th>kept</th><th>theory (E5)</th><th>energy</th>";
+    for (const NamedLight& light : stage.lights()) {
+        html += fmt::format("<th>seen (E6), {}</th>", escape(light.name));
+    }
+    html += "<th>bytes</th><th>decode, ms</th></tr>\n";
+    for (const CurvePoint& point : curve.points) {
+        html += fmt::format("<tr><td>{}</td><td>{:.3g} %</td><td>{:.3g} %</td>", label(curve, point),
+                            100.0 * point.theory_error, 100.0 * point.energy_error);
+        for (const double error : point.visual_error) {
+            html += fmt::format("<td>{:.3g} %</td>", 100.0 * error);
+        }
+        html += fmt::format("<td>{}</td><td>{:.3g}</td></tr>\n", point.size_bytes, point.decode_ms);
+    }
+    return html + "</table>\n";
+}
+
+}  // namespace
+
+void write_report(const std::filesystem::path& directory, const std::string& title,
+                  const std::string& summary, const std::vector<Curve>& curves, const Stage& stage,
+                  bool with_plots) {
+    ensure_directory(directory / "images");
+    std::string html = fmt::format(
+        "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{0}</title>"
+        "<style>{1}</style></head><body>\n<h1>{0}</h1>\n<p>{2}</p>\n",
+        escape(title), kStyle, escape(summary));
+    for (const Curve& curve : curves) {
+        html += fmt::format("<h2>{}</h2>\n", escape(curve.title));
+        if (with_plots) {
+            html += "<div class=\"plots\">";
+            for (const char* suffix : {"", "_bytes", "_time"}) {
+                html += fmt::format("<img src=\"{0}{1}.svg\" alt=\"{0}{1}\">", curve.name, suffix);
+            }
+            html += "</div>\n";
+        }
+        html += table(curve, stage) + strips(directory, curve, stage) +
+                fmt::format("<p><a href=\"{0}.csv\">{0}.csv</a></p>\n", curve.name);
+    }
+    html += "</body></html>\n";
+    write_file(directory / "index.html", html);
+}
+
+}  // namespace paim

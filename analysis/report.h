@@ -1,0 +1,18 @@
+// The page that shows curves, tables and images together.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "analysis/curves.h"
+
+namespace paim {
+
+// Writes the images of all points (and their differences from the bake, times four) as PNG into
+// directory/images, and index.html. Errors: output failed.
+void write_report(const std::filesystem::path& directory, const std::string& title,
+                  const std::string& summary, const std::vector<Curve>& curves, const Stage& stage,
+                  bool with_plots);
+
+}  // namespace paim

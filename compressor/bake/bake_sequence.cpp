@@ -1,0 +1,64 @@
+// Bakes a whole sequence, pose by pose.
+#include "compressor/bake/bake_sequence.h"
+
+#include <cmath>
+
+#include "paim/base/check.h"
+
+namespace paim {
+
+BakeIdentity bake_identity(const PoseSource& source, const BakeOptions& options,
+                           const std::string& normals) {
+    BakeIdentity identity;
+    identity.layout = {TransferKind::diffuse, options.bands, 1};
+    identity.rays = options.rays;
+    identity.seed = options.seed;
+    identity.normals = normals;
+    identity.num_vertices = source.topology().num_vertices;
+    identity.num_triangles = static_cast<uint32_t>(source.topology().triangles.size());
+    identity.mesh_xxh3 = mesh_checksum(source.topology(), source.albedo());
+    for (uint32_t p = 0; p < source.num_poses(); ++p) {
+        // The file's name alone, so that a bake does not depend on where the poses lie.
+        const std::string name = std::filesystem::path(source.pose_name(p)).filename().string();
+        identity.poses.push_back({name, source.pose_checksum(p)});
+    }
+    return identity;
+}
+
+BakeSummary bake_sequence(const PoseSource& source, const BakeOptions& options,
+                          const std::string& normals, const std::filesystem::path& directory,
+                          uint32_t first, uint32_t last,
+                          const std::function<void(uint32_t)>& on_pose) {
+    PAIM_CHECK_LE(first, last);
+    PAIM_CHECK_LT(last, source.num_poses());
+    const BakeIdentity identity = bake_identity(source, options, normals);
+    const BakeWriter writer(directory, identity, source.topology(), source.albedo());
+    const TransferBaker baker(options);
+    BakeSummary summary;
+    double transfer_energy = 0.0;
+    double noise_energy = 0.0;
+    for (uint32_t p = first; p <= last; ++p) {
+        PoseStatistics statistics;
+        if (writer.has_pose(p)) {
+            statistics = read_bake_statistics(directory, identity, p);
+            ++summary.resumed;
+        } else {
+            const BakedPose baked = baker.bake(source.topology(), source.load_pose(p), p);
+            writer.write_pose(p, baked);
+            statistics = baked.statistics;
+            ++summary.baked;
+        }
+        summary.total.rays += statistics.rays;
+        summary.total.blocked += statistics.blocked;
+        summary.total.zero_normals += statistics.zero_normals;
+        transfer_energy += statistics.transfer_rms * statistics.transfer_rms;
+        noise_energy += statistics.noise_rms * statistics.noise_rms;
+        on_pose(p);
+    }
+    const double num_poses = last - first + 1.0;
+    summary.total.transfer_rms = std::sqrt(transfer_energy / num_poses);
+    summary.total.noise_rms = std::sqrt(noise_energy / num_poses);
+    return summary;
+}
+
+}  // namespace paim

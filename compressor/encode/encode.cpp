@@ -1,0 +1,120 @@
+// A .bake directory becomes a .paim file.
+// Based on: Cardoso and Kry, Error Analysis of Precomputed Radiance Transfer for Deforming Geometry, 2012
+#include "compressor/encode/encode.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compressor/encode/bake_rows.h"
+#include "compressor/encode/principal_components.h"
+#include "paim/format/paim_file.h"
+#include "paim/metrics/spectrum.h"
+
+namespace paim {
+
+namespace {
+
+// Everything about a part but its mean and components, which are streamed later.
+LowRankMatrix start_matrix(const BakeReader& bake, const RowSource& rows,
+                           const PrincipalComponents& components, const ComponentChoice& choice,
+                           const EncodeOptions& options) {
+    LowRankMatrix matrix;
+    matrix.num_vertices = bake.identity().num_vertices;
+    matrix.num_planes = static_cast<uint32_t>(rows.num_rows() / matrix.num_vertices);
+    matrix.num_poses = bake.num_poses();
+    matrix.precision = options.precision;
+    matrix.singular_values = components.singular_values;
+    matrix.num_components = choose_components(choice, matrix.singular_values, components.rank(),
+                                              options.automatic_energy_error);
+    matrix.weights = component_weights(components, matrix.num_components, rows.num_rows());
+    return matrix;
+}
+
+void stream(PaimWriter& writer, Part part, const RowSource& rows,
+            const PrincipalComponents& components, uint32_t num_components) {
+    for_each_encoded_block(rows, components, num_components, [&](const EncodedRows& block) {
+        writer.append_mean(part, block.mean);
+        for (uint32_t k = 0; k < num_components; ++k) {
+            writer.append_component({part, k}, block.components[k]);
+        }
+    });
+}
+
+std::string provenance(const BakeReader& bake) {
+    const BakeIdentity& identity = bake.identity();
+    double transfer_energy = 0.0;
+    double noise_energy = 0.0;
+    for (uint32_t p = 0; p < bake.num_poses(); ++p) {
+        const PoseStatistics statistics = bake.read_statistics(p);
+        transfer_energy += statistics.transfer_rms * statistics.transfer_rms;
+        noise_energy += statistics.noise_rms * statistics.noise_rms;
+    }
+    nlohmann::ordered_json json;
+    json["bake_bands"] = identity.layout.bands;
+    json["rays"] = identity.rays;
+    json["seed"] = fmt::format("{:016x}", identity.seed);
+    json["normals"] = identity.normals;
+    json["bake_noise"] = transfer_energy > 0.0 ? std::sqrt(noise_energy / transfer_energy) : 0.0;
+    return json.dump();
+}
+
+}  // namespace
+
+uint32_t choose_components(const ComponentChoice& choice, std::span<const double> singular_values,
+                           uint32_t rank, double automatic_energy_error) {
+    switch (choice.kind) {
+        case ComponentChoice::Kind::all: return rank;
+        case ComponentChoice::Kind::number: return std::min(choice.number, rank);
+        case ComponentChoice::Kind::automatic: break;
+    }
+    uint32_t k = 0;
+    while (k < rank && energy_error(singular_values, k) >= automatic_energy_error) ++k;
+    return k;
+}
+
+EncodeSummary encode(const BakeReader& bake, const EncodeOptions& options,
+                     const std::filesystem::path& output) {
+    bake.verify_all();
+    Model model;
+    model.topology = bake.topology();
+    model.albedo = bake.albedo();
+    model.layout = bake.identity().layout;
+    model.layout.bands = std::min(options.bands, model.layout.bands);
+    model.frames_per_second = options.frames_per_second;
+    model.name = options.name;
+    model.provenance_json = provenance(bake);
+
+    const GeometryRows geometry_rows(bake);
+    const TransferRows transfer_rows(bake, model.layout.bands);
+    const PrincipalComponents geometry = principal_components(geometry_rows);
+    const PrincipalComponents transfer = principal_components(transfer_rows);
+    model.geometry = start_matrix(bake, geometry_rows, geometry, options.geometry, options);
+    model.transfer = start_matrix(bake, transfer_rows, transfer, options.transfer, options);
+
+    PaimWriter writer(output, model);
+    stream(writer, Part::geometry, geometry_rows, geometry, model.geometry.num_components);
+    stream(writer, Part::transfer, transfer_rows, transfer, model.transfer.num_components);
+    writer.commit();
+
+    EncodeSummary summary;
+    summary.geometry_components = model.geometry.num_components;
+    summary.transfer_components = model.transfer.num_components;
+    summary.geometry_rank = geometry.rank();
+    summary.transfer_rank = transfer.rank();
+    summary.bands = model.layout.bands;
+    summary.geometry_theory_error =
+        theory_error(geometry.singular_values, summary.geometry_components);
+    summary.transfer_theory_error =
+        theory_error(transfer.singular_values, summary.transfer_components);
+    summary.geometry_energy_error =
+        energy_error(geometry.singular_values, summary.geometry_components);
+    summary.transfer_energy_error =
+        energy_error(transfer.singular_values, summary.transfer_components);
+    summary.size_bytes = paim_size_bytes(model);
+    return summary;
+}
+
+}  // namespace paim

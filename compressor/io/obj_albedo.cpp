@@ -1,0 +1,94 @@
+// The albedo of a mesh.
+#include "compressor/io/obj_albedo.h"
+
+#include <algorithm>
+
+#include "paim/base/check.h"
+
+namespace paim {
+
+namespace {
+
+// Clamps to [0, 1] and counts what it changed.
+Vec3d clamp_color(const Vec3d& color, size_t& num_clamped) {
+    // Written so that NaN becomes 0.
+    const Vec3d clamped =
+        color.unaryExpr([](double x) { return x > 0.0 ? std::min(x, 1.0) : 0.0; });
+    if (clamped != color) ++num_clamped;
+    return clamped;
+}
+
+Albedo albedo_of_colors(const std::string& name, const std::vector<Vec3d>& colors,
+                        std::vector<std::string>& warnings) {
+    Albedo albedo{{}};
+    size_t num_clamped = 0;
+    for (const Vec3d& color : colors) {
+        albedo.values.push_back(clamp_color(color, num_clamped).cast<float>());
+    }
+    if (num_clamped > 0) {
+        warnings.push_back(fmt::format("{}: {} vertex colours clamped to 0..1", name, num_clamped));
+    }
+    return albedo;
+}
+
+// [materials + 1] colours to average; the last is for faces without a material.
+std::vector<Vec3d> material_colors(const std::string& name, const ParsedObj& parsed,
+                                   std::vector<std::string>& warnings) {
+    const Vec3d none = Albedo().values[0].cast<double>();
+    std::vector<Vec3d> colors;
+    size_t num_clamped = 0, num_textures = 0;
+    std::string texture;
+    for (const ObjMaterial& material : parsed.materials) {
+        colors.push_back(clamp_color(material.diffuse.value_or(none), num_clamped));
+        if (material.diffuse_texture.empty()) continue;
+        if (num_textures++ == 0) texture = material.diffuse_texture;
+    }
+    colors.push_back(none);
+    if (num_clamped > 0) {
+        warnings.push_back(
+            fmt::format("{}: Kd of {} materials clamped to 0..1", name, num_clamped));
+    }
+    if (num_textures > 0) {
+        warnings.push_back(fmt::format("{}: textures are not read: map_Kd of {} materials, e.g. {}",
+                                       name, num_textures, texture));
+    }
+    return colors;
+}
+
+}  // namespace
+
+Albedo obj_albedo(const std::string& name, const Polygons& faces, const ParsedObj& parsed,
+                  std::vector<std::string>& warnings) {
+    if (!parsed.colors.empty()) return albedo_of_colors(name, parsed.colors, warnings);
+    if (parsed.materials.empty()) return {};
+
+    PAIM_CHECK_EQ(parsed.face_materials.size(), faces.num_faces());
+    const std::vector<Vec3d> colors = material_colors(name, parsed, warnings);
+    const auto color_of_face = [&](size_t i) -> const Vec3d& {
+        const int32_t material = parsed.face_materials[i];
+        return material >= 0 ? colors[static_cast<size_t>(material)] : colors.back();
+    };
+    bool uniform = true;
+    for (size_t i = 1; i < faces.num_faces(); ++i) {
+        uniform = uniform && color_of_face(i) == color_of_face(0);
+    }
+    if (uniform) return {{color_of_face(0).cast<float>()}};
+
+    std::vector<Vec3d> sums(parsed.positions.size(), Vec3d::Zero());
+    std::vector<uint32_t> counts(parsed.positions.size(), 0);
+    size_t corner = 0;
+    for (size_t i = 0; i < faces.num_faces(); ++i) {
+        for (const size_t end = corner + faces.sizes[i]; corner < end; ++corner) {
+            sums[faces.corners[corner]] += color_of_face(i);
+            ++counts[faces.corners[corner]];
+        }
+    }
+    Albedo albedo{{}};
+    for (size_t v = 0; v < sums.size(); ++v) {
+        const Vec3d mean = counts[v] > 0 ? Vec3d(sums[v] / counts[v]) : colors.back();
+        albedo.values.push_back(mean.cast<float>());
+    }
+    return albedo;
+}
+
+}  // namespace paim

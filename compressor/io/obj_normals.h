@@ -1,0 +1,19 @@
+// Vertex normals from the vn lines of an OBJ file.
+#pragma once
+
+#include <vector>
+
+#include "compressor/io/obj_parse.h"
+#include "compressor/io/polygons.h"
+#include "paim/mesh/topology.h"
+
+namespace paim {
+
+// The normalised average of the unit vn at the corners round each vertex. A vn of length 0 does not
+// count. Where no direction remains (they are all 0, or cancel out), the vertex gets what
+// mesh/normals.h computes from its triangles, and so do vertices without faces: zero.
+// returns  [V] unit or zero
+std::vector<Vec3f> obj_normals(const Topology& topology, const Polygons& faces,
+                               const ParsedObj& parsed);
+
+}  // namespace paim

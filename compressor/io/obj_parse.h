@@ -1,0 +1,38 @@
+// Parsing scanned OBJ text, and the materials it names, through tinyobjloader.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "compressor/io/obj_materials.h"
+#include "compressor/io/obj_scan.h"
+#include "paim/base/vector.h"
+
+namespace paim {
+
+struct ParsedObj {
+    std::vector<Vec3f> positions;         // [V] scene units
+    std::vector<Vec3d> colors;            // [V] r g b as written, or empty unless all have one
+    std::vector<Vec3d> normals;           // vn lines as written
+    std::vector<int32_t> corner_normals;  // per corner: index into normals, or -1
+    std::vector<int32_t> face_materials;  // per face: index into materials, or -1
+    std::vector<ObjMaterial> materials;
+    std::vector<std::string> warnings;  // each once; about materials
+};
+
+struct ObjParseOptions {
+    // Read the material libraries named by mtllib, relative to this folder.
+    bool read_materials = false;
+    std::filesystem::path material_folder;
+};
+
+// text  rewritten by scan_obj, which gave `scan`
+// Unreadable material libraries give warnings. Errors (bad input) if tinyobjloader refuses the file
+// or reads it otherwise than the scan did.
+ParsedObj parse_obj(const std::string& name, std::span<char> text, const ObjScan& scan,
+                    const ObjParseOptions& options = {});
+
+}  // namespace paim

@@ -1,0 +1,129 @@
+// A pose sequence in OBJ files.
+#include "compressor/io/obj_sequence.h"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <utility>
+
+#include "compressor/io/obj_albedo.h"
+#include "compressor/io/obj_normals.h"
+#include "compressor/io/obj_parse.h"
+#include "compressor/io/triangulate.h"
+#include "paim/base/check.h"
+#include "paim/base/error.h"
+#include "paim/base/file.h"
+#include "paim/base/hash.h"
+#include "paim/base/parallel.h"
+#include "paim/mesh/normals.h"
+
+namespace paim {
+
+namespace {
+
+constexpr uint64_t kMaxFileBytes = uint64_t{4} << 30;
+
+// "as in" names: without the folder if it is the same.
+std::string reference_name(const std::filesystem::path& first, const std::filesystem::path& other) {
+    return first.parent_path() == other.parent_path() ? first.filename().string() : first.string();
+}
+
+}  // namespace
+
+ObjSequence::ObjSequence(std::vector<std::filesystem::path> files, const ObjOptions& options)
+    : files_(std::move(files)), options_(options) {
+    if (files_.empty()) throw_bad_input("no OBJ files: expected at least one");
+    if (files_.size() > UINT32_MAX) throw_bad_input("{} OBJ files: too many", files_.size());
+    check_files();
+    build_from_first();
+}
+
+void ObjSequence::check_files() {
+    checksums_.resize(files_.size());
+    const auto check = [&](size_t i) {
+        std::vector<char> text = read_file(files_[i], kMaxFileBytes);
+        checksums_[i] = xxh3(text.data(), text.size());
+        const ObjReference reference{reference_name(files_[0], files_[i]), first_};
+        ObjScan scan = scan_obj(files_[i].string(), text,
+                                {options_.normals_from_file, i > 0 ? &reference : nullptr});
+        if (i == 0) first_ = std::move(scan);
+        if (options_.on_file_checked) options_.on_file_checked();
+    };
+    check(0);
+
+    // Files behind one that failed need no look; those before it do, since the first counts.
+    std::atomic<size_t> first_failed{files_.size()};
+    std::vector<std::exception_ptr> failures(files_.size());
+    parallel_for(files_.size(), 1, [&](size_t i, size_t) {
+        if (i == 0 || i > first_failed.load()) return;
+        try {
+            check(i);
+        } catch (...) {
+            failures[i] = std::current_exception();
+            size_t known = first_failed.load();
+            while (i < known && !first_failed.compare_exchange_weak(known, i)) {
+            }
+        }
+    });
+    const size_t failed = first_failed.load();
+    if (failed < files_.size()) std::rethrow_exception(failures[failed]);
+}
+
+ParsedObj ObjSequence::parse(uint32_t p, bool with_materials) const {
+    const std::string name = pose_name(p);
+    std::vector<char> text = read_file(files_[p], kMaxFileBytes);
+    if (xxh3(text.data(), text.size()) != checksums_[p]) {
+        throw_bad_input("{}: changed since the sequence was opened", name);
+    }
+    // Scanned again for the sake of the clean text that it leaves; it costs a tenth of the parsing.
+    const ObjScan scan = scan_obj(name, text, {options_.normals_from_file, nullptr});
+    return parse_obj(name, text, scan, {with_materials, files_[p].parent_path()});
+}
+
+void ObjSequence::build_from_first() {
+    const bool materials_count = !options_.albedo && !first_.has_colors;
+    ParsedObj parsed = parse(0, materials_count);
+    const std::string name = pose_name(0);
+    warnings_ = std::move(parsed.warnings);
+
+    Triangulation cut = triangulate(first_.faces, parsed.positions);
+    if (cut.triangles.empty()) {
+        throw_bad_input("{}: no faces with three different vertices", name);
+    }
+    topology_ = {first_.num_vertices, std::move(cut.triangles)};
+    albedo_ = options_.albedo ? Albedo{{*options_.albedo}}
+                              : obj_albedo(name, first_.faces, parsed, warnings_);
+
+    std::vector<bool> used(first_.num_vertices, false);
+    for (const uint32_t v : first_.faces.corners) used[v] = true;
+    const auto warn = [&](uint64_t count, const char* what) {
+        if (count > 0) warnings_.push_back(fmt::format("{}: {} {}", name, count, what));
+    };
+    warn(static_cast<uint64_t>(std::count(used.begin(), used.end(), false)),
+         "vertices belong to no face");
+    warn(first_.num_small_faces, "faces of fewer than 3 vertices ignored");
+    warn(first_.num_other_shapes, "points and lines ignored");
+    warn(cut.num_repeating, "faces name a vertex twice");
+    warn(cut.num_degenerate, "faces without area or tangled, cut as fans");
+}
+
+std::string ObjSequence::pose_name(uint32_t p) const {
+    PAIM_CHECK_LT(p, num_poses());
+    return files_[p].string();
+}
+
+uint64_t ObjSequence::pose_checksum(uint32_t p) const {
+    PAIM_CHECK_LT(p, num_poses());
+    return checksums_[p];
+}
+
+Pose ObjSequence::load_pose(uint32_t p) const {
+    PAIM_CHECK_LT(p, num_poses());
+    ParsedObj parsed = parse(p, false);
+    std::vector<Vec3f> normals = options_.normals_from_file
+                                     ? obj_normals(topology_, first_.faces, parsed)
+                                     : vertex_normals(topology_, parsed.positions);
+    return {std::move(parsed.positions), std::move(normals)};
+}
+
+}  // namespace paim

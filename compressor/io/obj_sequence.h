@@ -1,0 +1,62 @@
+// A pose sequence in OBJ files, one a pose.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compressor/io/obj_parse.h"
+#include "compressor/io/obj_scan.h"
+#include "paim/mesh/pose_source.h"
+
+namespace paim {
+
+struct ObjOptions {
+    // False: normals are computed from the faces (mesh/normals.h).
+    // True: they are averaged from the file's vn (obj_normals.h).
+    bool normals_from_file = false;
+    // Overrides the colours and materials of the file; linear, 0..1.
+    std::optional<Vec3f> albedo;
+    // Called each time that another file was checked, from several threads at once.
+    std::function<void()> on_file_checked;
+};
+
+// All files must hold the same vertices and faces in the same order. Texture coordinates, objects,
+// groups, smoothing, points and lines are ignored.
+class ObjSequence : public PoseSource {
+  public:
+    // Checks every file (obj_scan.h) before anything else is done, in parallel. The faces are
+    // triangulated by the geometry of the first one, which also gives the albedo (obj_albedo.h).
+    // files  at least one; find_obj_files() gives them. The same file may be several poses.
+    // Errors (bad input): any file unreadable, above 4 GiB, damaged or unlike the first; of
+    // several, the first in the order of the sequence is reported, on any number of threads.
+    explicit ObjSequence(std::vector<std::filesystem::path> files, const ObjOptions& options = {});
+
+    const Topology& topology() const override { return topology_; }
+    const Albedo& albedo() const override { return albedo_; }
+    uint32_t num_poses() const override { return static_cast<uint32_t>(files_.size()); }
+    std::string pose_name(uint32_t p) const override;   // the path as given
+    uint64_t pose_checksum(uint32_t p) const override;  // of the bytes of the file
+    // Error (bad input) if the file is not what it was when the sequence was opened.
+    Pose load_pose(uint32_t p) const override;
+
+    // What is odd but no error: each a line that names the file.
+    const std::vector<std::string>& warnings() const { return warnings_; }
+
+  private:
+    void check_files();
+    void build_from_first();
+    ParsedObj parse(uint32_t p, bool with_materials) const;
+
+    std::vector<std::filesystem::path> files_;
+    ObjOptions options_;
+    ObjScan first_;  // what the scan of the first file gave
+    std::vector<uint64_t> checksums_;
+    Topology topology_;
+    Albedo albedo_;
+    std::vector<std::string> warnings_;
+};
+
+}  // namespace paim

@@ -1,0 +1,176 @@
+// The command line of paim-compress.
+#include "compressor/options.h"
+
+#include <charconv>
+
+#include "paim/base/error.h"
+#include "paim/cli/parse.h"
+
+namespace paim {
+
+namespace {
+
+// The options as text, where their form needs checking after parsing.
+struct RawOptions {
+    std::string albedo;
+    std::string geometry_components = "auto";
+    std::string transfer_components = "auto";
+    std::string precision = "f32";
+    uint32_t encode_bands = 0;
+};
+
+void add_input_options(CLI::App& app, CompressOptions& options) {
+    app.add_option("OBJ", options.inputs,
+                   "Poses: OBJ files, quoted patterns ('poses/*.obj') or directories, one topology; "
+                   "taken in natural order (x_2 before x_10)");
+    app.add_flag("--keep-order", options.keep_order, "Take files in the order given instead");
+    app.add_option("--normals", options.normals,
+                   "Vertex normals: 'faces' averages the faces round a vertex, 'file' takes the "
+                   "files' vn")
+        ->check(CLI::IsMember({"faces", "file"}))
+        ->capture_default_str();
+}
+
+void add_bake_options(CLI::App& app, CompressOptions& options, RawOptions& raw) {
+    app.add_option("--rays", options.bake.rays,
+                   "Rays per vertex and pose, even, 2 to 16777216; more rays, less noise")
+        ->check(CLI::Range(uint32_t{2}, uint32_t{1} << 24))
+        ->capture_default_str();
+    app.add_option("--albedo", raw.albedo,
+                   "Diffuse reflectance R,G,B (or one number), linear, 0 to 1; default: vertex "
+                   "colours, else Kd of the materials, else 0.8");
+    app.add_option("--poses", options.poses,
+                   "Bake only poses A-B (counted from 0), so that several processes can share a "
+                   "bake; default: all");
+    app.add_option("--seed", options.bake.seed, "Seed of the random streams")->capture_default_str();
+}
+
+void add_encode_options(CLI::App& app, CompressOptions& options, RawOptions& raw) {
+    app.add_option("--geometry-components", raw.geometry_components,
+                   "Components of the geometry: a number, 'all', or 'auto' (energy error below 1 %)")
+        ->capture_default_str();
+    app.add_option("--transfer-components", raw.transfer_components,
+                   "Components of the transfer: a number, 'all', or 'auto' (energy error below 1 %)")
+        ->capture_default_str();
+    app.add_option("--precision", raw.precision,
+                   "How components are stored: f32 or f16 (half the size, relative rounding "
+                   "0.05 %); means and weights are always f32")
+        ->check(CLI::IsMember({"f32", "f16"}))
+        ->capture_default_str();
+    app.add_option("--fps", options.encode.frames_per_second,
+                   "Poses per second at which the animation plays, 0.001 to 1000000")
+        ->check(CLI::Range(1e-3, 1e6))
+        ->capture_default_str();
+}
+
+void add_common_options(CLI::App& app, CompressOptions& options, const std::string& output_help) {
+    app.add_option("-o,--output", options.output, output_help)->required();
+    app.add_option("--threads", options.num_threads,
+                   "Threads, 0 for every core; the result is the same for any number")
+        ->check(CLI::Range(0, 1024))
+        ->capture_default_str();
+    app.add_flag("--json", options.json, "Write one JSON object on stdout and nothing else");
+    app.add_flag("--quiet", options.quiet, "Show no progress");
+}
+
+ComponentChoice parse_components(const std::string& text, const std::string& option) {
+    if (text == "auto") return {ComponentChoice::Kind::automatic, 0};
+    if (text == "all") return {ComponentChoice::Kind::all, 0};
+    ComponentChoice choice{ComponentChoice::Kind::number, 0};
+    const auto [end, failure] =
+        std::from_chars(text.data(), text.data() + text.size(), choice.number);
+    if (failure != std::errc() || end != text.data() + text.size()) {
+        throw_usage("{}: expected a number, 'auto' or 'all', got '{}'", option, text);
+    }
+    return choice;
+}
+
+void apply(const RawOptions& raw, CompressOptions& options) {
+    if (!raw.albedo.empty()) options.albedo = cli::parse_color(raw.albedo, "--albedo");
+    if (options.bake.rays % 2 != 0) {
+        throw_usage("--rays: expected an even number (two independent halves), got {}",
+                    options.bake.rays);
+    }
+    options.encode.geometry = parse_components(raw.geometry_components, "--geometry-components");
+    options.encode.transfer = parse_components(raw.transfer_components, "--transfer-components");
+    options.encode.precision = raw.precision == "f16" ? Precision::f16 : Precision::f32;
+    if (raw.encode_bands > 0) options.encode.bands = raw.encode_bands;
+}
+
+}  // namespace
+
+std::optional<CompressOptions> parse_options(int argc, const char* const* argv, int& exit_code) {
+    CompressOptions options;
+    RawOptions raw;
+    CLI::App app(
+        "Bakes radiance transfer of a pose sequence and compresses it.\n\n"
+        "  paim-compress OBJ... -o X.paim         bake and encode in one go\n"
+        "  paim-compress bake OBJ... -o X.bake    bake only: long, resumable\n"
+        "  paim-compress encode X.bake -o X.paim  encode only: quick, repeat with other settings\n",
+        "paim-compress");
+    app.set_version_flag("--version", cli::version_text("paim-compress"));
+    app.require_subcommand(0, 1);
+    app.footer(
+        "In one go, the bake is kept beside the output as X.bake, where a killed run goes on; "
+        "--discard-bake\nremoves it at the end.\n"
+        "Exit codes: 0 ok, 1 usage, 2 bad input, 3 unsupported, 4 output failed.");
+    const std::string bands_help = fmt::format(
+        "Spherical-harmonic bands, 1 to {}; B bands are B*B coefficients", sh::kMaxBands);
+    const auto bands_range = CLI::Range(1, sh::kMaxBands);
+
+    // The one-go form has the options of both; its output is required only where it is meant.
+    add_input_options(app, options);
+    add_bake_options(app, options, raw);
+    app.add_option("--bands", options.bake.bands, bands_help)->check(bands_range)->capture_default_str();
+    add_encode_options(app, options, raw);
+    app.add_flag("--discard-bake", options.discard_bake, "Remove the bake once it is encoded");
+    add_common_options(app, options, "The .paim file to write");
+    app.get_option("--output")->required(false);
+
+    CLI::App* bake = app.add_subcommand("bake", "Bake a pose sequence into a .bake directory");
+    add_input_options(*bake, options);
+    bake->get_option("OBJ")->required();
+    add_bake_options(*bake, options, raw);
+    bake->add_option("--bands", options.bake.bands, bands_help)
+        ->check(bands_range)
+        ->capture_default_str();
+    add_common_options(*bake, options, "The .bake directory to write, or to go on with");
+
+    CLI::App* encode = app.add_subcommand("encode", "Encode a .bake directory as a .paim file");
+    encode->add_option("BAKE", options.bake_directory, "The .bake directory")->required();
+    encode->add_option("--bands", raw.encode_bands, "Bands to keep; default: all of the bake's")
+        ->check(bands_range);
+    add_encode_options(*encode, options, raw);
+    add_common_options(*encode, options, "The .paim file to write");
+
+    exit_code = cli::parse(app, argc, argv);
+    if (exit_code >= 0) return std::nullopt;
+    if (bake->parsed()) options.command = CompressOptions::Command::bake;
+    if (encode->parsed()) options.command = CompressOptions::Command::encode;
+    if (options.command == CompressOptions::Command::bake_and_encode) {
+        if (options.inputs.empty()) throw_usage("no OBJ files given; see --help");
+        if (options.output.empty()) throw_usage("--output is required; see --help");
+        if (!options.poses.empty()) throw_usage("--poses goes with 'bake' only");
+    }
+    apply(raw, options);
+    return options;
+}
+
+std::pair<uint32_t, uint32_t> parse_pose_range(const std::string& text, uint32_t num_poses) {
+    if (text.empty()) return {0, num_poses - 1};
+    uint32_t first = 0;
+    const char* end = text.data() + text.size();
+    auto [rest, failure] = std::from_chars(text.data(), end, first);
+    uint32_t last = first;
+    if (failure == std::errc() && rest != end && *rest == '-') {
+        const auto parsed = std::from_chars(rest + 1, end, last);
+        rest = parsed.ptr;
+        failure = parsed.ec;
+    }
+    if (failure != std::errc() || rest != end || first > last || last >= num_poses) {
+        throw_usage("--poses: expected A-B with 0 <= A <= B <= {}, got '{}'", num_poses - 1, text);
+    }
+    return {first, last};
+}
+
+}  // namespace paim

@@ -1,0 +1,44 @@
+// The command line of paim-compress.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compressor/bake/transfer_baker.h"
+#include "compressor/encode/encode.h"
+
+namespace paim {
+
+struct CompressOptions {
+    enum class Command { bake_and_encode, bake, encode } command = Command::bake_and_encode;
+
+    // Bake.
+    std::vector<std::string> inputs;  // OBJ files, patterns, directories
+    bool keep_order = false;
+    BakeOptions bake;
+    std::string normals = "faces";
+    std::optional<Vec3f> albedo;
+    std::string poses;  // "A-B", empty for all
+    bool discard_bake = false;
+
+    // Encode.
+    std::filesystem::path bake_directory;  // of `encode`
+    EncodeOptions encode;
+
+    std::filesystem::path output;
+    int num_threads = 0;
+    bool json = false;
+    bool quiet = false;
+};
+
+// Parses the command line. Returns nothing when the tool is done (help, version, usage error), with the
+// exit code in exit_code. Throws Error(usage) for values out of range.
+std::optional<CompressOptions> parse_options(int argc, const char* const* argv, int& exit_code);
+
+// "A-B" or "A" as first and last pose, inclusive. Throws Error(usage) unless A <= B < num_poses.
+std::pair<uint32_t, uint32_t> parse_pose_range(const std::string& text, uint32_t num_poses);
+
+}  // namespace paim

@@ -1,0 +1,154 @@
+// What paim-compress does, step by step.
+#include "compressor/pipeline.h"
+
+#include <nlohmann/json.hpp>
+
+#include <memory>
+
+#include "compressor/bake/bake_sequence.h"
+#include "compressor/io/obj_files.h"
+#include "compressor/io/obj_sequence.h"
+#include "paim/base/error.h"
+#include "paim/base/file.h"
+#include "paim/base/parallel.h"
+#include "paim/cli/progress.h"
+
+namespace paim {
+
+using nlohmann::ordered_json;
+
+namespace {
+
+// Names the output while the input can still be read: a long bake must not end in a typing mistake.
+void check_output(const std::filesystem::path& output) {
+    const std::filesystem::path parent = std::filesystem::absolute(output).parent_path();
+    if (!std::filesystem::is_directory(parent)) {
+        throw_output_failed("{}: the directory {} does not exist", output.string(), parent.string());
+    }
+}
+
+void check_paim_output(const std::filesystem::path& output) {
+    check_output(output);
+    if (std::filesystem::is_directory(output)) {
+        throw_output_failed("{}: is a directory, expected a file name for the .paim",
+                            output.string());
+    }
+}
+
+ordered_json bake(const CompressOptions& options, const std::filesystem::path& directory) {
+    check_output(directory);
+    const auto files = find_obj_files(options.inputs, options.keep_order);
+    const bool quiet = options.quiet || options.json;
+    cli::Progress checking("checking", "files", files.size(), quiet);
+    ObjOptions obj_options;
+    obj_options.normals_from_file = options.normals == "file";
+    obj_options.albedo = options.albedo;
+    obj_options.on_file_checked = [&] { checking.advance(); };
+    const ObjSequence sequence(files, obj_options);
+    checking.finish();
+    for (const std::string& warning : sequence.warnings()) {
+        fmt::print(stderr, "warning: {}\n", warning);
+    }
+
+    const auto [first, last] = parse_pose_range(options.poses, sequence.num_poses());
+    const uint32_t num_vertices = sequence.topology().num_vertices;
+    cli::Progress baking("baking", "poses", last - first + 1, quiet);
+    const BakeSummary summary = bake_sequence(sequence, options.bake, options.normals, directory,
+                                              first, last, [&](uint32_t) { baking.advance(); });
+    baking.finish();
+
+    const double noise = summary.total.transfer_rms > 0.0
+                             ? summary.total.noise_rms / summary.total.transfer_rms
+                             : 0.0;
+    ordered_json json;
+    json["bake"] = directory.string();
+    json["num_vertices"] = num_vertices;
+    json["num_triangles"] = sequence.topology().triangles.size();
+    json["num_poses"] = sequence.num_poses();
+    json["poses_baked"] = summary.baked;
+    json["poses_resumed"] = summary.resumed;
+    json["bands"] = options.bake.bands;
+    json["rays"] = options.bake.rays;
+    json["rays_traced"] = summary.total.rays;
+    json["rays_blocked"] = summary.total.blocked;
+    json["vertices_without_normal"] = summary.total.zero_normals;
+    json["relative_noise"] = noise;
+    if (!options.json) {
+        fmt::print("{}: {} vertices, {} triangles, poses {}-{} of {} ({} baked, {} found), {} bands\n",
+                   directory.string(), num_vertices, sequence.topology().triangles.size(), first,
+                   last, sequence.num_poses(), summary.baked, summary.resumed, options.bake.bands);
+        fmt::print("  {} rays a vertex, {:.1f} % blocked; estimated noise {:.2f} % of the transfer\n",
+                   options.bake.rays,
+                   summary.total.rays > 0 ? 100.0 * static_cast<double>(summary.total.blocked) /
+                                                static_cast<double>(summary.total.rays)
+                                          : 0.0,
+                   100.0 * noise);
+        if (summary.total.zero_normals > 0) {
+            fmt::print("  {} vertices (over all poses) have no normal; their transfer is 0\n",
+                       summary.total.zero_normals);
+        }
+    }
+    return json;
+}
+
+ordered_json encode_to(const CompressOptions& options, const std::filesystem::path& directory) {
+    check_paim_output(options.output);
+    const BakeReader reader(directory);
+    EncodeOptions encode_options = options.encode;
+    encode_options.name = options.output.stem().string();
+    const EncodeSummary summary = encode(reader, encode_options, options.output);
+    const auto part_json = [](uint32_t components, uint32_t rank, double theory, double energy) {
+        ordered_json json;
+        json["components"] = components;
+        json["rank"] = rank;
+        json["theory_error"] = theory;
+        json["energy_error"] = energy;
+        return json;
+    };
+    ordered_json json;
+    json["paim"] = options.output.string();
+    json["num_vertices"] = reader.identity().num_vertices;
+    json["num_poses"] = reader.num_poses();
+    json["bands"] = summary.bands;
+    json["geometry"] = part_json(summary.geometry_components, summary.geometry_rank,
+                                 summary.geometry_theory_error, summary.geometry_energy_error);
+    json["transfer"] = part_json(summary.transfer_components, summary.transfer_rank,
+                                 summary.transfer_theory_error, summary.transfer_energy_error);
+    json["size_bytes"] = summary.size_bytes;
+    if (!options.json) {
+        fmt::print("{}: {:.2f} MB, {} bands\n", options.output.string(),
+                   static_cast<double>(summary.size_bytes) / 1e6, summary.bands);
+        fmt::print("  geometry: {} of {} components, energy error {:.3g} %, theoretical error {:.3g} %\n",
+                   summary.geometry_components, summary.geometry_rank,
+                   100.0 * summary.geometry_energy_error, 100.0 * summary.geometry_theory_error);
+        fmt::print("  transfer: {} of {} components, energy error {:.3g} %, theoretical error {:.3g} %\n",
+                   summary.transfer_components, summary.transfer_rank,
+                   100.0 * summary.transfer_energy_error, 100.0 * summary.transfer_theory_error);
+    }
+    return json;
+}
+
+}  // namespace
+
+void run(const CompressOptions& options) {
+    const ThreadLimit limit(options.num_threads);
+    ordered_json json;
+    switch (options.command) {
+        case CompressOptions::Command::bake: json = bake(options, options.output); break;
+        case CompressOptions::Command::encode:
+            json = encode_to(options, options.bake_directory);
+            break;
+        case CompressOptions::Command::bake_and_encode: {
+            check_paim_output(options.output);
+            std::filesystem::path directory = options.output;
+            directory.replace_extension(".bake");
+            json["bake"] = bake(options, directory);
+            json["encode"] = encode_to(options, directory);
+            if (options.discard_bake) std::filesystem::remove_all(directory);
+            break;
+        }
+    }
+    if (options.json) fmt::print("{}\n", json.dump(2));
+}
+
+}  // namespace paim

@@ -1,0 +1,27 @@
+// How far an image is from a reference.
+// Based on: Cardoso and Kry, Error Analysis of Precomputed Radiance Transfer for Deforming Geometry, 2012
+#pragma once
+
+#include <cstdint>
+
+#include "paim/image/image.h"
+
+namespace paim {
+
+// Sums over pixels and channels of linear radiance, so that several images make one figure.
+struct ImageError {
+    double absolute_sum = 0.0;   // Σ |I − I_reference|
+    double reference_sum = 0.0;  // Σ |I_reference|
+    double worst = 0.0;          // largest |I − I_reference| of a channel
+    int worst_x = 0, worst_y = 0;
+
+    // E6, the paper's visual error: Σ|I_full − I_K| / Σ|I_full|; 0 where both are 0.
+    double visual_error() const;
+
+    void add(const ImageError& other);
+};
+
+// The images have the same size (checked).
+ImageError compare_images(const Image& image, const Image& reference);
+
+}  // namespace paim

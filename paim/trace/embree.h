@@ -1,0 +1,36 @@
+// Embree 3 or 4, whichever the system has, behind one set of names.
+#pragma once
+
+#if PAIM_EMBREE_VERSION >= 4
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+namespace paim::embree {
+
+// The default way to trace a ray. May be shared by the rays of one thread.
+class Context {
+  public:
+#if PAIM_EMBREE_VERSION >= 4
+    Context() {
+        rtcInitOccludedArguments(&occluded_);
+        rtcInitIntersectArguments(&intersect_);
+    }
+    void occluded(RTCScene scene, RTCRay& ray) { rtcOccluded1(scene, &ray, &occluded_); }
+    void intersect(RTCScene scene, RTCRayHit& ray) { rtcIntersect1(scene, &ray, &intersect_); }
+
+  private:
+    RTCOccludedArguments occluded_;
+    RTCIntersectArguments intersect_;
+#else
+    Context() { rtcInitIntersectContext(&context_); }
+    void occluded(RTCScene scene, RTCRay& ray) { rtcOccluded1(scene, &context_, &ray); }
+    void intersect(RTCScene scene, RTCRayHit& ray) { rtcIntersect1(scene, &context_, &ray); }
+
+  private:
+    RTCIntersectContext context_;
+#endif
+};
+
+}  // namespace paim::embree

@@ -1,0 +1,138 @@
+// Rays against triangles, through Embree.
+// Based on: Wald, Woop, Benthin, Johnson and Ernst, Embree: A Kernel Framework for Efficient CPU Ray
+//           Tracing, 2014
+#include "paim/trace/scene.h"
+
+#include <cstring>
+#include <limits>
+#include <mutex>
+#include <string>
+
+#include "paim/base/check.h"
+#include "paim/base/error.h"
+#include "paim/trace/embree.h"
+
+namespace paim {
+
+namespace {
+
+// Remembers the first error that Embree reports, until somebody asks.
+class Device {
+  public:
+    Device() : device_(rtcNewDevice(nullptr)) {
+        if (device_ == nullptr) {
+            throw_unsupported("Embree cannot start (error {})",
+                              static_cast<int>(rtcGetDeviceError(nullptr)));
+        }
+        rtcSetDeviceErrorFunction(device_, &Device::report, this);
+    }
+    ~Device() { rtcReleaseDevice(device_); }
+    Device(const Device&) = delete;
+    Device& operator=(const Device&) = delete;
+
+    RTCDevice handle() const { return device_; }
+
+    void throw_if_failed() {
+        const std::lock_guard lock(mutex_);
+        if (!error_.empty()) throw_unsupported("Embree: {}", error_);
+    }
+
+  private:
+    static void report(void* user, RTCError code, const char* text) {
+        auto* self = static_cast<Device*>(user);
+        const std::lock_guard lock(self->mutex_);
+        if (self->error_.empty()) {
+            self->error_ = fmt::format("error {}: {}", static_cast<int>(code), text ? text : "");
+        }
+    }
+
+    RTCDevice device_;
+    std::mutex mutex_;
+    std::string error_;
+};
+
+// Copies into a buffer that Embree owns and pads.
+template <typename T>
+void set_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, const T* data,
+                size_t count) {
+    void* buffer = rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(T), count);
+    if (buffer != nullptr && count > 0) std::memcpy(buffer, data, count * sizeof(T));
+}
+
+RTCRay make_ray(const Vec3f& origin, const Vec3f& direction) {
+    RTCRay ray;
+    ray.org_x = origin.x();
+    ray.org_y = origin.y();
+    ray.org_z = origin.z();
+    ray.dir_x = direction.x();
+    ray.dir_y = direction.y();
+    ray.dir_z = direction.z();
+    ray.tnear = 0.0f;
+    ray.tfar = std::numeric_limits<float>::infinity();
+    ray.time = 0.0f;
+    ray.mask = 0xffffffffu;
+    ray.id = 0;
+    ray.flags = 0;
+    return ray;
+}
+
+}  // namespace
+
+struct Scene::Impl {
+    Device device;
+    RTCScene scene = nullptr;
+
+    ~Impl() {
+        if (scene != nullptr) rtcReleaseScene(scene);
+    }
+};
+
+Scene::Scene(const Topology& topology, std::span<const Vec3f> positions)
+    : impl_(std::make_unique<Impl>()) {
+    PAIM_CHECK_EQ(positions.size(), topology.num_vertices);
+    const RTCDevice device = impl_->device.handle();
+    impl_->scene = rtcNewScene(device);
+    rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(impl_->scene, RTC_BUILD_QUALITY_HIGH);
+    if (!topology.triangles.empty()) {
+        const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+        set_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, positions.data(),
+                   positions.size());
+        set_buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, topology.triangles.data(),
+                   topology.triangles.size());
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometry(impl_->scene, geometry);
+        rtcReleaseGeometry(geometry);
+    }
+    rtcCommitScene(impl_->scene);
+    impl_->device.throw_if_failed();
+}
+
+Scene::~Scene() = default;
+
+uint32_t Scene::blocked(const Vec3f& origin, const float* x, const float* y, const float* z,
+                        uint32_t count, float* blocked) const {
+    embree::Context context;
+    uint32_t num_blocked = 0;
+    for (uint32_t j = 0; j < count; ++j) {
+        RTCRay ray = make_ray(origin, {x[j], y[j], z[j]});
+        context.occluded(impl_->scene, ray);
+        const bool hit = ray.tfar < 0.0f;  // Embree's mark of a blocked ray
+        blocked[j] = hit ? 1.0f : 0.0f;
+        num_blocked += hit ? 1 : 0;
+    }
+    return num_blocked;
+}
+
+std::optional<Hit> Scene::first_hit(const Vec3f& origin, const Vec3f& direction) const {
+    embree::Context context;
+    RTCRayHit query;
+    query.ray = make_ray(origin, direction);
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    context.intersect(impl_->scene, query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    return Hit{query.ray.tfar, query.hit.primID, query.hit.u, query.hit.v};
+}
+
+}  // namespace paim

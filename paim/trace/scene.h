@@ -1,0 +1,46 @@
+// Rays against the triangles of one pose. The one room that knows Embree.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "paim/base/vector.h"
+#include "paim/mesh/topology.h"
+
+namespace paim {
+
+struct Hit {
+    float distance;     // along the (unit) direction, scene units
+    uint32_t triangle;  // index into the topology's triangles
+    float u, v;         // barycentric weights of the triangle's second and third vertex
+};
+
+// An acceleration structure over one pose. Built on construction; all queries are thread-safe. Both
+// sides of a triangle are hit. Answers do not depend on the number of threads: traversal is Embree's
+// conservative ("robust") one, so that it is the triangle tests alone that decide.
+class Scene {
+  public:
+    // positions [V] finite. Throws Error(unsupported) if Embree cannot be started, or what it reports.
+    Scene(const Topology& topology, std::span<const Vec3f> positions);
+    ~Scene();
+    Scene(const Scene&) = delete;
+    Scene& operator=(const Scene&) = delete;
+
+    // Whether anything lies in each direction from the origin, at any distance > 0.
+    // x, y, z  [count] unit directions
+    // blocked  [count] 1 or 0
+    // returns  how many are blocked
+    uint32_t blocked(const Vec3f& origin, const float* x, const float* y, const float* z,
+                     uint32_t count, float* blocked) const;
+
+    // The nearest hit at distance > 0, if any.
+    std::optional<Hit> first_hit(const Vec3f& origin, const Vec3f& direction) const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace paim

@@ -1,0 +1,23 @@
+# cmake -D SOURCE=DIR -D DESTINATION=DIR -P unpack.cmake: every NAME.tar.zst below SOURCE into
+# DESTINATION/NAME/, unless that was done since the archive last changed.
+file(GLOB_RECURSE archives ${SOURCE}/*.tar.zst)
+if(NOT archives)
+    message(FATAL_ERROR "${SOURCE}: no *.tar.zst archives")
+endif()
+foreach(archive IN LISTS archives)
+    get_filename_component(name ${archive} NAME)
+    string(REPLACE ".tar.zst" "" name ${name})
+    set(folder ${DESTINATION}/${name})
+    set(stamp ${folder}.unpacked)
+    if(EXISTS ${stamp} AND NOT ${archive} IS_NEWER_THAN ${stamp})
+        continue()
+    endif()
+    file(REMOVE_RECURSE ${folder})
+    file(MAKE_DIRECTORY ${folder})
+    execute_process(COMMAND ${CMAKE_COMMAND} -E tar xf ${archive}
+        WORKING_DIRECTORY ${folder} RESULT_VARIABLE result)
+    if(NOT result EQUAL 0)
+        message(FATAL_ERROR "${archive}: cannot be unpacked")
+    endif()
+    file(TOUCH ${stamp})
+endforeach()

@@ -1,0 +1,65 @@
+// The decoder against the sum it stands for, and its limits.
+#include "paim/codec/svd_decoder.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/example_model.h"
+
+namespace paim {
+namespace {
+
+// Row r of column p, by definition, from the first K components.
+float element(const LowRankMatrix& matrix, size_t row, size_t p, uint32_t num_components) {
+    double value = matrix.mean[row];
+    for (uint32_t k = 0; k < num_components; ++k) {
+        value += static_cast<double>(matrix.component(k)[row]) *
+                 matrix.weights[size_t{k} * matrix.num_poses + p];
+    }
+    return static_cast<float>(value);
+}
+
+TEST(SvdDecoder, IsTheSumItStandsFor) {
+    const Model model = make_example_model(3, 3);
+    const SvdDecoder decoder(model);
+    DecodedPose pose;
+    for (uint32_t p = 0; p < model.num_poses(); ++p) {
+        decoder.decode(p, {}, pose);
+        ASSERT_EQ(pose.positions.size(), 12u);
+        ASSERT_EQ(pose.transfer.size(), 27u * 4);
+        for (size_t row = 0; row < pose.positions.size(); ++row) {
+            EXPECT_NEAR(pose.positions[row], element(model.geometry, row, p, 3), 1e-6f);
+        }
+        for (size_t row = 0; row < pose.transfer.size(); ++row) {
+            EXPECT_NEAR(pose.transfer[row], element(model.transfer, row, p, 3), 1e-6f);
+        }
+    }
+}
+
+TEST(SvdDecoder, ObeysLimits) {
+    const Model model = make_example_model(3, 3);
+    const SvdDecoder decoder(model);
+    DecodedPose pose;
+    decoder.decode(2.0, {1, 2, 2}, pose);
+    EXPECT_EQ(pose.layout.bands, 2u);
+    ASSERT_EQ(pose.transfer.size(), 3u * 4 * 4);
+    EXPECT_NEAR(pose.positions[7], element(model.geometry, 7, 2, 1), 1e-6f);
+    // Plane 1·4+3 of the limited layout is plane 1·9+3 of the model's; vertex 2.
+    EXPECT_NEAR(pose.transfer[(4 + 3) * 4 + 2], element(model.transfer, (9 + 3) * 4 + 2, 2, 2), 1e-6f);
+}
+
+TEST(SvdDecoder, InterpolatesWeightsAndClampsTime) {
+    const Model model = make_example_model();
+    std::vector<float> weights;
+    interpolate_weights(model.geometry, 1.25, weights);
+    for (uint32_t k = 0; k < 3; ++k) {
+        const float* row = model.geometry.weights.data() + k * 5;
+        EXPECT_NEAR(weights[k], 0.75f * row[1] + 0.25f * row[2], 1e-6f);
+    }
+    interpolate_weights(model.geometry, 99.0, weights);
+    EXPECT_EQ(weights[0], model.geometry.weights[4]);
+    interpolate_weights(model.geometry, -1.0, weights);
+    EXPECT_EQ(weights[0], model.geometry.weights[0]);
+}
+
+}  // namespace
+}  // namespace paim

@@ -1,0 +1,133 @@
+// .paim files: round trip, order of components, cuts at 50 places, numbers that make no sense.
+#include "paim/format/paim_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "paim/base/error.h"
+#include "paim/base/file.h"
+#include "tests/example_model.h"
+#include "tests/temporary_directory.h"
+
+namespace paim {
+namespace {
+
+void expect_equal(const LowRankMatrix& a, const LowRankMatrix& b) {
+    EXPECT_EQ(a.num_planes, b.num_planes);
+    EXPECT_EQ(a.num_components, b.num_components);
+    EXPECT_EQ(a.precision, b.precision);
+    EXPECT_EQ(a.mean, b.mean);
+    EXPECT_EQ(a.components, b.components);
+    EXPECT_EQ(a.weights, b.weights);
+    EXPECT_EQ(a.singular_values, b.singular_values);
+}
+
+TEST(PaimFile, RoundTrips) {
+    const TemporaryDirectory directory;
+    for (const uint32_t channels : {1u, 3u}) {
+        Model model = make_example_model(3, channels);
+        if (channels == 3) model.albedo.values.assign(4, Vec3f(0.1f, 0.2f, 0.3f));
+        write_paim(directory / "x.paim", model);
+        const Model read = read_paim(directory / "x.paim");
+        EXPECT_EQ(read.topology, model.topology);
+        EXPECT_EQ(read.albedo.values, model.albedo.values);
+        EXPECT_EQ(read.layout, model.layout);
+        EXPECT_EQ(read.name, model.name);
+        EXPECT_EQ(read.provenance_json, model.provenance_json);
+        EXPECT_EQ(read.frames_per_second, model.frames_per_second);
+        expect_equal(read.geometry, model.geometry);
+        expect_equal(read.transfer, model.transfer);
+        EXPECT_EQ(std::filesystem::file_size(directory / "x.paim"), paim_size_bytes(model));
+    }
+}
+
+TEST(PaimFile, HalfComponentsAreRoundedToNearest) {
+    const TemporaryDirectory directory;
+    Model model = make_example_model();
+    model.transfer.precision = Precision::f16;
+    write_paim(directory / "x.paim", model);
+    const Model read = read_paim(directory / "x.paim");
+    EXPECT_EQ(read.transfer.precision, Precision::f16);
+    EXPECT_EQ(read.geometry.components, model.geometry.components);
+    for (size_t j = 0; j < model.transfer.components.size(); ++j) {
+        const float exact = model.transfer.components[j];
+        // Half floats have 11 significant bits: half a unit in the last place is 2^-12 relative.
+        EXPECT_LE(std::abs(read.transfer.components[j] - exact), std::abs(exact) * 0x1p-12f + 1e-7f);
+    }
+}
+
+TEST(PaimFile, HoldsStillAnimationsWithoutComponents) {
+    const TemporaryDirectory directory;
+    Model model = make_example_model(2, 1, 5, 0);
+    write_paim(directory / "x.paim", model);
+    const Model read = read_paim(directory / "x.paim");
+    EXPECT_EQ(read.num_poses(), 5u);
+    EXPECT_TRUE(read.transfer.components.empty());
+}
+
+TEST(PaimFile, OrdersComponentsByShareOfEnergy) {
+    Model model = make_example_model();
+    model.geometry.singular_values = {10.0, 1.0, 0.1};  // shares 0.99, 0.0099, 0.000099
+    model.transfer.singular_values = {1.0, 0.5, 0.25};  // shares 0.76, 0.19, 0.048
+    const std::vector<ComponentId> expected{{Part::geometry, 0}, {Part::transfer, 0},
+                                            {Part::transfer, 1}, {Part::transfer, 2},
+                                            {Part::geometry, 1}, {Part::geometry, 2}};
+    EXPECT_EQ(component_order(model), expected);
+}
+
+TEST(PaimFile, RefusesCutsAtFiftyPlaces) {
+    const TemporaryDirectory directory;
+    write_paim(directory / "x.paim", make_example_model(5));
+    const auto whole = read_file(directory / "x.paim", 1 << 20);
+    for (size_t cut = 0; cut < 50; ++cut) {
+        const size_t length = whole.size() * cut / 50;
+        write_file(directory / "cut.paim", {whole.data(), length});
+        try {
+            read_paim(directory / "cut.paim");
+            ADD_FAILURE() << "read a file cut at " << length;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ExitCode::bad_input);
+            EXPECT_NE(std::string(error.what()).find("cut.paim"), std::string::npos);
+        }
+    }
+}
+
+// What reading this model's file says.
+std::string complaint(const Model& model) {
+    const TemporaryDirectory directory;
+    write_paim(directory / "x.paim", model);
+    try {
+        read_paim(directory / "x.paim");
+        return "nothing";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ExitCode::bad_input);
+        return error.what();
+    }
+}
+
+TEST(PaimFile, RefusesContentsThatCannotBePlayed) {
+    Model model = make_example_model();
+    model.topology.triangles[1][2] = 4;
+    EXPECT_NE(complaint(model).find("triangle 1: vertex 4, expected 0 to 3"), std::string::npos);
+
+    model = make_example_model();
+    model.transfer.components[5] = std::nanf("");
+    EXPECT_NE(complaint(model).find("section TCMP: value 5 is nan"), std::string::npos)
+        << complaint(model);
+
+    model = make_example_model();
+    model.geometry.singular_values = {1.0, 2.0, 0.5};
+    EXPECT_NE(complaint(model).find("descending"), std::string::npos);
+
+    model = make_example_model();
+    model.albedo.values.resize(3, Vec3f::Zero());
+    EXPECT_NE(complaint(model).find("expected 1 or 4 colours"), std::string::npos);
+
+    model = make_example_model();
+    model.layout.bands = 3;  // says 9 planes, holds 4
+    EXPECT_NE(complaint(model).find("expected 9 x 4"), std::string::npos) << complaint(model);
+}
+
+}  // namespace
+}  // namespace paim

@@ -1,0 +1,158 @@
+// Sequences: what is read, what all files must share, errors and warnings in their words.
+#include "compressor/io/obj_sequence.h"
+
+#include <atomic>
+
+#include "paim/base/hash.h"
+#include "paim/base/parallel.h"
+#include "paim/mesh/normals.h"
+#include "tests/unit/io/obj_test_files.h"
+
+namespace paim {
+namespace {
+
+TEST(ObjSequence, ReadsPositionsAndComputesNormals) {
+    // Two objects, a relative index, a quad, a decimal that float rounds.
+    const ObjTestFiles files({
+        "o a\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\no b\nv 0 0 1.1\nf 1/1 -1/1 2/1\n",
+        "v 0 0 0\r\nv 2 0 0\r\nv 2 2 0\r\nv 0 2 0\r\nv 0 0 2.2\r\ng x\r\nf 1 2 3 4\r\nf 1 5 2\r\n",
+    });
+    const ObjSequence sequence(files.files());
+    EXPECT_EQ(sequence.num_poses(), 2u);
+    EXPECT_EQ(files.shortened(sequence.pose_name(1)), "1.obj");
+    EXPECT_EQ(sequence.topology(), (Topology{5, {{0, 1, 2}, {0, 2, 3}, {0, 4, 1}}}));
+    EXPECT_TRUE(sequence.warnings().empty());
+    EXPECT_EQ(sequence.albedo().values, Albedo().values);
+
+    const Pose pose = sequence.load_pose(1);
+    EXPECT_EQ(pose.positions,
+              (std::vector<Vec3f>{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {0, 0, 2.2f}}));
+    EXPECT_EQ(pose.normals, vertex_normals(sequence.topology(), pose.positions));
+    const auto bytes = read_file(files.files()[1], 1000);
+    EXPECT_EQ(sequence.pose_checksum(1), xxh3(bytes.data(), bytes.size()));
+    EXPECT_NE(sequence.pose_checksum(0), sequence.pose_checksum(1));
+}
+
+TEST(ObjSequence, RoundsCoordinatesToTheNearestFloat) {
+    // 1.0000000597 is just above 1 + 2^-24, half-way between floats: digits added up in float,
+    // or cut off, miss it.
+    const ObjTestFiles files(
+        {"v 1.0000000597 0.1 123456.789\nv 16777217.5 -1e-7 3e38\n"
+         "v 0.13642546 8.00000095 -0.3333333333333333333333333333\nf 1 2 3\n"});
+    const Pose pose = ObjSequence(files.files()).load_pose(0);
+    EXPECT_EQ(pose.positions, (std::vector<Vec3f>{{1.00000012f, 0.1f, 123456.789f},
+                                                  {16777218.0f, -1e-7f, 3e38f},
+                                                  {0.13642546f, 8.00000095f, -0.33333334f}}));
+}
+
+TEST(ObjSequence, TriangulatesAllPosesLikeTheFirst) {
+    // The second pose alone would be cut along the other diagonal.
+    const std::string faces = "f 1 2 3 4\n";
+    const ObjTestFiles files({"v 0 0 0\nv 3 0 0\nv 4 1 0\nv 1 1 0\n" + faces,
+                              "v 1 0 0\nv 4 0 0\nv 3 1 0\nv 0 1 0\n" + faces});
+    const ObjSequence sequence(files.files());
+    EXPECT_EQ(sequence.topology().triangles, (std::vector<Triangle>{{0, 1, 3}, {1, 2, 3}}));
+    const ObjSequence turned({files.files()[1], files.files()[0]});
+    EXPECT_EQ(turned.topology().triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
+}
+
+TEST(ObjSequence, AveragesNormalsOfTheFile) {
+    ObjOptions options;
+    options.normals_from_file = true;
+    // Vertex 1: mean of +z and +y, not unit in the file. Vertex 2: one corner has none. Vertex 3:
+    // its vn is zero, vertex 4: its two cancel; both get the computed one. Vertex 5 has no face.
+    const std::string mesh = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 9 9 9\n";
+    const ObjTestFiles files(
+        {mesh + "vn 0 0 5\nvn 0 1e-20 0\nvn 0 0 0\nvn 0 -3 0\n"
+                "f 1//1 2//2 3//3\nf 1//2 3//3 4//4\nf 1//1 2 4//2\n",
+         // Other normals in another order.
+         "vn 1 0 0\n" + mesh + "f 1//1 2//1 3//1\nf 1//-1 3//1 4//1\nf 1//1 2//1 4//1\n"});
+    const ObjSequence sequence(files.files(), options);
+    Pose pose = sequence.load_pose(0);
+    // Float rounding of a unit vector's entries.
+    EXPECT_LT((pose.normals[0] - Vec3f(0, 1, 2).normalized()).norm(), 1e-7f);
+    EXPECT_EQ(pose.normals[1], Vec3f(0, 1, 0));
+    EXPECT_EQ(pose.normals[2], Vec3f(0, 0, 1));
+    EXPECT_EQ(pose.normals[3], Vec3f(0, 0, 1));
+    EXPECT_EQ(pose.normals[4], Vec3f(0, 0, 0));
+    pose = sequence.load_pose(1);
+    for (int v = 0; v < 4; ++v) EXPECT_EQ(pose.normals[v], Vec3f(1, 0, 0));
+
+    EXPECT_EQ(sequence_error({kTriangleObj}, options),
+              "0.obj: vertex 1 has no normal (vn) in any of its faces");
+}
+
+TEST(ObjSequence, RefusesFilesUnlikeTheFirst) {
+    const std::string good = kTriangleObj;
+    EXPECT_EQ(sequence_error({good, good + "v 0 0 0\n"}),
+              "1.obj: 4 vertices, expected 3 (as in 0.obj)");
+    EXPECT_EQ(sequence_error({good, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 3 2\n"}),
+              "1.obj:4: face 1 is '1 3 2', expected '1 2 3' (as in 0.obj)");
+    EXPECT_EQ(sequence_error({good, good + "f 3 2 1\n"}),
+              "1.obj: 2 faces, expected 1 (as in 0.obj)");
+    EXPECT_EQ(sequence_error({good, "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n"}),
+              "1.obj:2: vertex coordinate: expected a finite number, got 'nan'");
+    EXPECT_EQ(sequence_error({good, ""}), "1.obj: no vertices");
+    EXPECT_EQ(sequence_error({"", good}), "0.obj: no vertices");
+    EXPECT_EQ(sequence_error({"v 0 0 0\nf 1 1 1\n"}),
+              "0.obj: no faces with three different vertices");
+    EXPECT_EQ(bad_input_of([] { ObjSequence({}); }), "no OBJ files: expected at least one");
+    EXPECT_EQ(bad_input_of([] { ObjSequence({"/nonexistent/x.obj"}); }),
+              "/nonexistent/x.obj: cannot open: No such file or directory");
+}
+
+TEST(ObjSequence, NamesTheReferenceWithItsFolderOnlyIfItIsAnother) {
+    const ObjTestFiles first({kTriangleObj}), second({std::string(kTriangleObj) + "v 0 0 0\n"});
+    const std::string first_name = first.files()[0].string();
+    const std::string message = bad_input_of([&] {
+        ObjSequence({first.files()[0], second.files()[0]});
+    });
+    EXPECT_EQ(second.shortened(message),
+              "0.obj: 4 vertices, expected 3 (as in " + first_name + ")");
+}
+
+TEST(ObjSequence, ReportsTheFirstBadFileOnAnyNumberOfThreads) {
+    std::vector<std::string> contents(40, kTriangleObj);
+    for (const size_t i : {17, 18, 25, 39}) contents[i] = "bad";
+    // A long one before them, so that others finish first.
+    contents[11] = std::string(200000, '\n') + "bad";
+    for (const int num_threads : {1, 2, 8}) {
+        const ThreadLimit limit(num_threads);
+        EXPECT_EQ(sequence_error(contents), "11.obj: no vertices") << num_threads;
+    }
+}
+
+TEST(ObjSequence, CallsBackForEachFile) {
+    const ObjTestFiles files(std::vector<std::string>(7, kTriangleObj));
+    std::atomic<int> count{0};
+    ObjOptions options;
+    options.on_file_checked = [&] { ++count; };
+    const ObjSequence sequence(files.files(), options);
+    EXPECT_EQ(count.load(), 7);
+}
+
+TEST(ObjSequence, NoticesFilesThatChange) {
+    const ObjTestFiles files({kTriangleObj, kTriangleObj});
+    const ObjSequence sequence(files.files());
+    files.add("1.obj", "v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n");
+    EXPECT_EQ(files.shortened(bad_input_of([&] { sequence.load_pose(1); })),
+              "1.obj: changed since the sequence was opened");
+    EXPECT_EQ(sequence.load_pose(0).positions.size(), 3u);
+}
+
+TEST(ObjSequence, CountsWhatIsOdd) {
+    const ObjTestFiles files(
+        {"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 5 5\nv 2 0 0\nv 3 0 0\nv 4 0 0\n"
+         "f 1 2 3\nf 1 2\nl 1 2\np 4\nf 1 1 2 3\nf 2 5 6 7\n"});
+    EXPECT_EQ(files.warnings(ObjSequence(files.files())),
+              (std::vector<std::string>{
+                  "0.obj: 1 vertices belong to no face",
+                  "0.obj: 1 faces of fewer than 3 vertices ignored",
+                  "0.obj: 2 points and lines ignored",
+                  "0.obj: 1 faces name a vertex twice",
+                  "0.obj: 1 faces without area or tangled, cut as fans",
+              }));
+}
+
+}  // namespace
+}  // namespace paim

@@ -1,0 +1,63 @@
+// Errors of spectra, images and arrays on numbers small enough to work out by hand.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "paim/metrics/array_error.h"
+#include "paim/metrics/image_error.h"
+#include "paim/metrics/spectrum.h"
+
+namespace paim {
+namespace {
+
+TEST(Spectrum, ErrorsOfDroppedComponents) {
+    const std::vector<double> s{4.0, 3.0, 0.0};
+    EXPECT_DOUBLE_EQ(theory_error(s, 0), 1.0);
+    EXPECT_DOUBLE_EQ(theory_error(s, 1), 3.0 / 7.0);
+    EXPECT_DOUBLE_EQ(energy_error(s, 1), 3.0 / 5.0);
+    EXPECT_DOUBLE_EQ(theory_error(s, 2), 0.0);
+    EXPECT_DOUBLE_EQ(energy_error(s, 9), 0.0);
+}
+
+TEST(Spectrum, StillAnimationsAndExtremesAreFinite) {
+    EXPECT_EQ(theory_error(std::vector<double>{}, 0), 0.0);
+    EXPECT_EQ(energy_error(std::vector<double>{0.0, 0.0}, 0), 0.0);
+    EXPECT_DOUBLE_EQ(energy_error(std::vector<double>{4e200, 3e200}, 1), 0.6);
+    EXPECT_DOUBLE_EQ(energy_error(std::vector<double>{4e-200, 3e-200}, 1), 0.6);
+}
+
+TEST(ImageError, SumsAndFindsTheWorstPixel) {
+    Image reference(2, 2, Vec3f(1, 1, 1));
+    Image image = reference;
+    image.at(1, 0) = Vec3f(1.5f, 1, 0.75f);
+    const ImageError error = compare_images(image, reference);
+    EXPECT_DOUBLE_EQ(error.visual_error(), 0.75 / 12.0);
+    EXPECT_DOUBLE_EQ(error.worst, 0.5);
+    EXPECT_EQ(error.worst_x, 1);
+    EXPECT_EQ(error.worst_y, 0);
+    EXPECT_EQ(compare_images(Image(2, 2), Image(2, 2)).visual_error(), 0.0);
+    EXPECT_TRUE(std::isinf(compare_images(reference, Image(2, 2)).visual_error()));
+}
+
+TEST(ArrayError, RelativeRmsAndWorst) {
+    ArrayError error;
+    error.add(std::vector<float>{1, 2}, std::vector<float>{1, 2}, 0);
+    error.add(std::vector<float>{3, 0}, std::vector<float>{0, 4}, 1);
+    EXPECT_DOUBLE_EQ(error.rms(), std::sqrt(25.0 / 4));
+    EXPECT_DOUBLE_EQ(error.relative(), std::sqrt(25.0 / 21));
+    EXPECT_EQ(error.worst, 4.0);
+    EXPECT_EQ(error.worst_index, 1u);
+    EXPECT_EQ(error.worst_pose, 1u);
+}
+
+TEST(DistanceError, MeasuresPointsNotCoordinates) {
+    DistanceError error;
+    error.add(std::vector<float>{0, 3, 0, 4, 0, 0}, std::vector<float>{0, 0, 0, 0, 0, 0}, 3);
+    EXPECT_DOUBLE_EQ(error.worst, 5.0);
+    EXPECT_EQ(error.worst_vertex, 1u);
+    EXPECT_EQ(error.worst_pose, 3u);
+    EXPECT_DOUBLE_EQ(error.rms(), std::sqrt(25.0 / 2));
+}
+
+}  // namespace
+}  // namespace paim

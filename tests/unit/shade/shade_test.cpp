@@ -1,0 +1,67 @@
+// CPU shading and the camera.
+#include "paim/shade/shade.h"
+
+#include <gtest/gtest.h>
+
+#include "paim/shade/camera.h"
+
+namespace paim {
+namespace {
+
+TEST(Shade, IsAlbedoTimesTransferTimesLight) {
+    // Two vertices, two bands, one channel.
+    const TransferLayout layout{TransferKind::diffuse, 2, 1};
+    const std::vector<float> transfer{1, 2, 3, 4, 5, 6, 7, 8};  // [plane][V]
+    LightCoefficients light{2, {Vec3f(1, 0, 0), Vec3f(0, 1, 0), Vec3f(0, 0, 1), Vec3f(1, 1, 1)}};
+    Albedo albedo{{Vec3f(1, 1, 1), Vec3f(0.5f, 0.5f, 0.25f)}};
+    std::vector<Vec3f> radiance;
+    shade(layout, transfer, albedo, light, radiance);
+    EXPECT_EQ(radiance[0], Vec3f(1 + 7, 3 + 7, 5 + 7));
+    EXPECT_EQ(radiance[1], Vec3f((2 + 8) * 0.5f, (4 + 8) * 0.5f, (6 + 8) * 0.25f));
+}
+
+TEST(Shade, TakesThreeChannelsAndFewerLightBands) {
+    const TransferLayout layout{TransferKind::diffuse, 2, 3};
+    std::vector<float> transfer(12);
+    for (size_t j = 0; j < 12; ++j) transfer[j] = static_cast<float>(j);
+    const LightCoefficients light{1, {Vec3f(1, 10, 100)}};
+    std::vector<Vec3f> radiance;
+    shade(layout, transfer, {{Vec3f::Ones()}}, light, radiance);
+    EXPECT_EQ(radiance[0], Vec3f(0, 4 * 10, 8 * 100));
+}
+
+TEST(Camera, RaysAndProjectionAgree) {
+    Bounds bounds;
+    bounds.extend(Vec3f(-1, -2, -3));
+    bounds.extend(Vec3f(4, 2, 1));
+    const float aspect = 1.5f;
+    const Camera camera = frame_bounds(bounds, aspect);
+    const Eigen::Matrix4f to_clip = camera.projection(aspect, 0.1f, 100.0f) * camera.view();
+    for (const auto& [u, v] : {std::pair{0.5f, 0.5f}, {0.1f, 0.9f}, {0.99f, 0.3f}}) {
+        const Vec3f point = camera.eye + 5.0f * camera.ray_direction(u, v, aspect);
+        const Eigen::Vector4f clip = to_clip * point.homogeneous();
+        EXPECT_NEAR(clip.x() / clip.w(), 2.0f * u - 1.0f, 1e-5f);
+        EXPECT_NEAR(clip.y() / clip.w(), 1.0f - 2.0f * v, 1e-5f);
+    }
+}
+
+TEST(Camera, FramesAllCornersOfTheBounds) {
+    Bounds bounds;
+    bounds.extend(Vec3f(-10, 0, 2));
+    bounds.extend(Vec3f(4, 2, 7));
+    for (const float aspect : {0.5f, 1.0f, 2.0f}) {
+        const Camera camera = frame_bounds(bounds, aspect, 1.0f, 0.4f);
+        const Eigen::Matrix4f to_clip = camera.projection(aspect, 0.1f, 1000.0f) * camera.view();
+        for (int corner = 0; corner < 8; ++corner) {
+            const Vec3f point(corner & 1 ? bounds.upper.x() : bounds.lower.x(),
+                              corner & 2 ? bounds.upper.y() : bounds.lower.y(),
+                              corner & 4 ? bounds.upper.z() : bounds.lower.z());
+            const Eigen::Vector4f clip = to_clip * point.homogeneous();
+            EXPECT_LE(std::abs(clip.x() / clip.w()), 1.0f);
+            EXPECT_LE(std::abs(clip.y() / clip.w()), 1.0f);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace paim
