@@ -1,50 +1,21 @@
 // The environment behind the mesh.
 #include "player/render/background_renderer.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "player/gl/check.h"
+#include "player/render/fit_image.h"
 #include "player/shaders/sources.h"
 
 namespace paim::player {
-
-namespace {
-
-// Averages blocks of factor × factor pixels; those at the right and lower edges may be smaller.
-Image reduce(const Image& image, int factor) {
-    Image reduced((image.width + factor - 1) / factor, (image.height + factor - 1) / factor);
-    for (int y = 0; y < reduced.height; ++y) {
-        for (int x = 0; x < reduced.width; ++x) {
-            const int right = std::min(image.width, (x + 1) * factor);
-            const int bottom = std::min(image.height, (y + 1) * factor);
-            Vec3d sum = Vec3d::Zero();
-            for (int from_y = y * factor; from_y < bottom; ++from_y) {
-                for (int from_x = x * factor; from_x < right; ++from_x) {
-                    sum += image.at(from_x, from_y).cast<double>();
-                }
-            }
-            const int count = (right - x * factor) * (bottom - y * factor);
-            reduced.at(x, y) = (sum / count).cast<float>();
-        }
-    }
-    return reduced;
-}
-
-}  // namespace
 
 BackgroundRenderer::BackgroundRenderer()
     : program_("background", shaders::fullscreen_vert, shaders::background_frag) {
     set_environment(Image(1, 1));
 }
 
-void BackgroundRenderer::set_environment(const Image& image) {
-    const int max_size = gl::max_texture_size();
-    const int factor = (std::max(image.width, image.height) + max_size - 1) / max_size;
-    if (factor > 1) {
-        set_environment(reduce(image, factor));
-        return;
-    }
+void BackgroundRenderer::set_environment(const Image& environment) {
+    const Image image = fit_image(environment, gl::max_texture_size());
     glBindTexture(GL_TEXTURE_2D, environment_.id());
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);

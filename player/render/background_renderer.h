@@ -15,7 +15,7 @@ class BackgroundRenderer {
 
     // The lat-long map to show from now on. An image larger than this driver's textures is averaged
     // down until it fits.
-    void set_environment(const Image& image);
+    void set_environment(const Image& environment);
 
     // Clears colour and depth of the current target; before the mesh is drawn.
     void clear(const Frame& frame) const;
