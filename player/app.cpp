@@ -206,7 +206,7 @@ class App {
     const Options& options_;
     const Scene& scene_;
     gl::Window window_;
-    std::string renderer_name_ = window_.description();
+    std::string renderer_name_ = window_.renderer();
     SceneRenderer renderer_;
     ToneMapper tone_mapper_;
     PoseBoundsCache bounds_;

@@ -1,9 +1,11 @@
 // paim-play's options: one description each, with unit, range and default.
 #include "player/options.h"
 
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <string>
-#include <vector>
+#include <system_error>
 
 #include "paim/base/error.h"
 #include "paim/cli/parse.h"
@@ -15,8 +17,7 @@ namespace {
 
 // As typed; checked and converted afterwards.
 struct RawOptions {
-    std::string model, environment, size, background, snapshot;
-    std::vector<double> camera;
+    std::string model, environment, size, background, camera, snapshot;
     double geometry_components = 0, transfer_components = 0, bands = 0;
     double exposure = 0, gamma = 0, pose = 0, env_rotation = 0;
     double supersample = 0, bench = 0, frames = 0;
@@ -45,17 +46,28 @@ Background parse_background(const std::string& text) {
     return {Background::Kind::color, cli::parse_color(text, "--background (env, black or R,G,B)")};
 }
 
-CameraOptions parse_camera(const std::vector<double>& values) {
+CameraOptions parse_camera(const std::string& text) {
+    std::array<double, 3> values{0.0, 0.0, 1.0};
+    size_t count = 0;
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    bool valid = true;
+    while (valid && count < values.size()) {
+        const auto [rest, failure] = std::from_chars(at, end, values[count++]);
+        valid = failure == std::errc();
+        at = rest;
+        if (at == end || *at != ',') break;
+        ++at;
+    }
+    if (!valid || at != end || count < 2 || text.ends_with(',')) {
+        throw_usage("--camera: expected AZIMUTH,ELEVATION or AZIMUTH,ELEVATION,FACTOR, got '{}'",
+                    text);
+    }
     require_range("--camera azimuth", values[0], -360.0, 360.0);
     require_range("--camera elevation", values[1], -89.0, 89.0);
-    CameraOptions camera;
-    camera.azimuth_rad = static_cast<float>(radians(values[0]));
-    camera.elevation_rad = static_cast<float>(radians(values[1]));
-    if (values.size() > 2) {
-        require_range("--camera distance factor", values[2], 0.05, 100.0);
-        camera.distance_factor = static_cast<float>(values[2]);
-    }
-    return camera;
+    require_range("--camera distance factor", values[2], 0.05, 100.0);
+    return {static_cast<float>(radians(values[0])), static_cast<float>(radians(values[1])),
+            static_cast<float>(values[2])};
 }
 
 // What every option means. Kept in one place, so that --help is the documentation.
@@ -92,14 +104,10 @@ void describe(CLI::App& app, RawOptions& raw, bool& json) {
     number("--pose", raw.pose, "P",
            "The pose to show, or to start with; 0 is the first, fractions interpolate "
            "(default 0)");
-    app.add_option(
-           "--camera", raw.camera,
-           "Azimuth about +Y, 0 looking along -Z, -360 to 360 degrees; elevation, -89 to 89 "
-           "degrees; distance as a factor, 0.05 to 100, of the one from which all poses "
-           "are seen (default 28.65,17.19,1)")
-        ->delimiter(',')
-        ->expected(2, 3)
-        ->type_name("AZ,EL[,F]");
+    text("--camera", raw.camera, "AZ,EL[,F]",
+         "Azimuth about +Y, 0 looking along -Z, -360 to 360 degrees; elevation, -89 to 89 degrees; "
+         "distance, as a factor from 0.05 to 100 of the one from which all poses are seen "
+         "(default 28.65,17.19,1)");
     text("--size", raw.size, "WxH",
          "Picture or window, pixels, 1 to 16384 each (default 1280x720)");
     number("--supersample", raw.supersample, "N",
@@ -115,7 +123,9 @@ void describe(CLI::App& app, RawOptions& raw, bool& json) {
          "Draw one picture into this file and quit; needs neither display nor GPU");
     number("--bench", raw.bench, "N",
            "Draw N frames without a display, 1 to 100000, playing and turning the light, and "
-           "report the time of a frame beside that of decoding and shading it on the CPU");
+           "report the time of a frame, of its vertices alone, and of decoding and shading them on "
+           "the "
+           "CPU");
     number("--frames", raw.frames, "N",
            "Quit after N frames in the window, 1 to 1000000000 (default: when it is closed)");
 }

@@ -6,19 +6,16 @@
 #include <utility>
 
 #include "paim/base/check.h"
+#include "poses/mesh_refine.h"
 #include "poses/octopus_plan.h"
 #include "poses/octopus_profile.h"
 #include "poses/octopus_shape.h"
 #include "poses/ring_mesh.h"
+#include "poses/smoothstep.h"
 
 namespace paim::poses {
 
 namespace {
-
-double smoothstep(double t) {
-    t = std::clamp(t, 0.0, 1.0);
-    return t * t * (3.0 - 2.0 * t);
-}
 
 std::vector<double> radii(const Sheet& sheet) {
     constexpr int kNumSteps = 256;
@@ -92,7 +89,7 @@ class Builder {
         for (const RingPlan& ring : rings) {
             Ring inner;
             // Columns are spread evenly near the axis and follow the rim's points at the rim.
-            const double at_rim = smoothstep((ring.fraction - 0.5) / 0.5);
+            const double at_rim = smoothstep(0.5, 1.0, ring.fraction);
             for (uint32_t column = 0; column < kNumArms * n; column += ring.stride) {
                 const double even_rad = kSector_rad * (static_cast<double>(column % n) / n - 0.5);
                 const double offset_rad =
@@ -137,10 +134,21 @@ class Builder {
 }  // namespace
 
 RestMesh make_rest_octopus(uint32_t num_vertices) {
-    RestMesh mesh = Builder(num_vertices).build();
+    // The last vertices go where they are needed most, a part at a time: eyes, then long edges.
+    constexpr uint32_t kMinIrregular = 90, kIrregularPart = 32, kNumRounds = 3;
+    const uint32_t irregular = std::max(kMinIrregular, num_vertices / kIrregularPart);
+    RestMesh mesh = Builder(num_vertices - irregular).build();
+    for (Vec3d& position : mesh.positions) position = lift_to_eyes(position);
+    for (uint32_t round = 0; round < kNumRounds; ++round) {
+        relax(mesh.topology, 3, project_to_octopus, mesh.positions);
+        const uint32_t missing = num_vertices - mesh.topology.num_vertices;
+        split_longest_edges(missing / (kNumRounds - round), octopus_fineness, mesh.topology,
+                            mesh.positions);
+        flip_edges(2, mesh.positions, mesh.topology);
+    }
     relax(mesh.topology, 4, project_to_octopus, mesh.positions);
-    split_longest_edges(num_vertices - mesh.topology.num_vertices, mesh.topology, mesh.positions);
-    relax(mesh.topology, 4, project_to_octopus, mesh.positions);
+    flip_edges(2, mesh.positions, mesh.topology);
+    relax(mesh.topology, 2, project_to_octopus, mesh.positions);
     return mesh;
 }
 

@@ -4,21 +4,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "poses/smoothstep.h"
+
 namespace paim::poses {
 
 namespace {
 
 constexpr size_t kNumSections = 513;
-constexpr double kSectionsEnd = 5.0;  // beyond the tip's cap
+constexpr double kSectionsEnd = 5.25;  // beyond the tip's cap
 constexpr double kStep = kSectionsEnd / (kNumSections - 1);
 
-constexpr double kStandingHeight = 1.12;  // of the arms' roots above the ground
+constexpr double kStandingHeight = 1.45;  // of the arms' roots above the ground
 constexpr double kBob = 0.05;
-
-double smoothstep(double low, double high, double x) {
-    const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
-    return t * t * (3.0 - 2.0 * t);
-}
 
 // A number in 0 … 1 that differs from arm to arm without a pattern that the eye would find.
 double variety(int arm, int aspect) {
@@ -26,9 +23,9 @@ double variety(int arm, int aspect) {
     return kValues[static_cast<size_t>((arm * 3 + aspect * 5) % kNumArms)];
 }
 
-// Pitch and yaw of arm k's axis at distance s, at a moment of the loop. All terms vanish at the
-// body. Each has one whole period a loop, so that the loop closes.
-std::pair<double, double> bend(int arm, double s, double phase_rad) {
+// The bend of arm k's axis at distance s, at a moment of the loop. All terms vanish at the body.
+// Each has one whole period a loop, so that the loop closes.
+ArmBend bend(int arm, double s, double phase_rad) {
     const double own_rad = 2.0 * kPi * (3.0 * arm / kNumArms + 0.1 * variety(arm, 0));
     // Down from the web, then out along the ground.
     const double posture = -1.08 * smoothstep(0.72, 1.75, s) +
@@ -37,18 +34,20 @@ std::pair<double, double> bend(int arm, double s, double phase_rad) {
     const double wave_ramp = smoothstep(1.0, 2.8, s);
     const double wave = 0.42 * wave_ramp * std::sin(2.1 * s - phase_rad + own_rad);
     const double sway =
-        0.5 * smoothstep(0.9, 2.6, s) * std::sin(1.5 * s - phase_rad + own_rad + 1.9) +
+        0.62 * smoothstep(0.9, 2.6, s) * std::sin(1.5 * s - phase_rad + own_rad + 1.9) +
         0.16 * smoothstep(0.8, 1.6, s) * std::sin(phase_rad + 2.0 * own_rad);
     // The tips roll up into a logarithmic spiral, more and less as the wave arrives.
-    const double rolled = 0.62 + 0.38 * std::sin(phase_rad - own_rad - 0.9);
-    const double left = kArmLength + 0.38 - s, from = 2.45;
-    const double curl = s < kArmLength - from + 0.38
-                            ? 0.0
-                            : (2.3 + 0.9 * variety(arm, 2)) *
-                                  smoothstep(kArmLength - from + 0.38, 4.0, s) *
-                                  std::log(from / std::max(left, 0.05));
-    const double aside = 0.35 * (2.0 * variety(arm, 3) - 1.0) * smoothstep(2.6, 4.7, s);
-    return {posture + wave + rolled * curl, sway + aside};
+    const double rolled = 0.66 + 0.34 * std::sin(phase_rad - own_rad - 0.9);
+    constexpr double kRollLength = 2.45,
+                     kBeyondTip = 0.38;  // the spiral's centre lies beyond the tip
+    const double left = std::max(kArmLength + kBeyondTip - s, 0.05);
+    const double roll = (2.2 + 0.5 * variety(arm, 2)) *
+                        smoothstep(kArmLength + kBeyondTip - kRollLength, 4.2, s) *
+                        std::max(std::log(kRollLength / left), 0.0);
+    const double aside = 0.2 * (2.0 * variety(arm, 3) - 1.0) * smoothstep(2.6, 4.7, s);
+    // Rolled tips leave their plane, as a corkscrew does, so that they pass beside their own arm.
+    const double skew = 0.75 * std::min(0.5 * rolled * roll, 1.0);
+    return {posture + wave + rolled * roll, sway + aside, skew};
 }
 
 }  // namespace
@@ -58,22 +57,29 @@ ArmCurve::ArmCurve(int arm, double phase_rad) : axes_(arm_axes(arm)) {
     Vec3d center = Vec3d::Zero();
     for (size_t i = 0; i < kNumSections; ++i) {
         const double s = static_cast<double>(i) * kStep;
-        const auto [pitch, yaw] = bend(arm, s, phase_rad);
+        const ArmBend here = bend(arm, s, phase_rad);
         if (i > 0) {
-            const auto [middle_pitch, middle_yaw] = bend(arm, s - 0.5 * kStep, phase_rad);
-            const Section& last = sections_.back();
+            const ArmBend middle = bend(arm, s - 0.5 * kStep, phase_rad);
             center += kStep / 6.0 *
-                      (direction(last.pitch_rad, last.yaw_rad) +
-                       4.0 * direction(middle_pitch, middle_yaw) + direction(pitch, yaw));
+                      (frame(sections_.back().bend).col(0) + 4.0 * frame(middle).col(0) +
+                       frame(here).col(0));
         }
-        sections_.push_back({center, pitch, yaw});
+        sections_.push_back({center, here});
     }
 }
 
-Vec3d ArmCurve::direction(double pitch_rad, double yaw_rad) const {
-    return std::cos(pitch_rad) *
-               (std::cos(yaw_rad) * axes_.outward + std::sin(yaw_rad) * axes_.lateral) +
-           std::sin(pitch_rad) * Vec3d::UnitY();
+Eigen::Matrix3d ArmCurve::frame(const ArmBend& bend) const {
+    const Vec3d level =
+        std::cos(bend.yaw_rad) * axes_.outward + std::sin(bend.yaw_rad) * axes_.lateral;
+    const Vec3d side =
+        std::cos(bend.yaw_rad) * axes_.lateral - std::sin(bend.yaw_rad) * axes_.outward;
+    const double cosine = std::cos(bend.pitch_rad), sine = std::sin(bend.pitch_rad);
+    const Vec3d along = cosine * level + sine * Vec3d::UnitY();
+    Eigen::Matrix3d frame;
+    frame.col(0) = std::cos(bend.skew_rad) * along + std::sin(bend.skew_rad) * side;
+    frame.col(1) = cosine * Vec3d::UnitY() - sine * level;
+    frame.col(2) = std::cos(bend.skew_rad) * side - std::sin(bend.skew_rad) * along;
+    return frame;
 }
 
 Vec3d ArmCurve::place(double s, double up, double lateral) const {
@@ -81,15 +87,16 @@ Vec3d ArmCurve::place(double s, double up, double lateral) const {
     const auto i = std::min(static_cast<size_t>(scaled), kNumSections - 2);
     const double t = scaled - static_cast<double>(i);
     const Section &a = sections_[i], &b = sections_[i + 1];
-    const double pitch = a.pitch_rad + t * (b.pitch_rad - a.pitch_rad);
-    const double yaw = a.yaw_rad + t * (b.yaw_rad - a.yaw_rad);
+    const auto mix = [t](double from, double to) { return from + t * (to - from); };
+    const Eigen::Matrix3d here =
+        frame({mix(a.bend.pitch_rad, b.bend.pitch_rad), mix(a.bend.yaw_rad, b.bend.yaw_rad),
+               mix(a.bend.skew_rad, b.bend.skew_rad)});
     // Cubic through both sections with their directions.
     const double t2 = t * t, t3 = t2 * t;
     const Vec3d center = (2 * t3 - 3 * t2 + 1) * a.center + (3 * t2 - 2 * t3) * b.center +
-                         (t3 - 2 * t2 + t) * kStep * direction(a.pitch_rad, a.yaw_rad) +
-                         (t3 - t2) * kStep * direction(b.pitch_rad, b.yaw_rad);
-    const Vec3d side = -std::sin(yaw) * axes_.outward + std::cos(yaw) * axes_.lateral;
-    return center + up * direction(pitch + 0.5 * kPi, yaw) + lateral * side;
+                         (t3 - 2 * t2 + t) * kStep * frame(a.bend).col(0) +
+                         (t3 - t2) * kStep * frame(b.bend).col(0);
+    return center + up * here.col(1) + lateral * here.col(2);
 }
 
 OctopusMotion::OctopusMotion(double phase_rad) : phase_rad_(phase_rad) {

@@ -9,6 +9,12 @@
 
 namespace paim::poses {
 
+// How far the direction of an arm's axis has turned from straight outwards: above the horizon, then
+// to the lateral side about the vertical, then out of the plane that these two lie in.
+struct ArmBend {
+    double pitch_rad, yaw_rad, skew_rad;
+};
+
 // An arm's axis in one moment: position and direction of its cross-sections along s.
 class ArmCurve {
   public:
@@ -24,9 +30,10 @@ class ArmCurve {
   private:
     struct Section {
         Vec3d center;
-        double pitch_rad, yaw_rad;  // of the axis: above the horizon, and to the lateral side
+        ArmBend bend;
     };
-    Vec3d direction(double pitch_rad, double yaw_rad) const;
+    // Columns: along the axis, up, and lateral of the cross-section.
+    Eigen::Matrix3d frame(const ArmBend& bend) const;
 
     ArmAxes axes_;
     std::vector<Section> sections_;

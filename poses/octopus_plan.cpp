@@ -75,6 +75,13 @@ uint32_t count_vertices(const std::vector<RingPlan>& rings, uint32_t all_columns
     return count;
 }
 
+// Whether columns can be halved often enough to leave no slivers round apex, mouth and tips.
+bool halves_well(uint32_t num_columns) {
+    constexpr uint32_t kMaxOddPart = 9;
+    while (num_columns % 2 == 0) num_columns /= 2;
+    return num_columns <= kMaxOddPart;
+}
+
 OctopusPlan make_plan(const OctopusSizes& sizes, uint32_t num_columns, double spacing) {
     OctopusPlan plan;
     plan.num_columns = num_columns;
@@ -104,6 +111,7 @@ OctopusPlan plan_octopus(const OctopusSizes& sizes, uint32_t num_vertices) {
             num_vertices) {
             break;
         }
+        if (!halves_well(num_columns)) continue;
         for (int step = -60; step <= 60; ++step) {
             const double stretch = 0.003 * step;
             const OctopusPlan plan =

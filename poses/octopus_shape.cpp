@@ -5,20 +5,22 @@
 #include <algorithm>
 #include <cmath>
 
+#include "poses/smoothstep.h"
+
 namespace paim::poses {
 
 namespace {
 
 constexpr double kArmStart = 0.45;        // distance of the arms' first sphere from the axis
-constexpr double kArmStartRadius = 0.32;  // and its radius
-constexpr double kBodyBlend = 0.13;       // width of the fillets between mantle, head and arms
+constexpr double kArmStartRadius = 0.38;  // and its radius
+constexpr double kBodyBlend = 0.15;       // width of the fillets between mantle, head and arms
 constexpr double kEyeBlend = 0.05;
 
 // Eyes sit on the head, a little above its middle.
-constexpr double kEyeAzimuth_rad = 0.72;
-constexpr double kEyeAxisDistance = 0.66;
-constexpr double kEyeHeight = 0.98;
-constexpr double kEyeRadius = 0.235;
+constexpr double kEyeAzimuth_rad = 0.62;
+constexpr double kEyeAxisDistance = 0.72;
+constexpr double kEyeHeight = 1.12;
+constexpr double kEyeRadius = 0.25;
 
 FieldValue sphere(const Vec3d& point, const Vec3d& center, double radius) {
     const Vec3d offset = point - center;
@@ -62,9 +64,20 @@ Vec3d eye_center(double side) {
             std::cos(kEyeAzimuth_rad) * kEyeAxisDistance};
 }
 
-double smoothstep(double low, double high, double x) {
-    const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
-    return t * t * (3.0 - 2.0 * t);
+// 1 on the suckers, 0 between them: two staggered rows below each arm, as far apart as it is thick.
+double sucker(const Vec3d& point) {
+    const double azimuth = std::atan2(point.x(), point.z()) / kSector_rad;
+    const double offset_rad = (azimuth - std::floor(azimuth) - 0.5) * kSector_rad;
+    const double reach = std::hypot(point.x(), point.z());
+    const double s = reach * std::cos(offset_rad), lateral = reach * std::sin(offset_rad);
+    // Steps that shrink with the arm are equal on a logarithmic scale.
+    const double slope = (kArmStartRadius - kArmTipRadius) / (kArmLength - kArmStart);
+    const double row = lateral > 0.0 ? 0.0 : 0.5;
+    const double steps = -std::log(arm_radius(s)) / (0.9 * slope) + row;
+    const double along = 0.9 * (steps - std::round(steps));
+    const double across = std::abs(lateral) / arm_radius(s) - 0.42;
+    const double on_arm = smoothstep(1.1, 1.6, s) * (1.0 - smoothstep(4.3, 4.8, s));
+    return on_arm * (1.0 - smoothstep(0.17, 0.36, std::hypot(along, across)));
 }
 
 }  // namespace
@@ -92,7 +105,7 @@ FieldValue octopus_body(const Vec3d& point) {
                                 kArmLength - kArmStart, kArmStartRadius, kArmTipRadius);
     }
     parts[kNumArms] = sphere(point, {0.0, 0.62, 0.0}, 0.6);  // head
-    parts[kNumArms + 1] = round_cone(point, {0.0, 1.3, 0.0}, Vec3d::UnitY(), 1.0, 0.62, 0.98);
+    parts[kNumArms + 1] = round_cone(point, {0.0, 1.25, 0.0}, Vec3d::UnitY(), 0.95, 0.62, 0.98);
     return smooth_union(parts, kBodyBlend);
 }
 
@@ -100,6 +113,22 @@ FieldValue octopus_field(const Vec3d& point) {
     return smooth_union(std::array{octopus_body(point), sphere(point, eye_center(-1.0), kEyeRadius),
                                    sphere(point, eye_center(1.0), kEyeRadius)},
                         kEyeBlend);
+}
+
+Vec3d lift_to_eyes(const Vec3d& point) {
+    const Vec3d axis(0.0, kEyeHeight, 0.0);
+    double distance = (point - axis).norm();
+    const Vec3d direction = (point - axis) / distance;
+    for (const double side : {-1.0, 1.0}) {
+        const Vec3d center = eye_center(side) - axis;
+        const double along = center.dot(direction);
+        const double half_squared =
+            kEyeRadius * kEyeRadius - (center.squaredNorm() - along * along);
+        if (along > 0.0 && half_squared > 0.0) {
+            distance = std::max(distance, along + std::sqrt(half_squared));
+        }
+    }
+    return axis + distance * direction;
 }
 
 Vec3d project_to_octopus(const Vec3d& point) {
@@ -118,8 +147,17 @@ Vec3d project_to_octopus(const Vec3d& point) {
     return moved;
 }
 
+double octopus_fineness(const Vec3d& point) {
+    constexpr double kFinenessOfEyes = 2.6;
+    for (const double side : {-1.0, 1.0}) {
+        if ((point - eye_center(side)).norm() < 1.1 * kEyeRadius) return kFinenessOfEyes;
+    }
+    return 1.0;
+}
+
 Vec3f octopus_albedo(const Vec3d& point) {
-    const Vec3d coral(0.80, 0.17, 0.10), dusk(0.50, 0.06, 0.07), cream(0.92, 0.62, 0.47);
+    const Vec3d coral(0.80, 0.17, 0.10), dusk(0.50, 0.06, 0.07), cream(0.90, 0.55, 0.40),
+        rose(0.62, 0.16, 0.13);
     const Vec3d white(0.93, 0.92, 0.88), dark(0.02, 0.015, 0.02);
     const Vec3d up = octopus_field(point).gradient.normalized();
 
@@ -130,6 +168,7 @@ Vec3f octopus_albedo(const Vec3d& point) {
     const double below =
         (1.0 - smoothstep(-0.45, 0.15, up.y())) * (1.0 - smoothstep(0.0, 0.25, point.y()));
     albedo += below * (cream - albedo);
+    albedo += 0.75 * below * sucker(point) * (rose - albedo);
 
     for (const double side : {-1.0, 1.0}) {
         const Vec3d center = eye_center(side);
@@ -137,11 +176,11 @@ Vec3f octopus_albedo(const Vec3d& point) {
         if (offset.norm() > 1.15 * kEyeRadius) continue;
         // The eyes look outwards and a little to the front.
         const Vec3d gaze =
-            Vec3d(side * std::sin(kEyeAzimuth_rad * 0.85), 0.12, std::cos(kEyeAzimuth_rad * 0.85))
+            Vec3d(side * std::sin(kEyeAzimuth_rad * 0.65), 0.12, std::cos(kEyeAzimuth_rad * 0.65))
                 .normalized();
         const double cosine = offset.normalized().dot(gaze);
-        albedo += smoothstep(0.50, 0.62, cosine) * (white - albedo);
-        albedo += smoothstep(0.80, 0.87, cosine) * (dark - albedo);
+        albedo += smoothstep(0.42, 0.62, cosine) * (white - albedo);
+        albedo += smoothstep(0.76, 0.89, cosine) * (dark - albedo);
     }
     return albedo.cast<float>();
 }

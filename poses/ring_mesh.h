@@ -1,9 +1,7 @@
-// Triangle strips between closed rings of vertices, and the refinement of a closed mesh.
+// Triangle strips between closed rings of vertices.
 #pragma once
 
 #include <cstdint>
-#include <functional>
-#include <span>
 #include <vector>
 
 #include "paim/mesh/topology.h"
@@ -22,15 +20,5 @@ void stitch_rings(const Ring& outer, const Ring& inner, Facing facing,
 
 // Closes a ring with a fan about one vertex.
 void close_ring(const Ring& ring, uint32_t pole, Facing facing, std::vector<Triangle>& triangles);
-
-// Adds `count` vertices at the middles of the longest edges, no two of them on one face, so that a
-// closed mesh gets exactly the size asked for. Throws Error(unsupported) if there are too few
-// edges.
-void split_longest_edges(uint32_t count, Topology& topology, std::vector<Vec3d>& positions);
-
-// Moves every vertex half way to the average of its neighbours and back onto the surface, `count`
-// times: evens out the triangles of a closed mesh.
-void relax(const Topology& topology, int count, const std::function<Vec3d(const Vec3d&)>& project,
-           std::vector<Vec3d>& positions);
 
 }  // namespace paim::poses

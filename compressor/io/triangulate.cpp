@@ -142,11 +142,15 @@ class Cutter {
         return true;
     }
 
+    uint32_t vertex(size_t i) const { return (*corners_)[remaining_[i]]; }
     size_t before(size_t i) const { return i > 0 ? i - 1 : remaining_.size() - 1; }
     size_t after(size_t i) const { return i + 1 < remaining_.size() ? i + 1 : 0; }
 
-    // Convex, and no corner that is not convex lies in its triangle or on the rim of it.
+    // Convex, and no corner that is not convex lies in its triangle or on the rim of it. A triangle
+    // that names a vertex twice (a spike, or what is left of a bridge) is nothing, and free to go.
     bool test_ear(size_t i, double tolerance) const {
+        const uint32_t v_before = vertex(before(i)), v_here = vertex(i), v_after = vertex(after(i));
+        if (v_before == v_here || v_here == v_after || v_after == v_before) return true;
         const Vec2d& a = flat_[remaining_[before(i)]];
         const Vec2d& b = flat_[remaining_[i]];
         const Vec2d& c = flat_[remaining_[after(i)]];

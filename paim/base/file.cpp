@@ -94,6 +94,11 @@ void AtomicFile::write_at(uint64_t offset, const void* data, size_t size_bytes) 
     end_ = std::max(end_, offset);
 }
 
+void AtomicFile::resize(uint64_t size_bytes) {
+    if (::ftruncate(descriptor_, static_cast<off_t>(size_bytes)) != 0) fail("cannot resize");
+    end_ = size_bytes;
+}
+
 void AtomicFile::commit() {
     if (::fsync(descriptor_) != 0) fail("cannot flush");
     const int closed = ::close(std::exchange(descriptor_, -1));

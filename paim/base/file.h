@@ -25,6 +25,7 @@ class AtomicFile {
     void write(const void* data, size_t size_bytes);                      // at the end
     void write_at(uint64_t offset, const void* data, size_t size_bytes);  // anywhere
     void write(std::string_view text) { write(text.data(), text.size()); }
+    void resize(uint64_t size_bytes);  // what lies beyond the last write is zero
     void commit();
 
   private:

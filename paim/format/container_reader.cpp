@@ -132,9 +132,9 @@ ContainerReader::ContainerReader(const std::filesystem::path& path, Tag kind)
                 check_entry(path_, entry, file_size_bytes_, sizeof(header) + table_bytes));
             // Sections that share bytes would let a small file claim any amount of memory.
             total_bytes += entry.stored_size_bytes;
-            if (total_bytes > file_size_bytes_) {
+            if (total_bytes > file_size_bytes_ - sizeof(header) - table_bytes) {
                 throw_bad_input("{}: sections overlap: more than {} bytes in all", path_,
-                                file_size_bytes_);
+                                file_size_bytes_ - sizeof(header) - table_bytes);
             }
         }
     } catch (...) {

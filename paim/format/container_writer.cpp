@@ -72,6 +72,7 @@ void ContainerWriter::commit() {
     header.header_xxh3 = xxh3(&header, sizeof(header) - sizeof(header.header_xxh3));
     file_.write_at(sizeof(header), table.data(), table.size() * sizeof(TableEntry));
     file_.write_at(0, &header, sizeof(header));
+    file_.resize(file_size_bytes_);  // an empty last section has no bytes of its own
     file_.commit();
 }
 

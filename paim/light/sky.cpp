@@ -15,9 +15,12 @@ namespace paim {
 namespace {
 
 constexpr double kDegree = kPi / 180.0;
-// The sun stands over the scene's front right: between +X and +Z.
-constexpr double kSunElevation = 24.0 * kDegree;
-constexpr double kSunAzimuth = 50.0 * kDegree;  // from +Z towards +X
+// The sun stands over the scene's front left, between −X and +Z: to the side of the default camera, so
+// that forms show.
+constexpr double kSunElevation = 28.0 * kDegree;
+constexpr double kSunAzimuth = -50.0 * kDegree;  // from +Z towards +X
+// Brings the average to about a half, so that light surfaces are well exposed at 0 EV.
+constexpr double kBrightness = 0.6;
 // Fully bright to the inner radius, dark from the outer one on; ten times the real sun.
 constexpr double kSunInner = 2.0 * kDegree;
 constexpr double kSunOuter = 4.0 * kDegree;
@@ -79,7 +82,7 @@ Vec3d average_radiance(int x, int y, const Image& image, int factor, const Vec3d
             sum += weight * sky_radiance(direction_from_latlong(u, v), sun);
         }
     }
-    return sum / weights;
+    return kBrightness * sum / weights;
 }
 
 }  // namespace

@@ -42,15 +42,26 @@ Vec3f Camera::ray_direction(float u, float v, float aspect) const {
 }
 
 Camera frame_bounds(const Bounds& bounds, float aspect, float azimuth_rad, float elevation_rad) {
+    constexpr float kMargin = 1.05f;
     Camera camera;
-    const float radius = std::max(0.5f * bounds.diagonal(), 1e-30f);
-    const float half_fov = 0.5f * camera.vertical_fov_rad;
-    const float narrower = std::min(half_fov, std::atan(std::tan(half_fov) * aspect));
     const Vec3f direction(std::sin(azimuth_rad) * std::cos(elevation_rad), std::sin(elevation_rad),
                           std::cos(azimuth_rad) * std::cos(elevation_rad));
-    camera.target = bounds.empty() ? Vec3f::Zero() : bounds.center();
-    // The bounding sphere touches the edge of the image.
-    camera.eye = camera.target + direction * (radius / std::sin(narrower));
+    camera.target = bounds.empty() ? Vec3f(Vec3f::Zero()) : bounds.center();
+    camera.eye = camera.target + direction;
+    if (bounds.diagonal() == 0.0f) return camera;
+    // The nearest distance at which every corner of the box is inside the image.
+    const Eigen::Matrix3f to_camera = camera.axes().transpose();
+    const Vec3f half = 0.5f * bounds.upper - 0.5f * bounds.lower;
+    const float half_height = std::tan(0.5f * camera.vertical_fov_rad);
+    float distance = 0.0f;
+    for (int corner = 0; corner < 8; ++corner) {
+        const Vec3f sign(corner & 1 ? 1.0f : -1.0f, corner & 2 ? 1.0f : -1.0f,
+                         corner & 4 ? 1.0f : -1.0f);
+        const Vec3f local = to_camera * half.cwiseProduct(sign);
+        const float across = std::max(std::abs(local.x()) / aspect, std::abs(local.y()));
+        distance = std::max(distance, local.z() + kMargin * across / half_height);
+    }
+    camera.eye = camera.target + direction * distance;
     return camera;
 }
 

@@ -16,10 +16,14 @@ std::string text(GLenum name) {
 
 }  // namespace
 
+std::string Context::renderer() const {
+    return text(GL_RENDERER);
+}
+
 std::string Context::description() const {
     // OpenGL ES already starts its version with its name.
     const std::string api = epoxy_is_desktop_gl() ? "OpenGL " : "";
-    return text(GL_RENDERER) + ", " + api + text(GL_VERSION);
+    return renderer() + ", " + api + text(GL_VERSION);
 }
 
 void require_version() {

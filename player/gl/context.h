@@ -10,6 +10,9 @@ class Context {
   public:
     virtual ~Context() = default;
 
+    // The driver's name for what draws, e.g. "llvmpipe (LLVM 15.0.6, 256 bits)".
+    std::string renderer() const;
+
     // Renderer and version, e.g. "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 3.3 (Core Profile) …".
     std::string description() const;
 };

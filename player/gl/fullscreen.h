@@ -1,5 +1,5 @@
-// A triangle that covers the whole target, for passes over all pixels. Without vertex buffers:
-// shaders/fullscreen.vert makes the corners from gl_VertexID.
+// A triangle that covers the whole target, on the far plane, for passes over all pixels. Without
+// vertex buffers: shaders/fullscreen.vert makes the corners from gl_VertexID.
 #pragma once
 
 #include "player/gl/handle.h"
@@ -9,7 +9,6 @@ namespace paim::player::gl {
 class FullscreenTriangle {
   public:
     void draw() const {
-        glDisable(GL_DEPTH_TEST);
         glBindVertexArray(vertex_array_.id());
         glDrawArrays(GL_TRIANGLES, 0, 3);
     }

@@ -15,9 +15,12 @@ class BackgroundRenderer {
 
     // The lat-long map to show from now on. An image larger than this driver's textures is averaged
     // down until it fits.
-    void set_environment(const Image& image);
+    void set_environment(const Image& environment);
 
-    // Clears depth and draws the background over all of the current target.
+    // Clears colour and depth of the current target; before the mesh is drawn.
+    void clear(const Frame& frame) const;
+
+    // Draws the environment, if the frame shows it, where there is no mesh.
     void draw(const Frame& frame, float aspect) const;
 
   private:

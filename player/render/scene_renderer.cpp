@@ -1,4 +1,4 @@
-// Background, then model.
+// The model, then the background where there is none.
 #include "player/render/scene_renderer.h"
 
 #include "paim/light/environment.h"
@@ -27,8 +27,9 @@ void SceneRenderer::draw(const Frame& frame, const gl::Target& target) {
     }
     const float aspect = static_cast<float>(target.width()) / static_cast<float>(target.height());
     target.bind();
-    background_renderer_.draw(frame, aspect);
+    background_renderer_.clear(frame);
     model_renderer_.draw(frame, turned_light_, aspect);
+    background_renderer_.draw(frame, aspect);
 }
 
 Image SceneRenderer::render(const Frame& frame, int width, int height, int samples) {

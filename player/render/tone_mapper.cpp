@@ -15,6 +15,7 @@ void ToneMapper::draw(const gl::Target& picture, int samples, const ToneCurve& c
     program_.set("samples", samples);
     program_.set("scale", std::exp2(curve.exposure_ev));
     program_.set("gamma", curve.gamma);
+    glDisable(GL_DEPTH_TEST);
     triangle_.draw();
 }
 

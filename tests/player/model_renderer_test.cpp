@@ -59,7 +59,6 @@ Image reference(const Model& model, const Frame& frame, const LightCoefficients&
 // 1e-6. The limits are those the player promises.
 void expect_equal(const Image& expected, const Image& image) {
     const Difference difference = compare(expected, image);
-fmt::print("{:.2e} {:.4f}\n", difference.mean_relative, difference.fraction_off);
     EXPECT_LE(difference.mean_relative, 1e-3);
     EXPECT_LE(difference.fraction_off, 0.005);
 }

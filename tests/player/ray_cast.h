@@ -16,8 +16,8 @@ Image ray_cast(const Topology& topology, const std::vector<Vec3f>& positions,
                const Vec3f& background);
 
 struct Difference {
-    double mean_relative = 0.0;   // Σ|a − b| / Σ|a|
-    double fraction_off = 0.0;    // pixels with a channel off by more than 2/255
+    double mean_relative = 0.0;  // Σ|a − b| / Σ|a|
+    double fraction_off = 0.0;   // pixels with a channel off by more than 2/255
 };
 
 Difference compare(const Image& reference, const Image& image);

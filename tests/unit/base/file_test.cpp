@@ -2,6 +2,7 @@
 #include "paim/base/file.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 
@@ -18,6 +19,12 @@ TEST(ReadFile, RefusesMissingDirectoryAndTooLarge) {
     write_file(directory / "eleven", "12345678901");
     EXPECT_THROW(read_file(directory / "eleven", 10), Error);
     EXPECT_EQ(read_file(directory / "eleven", 11).size(), 11u);
+}
+
+TEST(ReadFile, RefusesPipesWithoutWaiting) {
+    const TemporaryDirectory directory;
+    ASSERT_EQ(::mkfifo((directory / "pipe").c_str(), 0600), 0);
+    EXPECT_THROW(read_file(directory / "pipe", 10), Error);
 }
 
 TEST(AtomicFile, LeavesNothingWithoutCommit) {

@@ -58,10 +58,16 @@ TEST(ObjAlbedo, IsOneValueWhereAllFacesAgree) {
               (std::vector<std::string>{"none.mtl: cannot open: No such file or directory"}));
 }
 
+TEST(ObjAlbedo, TakesOneNumberAsGrey) {
+    const ObjTestFiles files({"mtllib x.mtl\nusemtl grey\n" + kFour + "f 1 2 3 4\n"});
+    files.add("x.mtl", "newmtl grey\nKd +0.5\n");
+    EXPECT_EQ(ObjSequence(files.files()).albedo().values, (Values{{0.5f, 0.5f, 0.5f}}));
+}
+
 TEST(ObjAlbedo, TellsBlackFromNone) {
     const ObjTestFiles files(
         {"mtllib x.mtl\n" + kFour + "usemtl black\nf 1 2 3\nusemtl none\nf 1 3 4\n"});
-    files.add("x.mtl", "newmtl black\nKd 0\nnewmtl none\nKa 1 1 1\n");
+    files.add("x.mtl", "newmtl black\nKd 0 0 0\nnewmtl none\nKa 1 1 1\n");
     const Values values = ObjSequence(files.files()).albedo().values;
     EXPECT_EQ(values[1], Vec3f(0, 0, 0));
     EXPECT_EQ(values[3], Albedo().values[0]);

@@ -1,5 +1,6 @@
 // Real files: six captured or simulated sequences, and a parser's collection of odd models.
 #include <map>
+#include <ostream>
 
 #include "compressor/io/obj_files.h"
 #include "paim/mesh/normals.h"
@@ -16,6 +17,11 @@ struct Expected {
     size_t num_triangles;
     size_t num_warnings;  // 1 where materials are named but there is no .mtl file
 };
+
+// Keeps addresses out of the names of tests.
+void PrintTo(const Expected& expected, std::ostream* out) {
+    *out << expected.name;
+}
 
 class RealSequence : public testing::TestWithParam<Expected> {};
 

@@ -76,8 +76,8 @@ TEST(Triangulate, TakesEqualDiagonalsAsATie) {
 }
 
 TEST(Triangulate, CutsConcaveQuadsInside) {
-    // A dart: the shorter diagonal 1-3 lies outside.
-    const std::vector<Vec3f> dart{{0, 0, 0}, {1, -1, 0}, {0.2f, 0, 0}, {1, 1, 0}};
+    // A dart: the shorter diagonal 1-3, of length 0.2, lies outside.
+    const std::vector<Vec3f> dart{{0, 0, 0}, {1, -0.1f, 0}, {0.9f, 0, 0}, {1, 0.1f, 0}};
     // Its sharp tip is corner 0 and the notch corner 2.
     for (size_t turn = 0; turn < 4; ++turn) {
         std::vector<Vec3f> points;
@@ -144,6 +144,26 @@ TEST(Triangulate, CutsPolygonsWithStraightCornersAndHoles) {
     EXPECT_EQ(cut_ring.num_degenerate, 0u);
     EXPECT_DOUBLE_EQ(areas(cut_ring.triangles, points).sum, 8.0);
     EXPECT_GT(areas(cut_ring.triangles, points).least, 0.0);
+}
+
+TEST(Triangulate, CutsPolygonsThatTouchThemselves) {
+    // Two triangles that share the corner 0, as one polygon: its two visits do not block each
+    // other.
+    const std::vector<Vec3f> points{
+        {0, 0, 0}, {1, -0.5f, 0}, {1, 0.5f, 0}, {-1, 0.5f, 0}, {-1, -0.5f, 0}};
+    const Triangulation result = triangulate({{6}, {0, 1, 2, 0, 3, 4}}, points);
+    EXPECT_EQ(result.num_degenerate, 0u);
+    EXPECT_DOUBLE_EQ(areas(result.triangles, points).sum, 1.0);
+}
+
+TEST(Triangulate, MergesCornersThatRepeatTheirNeighbour) {
+    const std::vector<Vec3f> points{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    for (const Polygons& quad : {Polygons{{4}, {0, 1, 1, 2}}, Polygons{{5}, {0, 0, 1, 2, 0}}}) {
+        const Triangulation result = triangulate(quad, points);
+        EXPECT_EQ(result.triangles, (Triangles{{0, 1, 2}}));
+        EXPECT_EQ(result.num_repeating, 1u);
+        EXPECT_EQ(result.num_degenerate, 0u);
+    }
 }
 
 TEST(Triangulate, CountsShapesWithoutAreaAndFansThem) {

@@ -17,8 +17,8 @@ Vec3d average(const Image& sky) {
 
 TEST(Sky, IsALightOfTheSameAverageAtAnySize) {
     const Vec3d expected = average(make_sky());
-    EXPECT_GT(expected.minCoeff(), 0.5);
-    EXPECT_LT(expected.maxCoeff(), 1.0);
+    EXPECT_GT(expected.minCoeff(), 0.3);
+    EXPECT_LT(expected.maxCoeff(), 0.6);
     for (const int height : {2, 3, 16, 100, 700}) {
         const EnvironmentLight light(make_sky(height));
         ASSERT_EQ(light.image().height, height);
@@ -33,8 +33,8 @@ TEST(Sky, HasBlueAboveAWarmSunAndADimGround) {
     const EnvironmentLight light(make_sky(256));
     const Vec3f zenith = light.radiance(Vec3d::UnitY());
     EXPECT_GT(zenith.z(), 2.0f * zenith.x());
-    const double elevation = 24.0 * kPi / 180.0;
-    const double azimuth = 50.0 * kPi / 180.0;
+    const double elevation = 28.0 * kPi / 180.0;
+    const double azimuth = -50.0 * kPi / 180.0;
     const Vec3d sun(std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
                     std::cos(azimuth) * std::cos(elevation));
     const Vec3f disc = light.radiance(sun);

@@ -1,0 +1,224 @@
+// paim-play as a user runs it: pictures, exit codes, messages, the window.
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "paim/base/file.h"
+#include "paim/codec/sequence_bounds.h"
+#include "paim/codec/svd_decoder.h"
+#include "paim/format/paim_file.h"
+#include "paim/image/exr.h"
+#include "paim/light/environment.h"
+#include "paim/light/sky.h"
+#include "tests/cli/run_tool.h"
+#include "tests/player/ray_cast.h"
+#include "tests/player/test_model.h"
+#include "tests/player/x_server.h"
+#include "tests/temporary_directory.h"
+
+namespace paim::player {
+namespace {
+
+class PlayTest : public testing::Test {
+  protected:
+    PlayTest() {
+        // No test depends on the display of whoever runs it.
+        ::unsetenv("DISPLAY");
+        ::unsetenv("WAYLAND_DISPLAY");
+        TestModelOptions options;  // 5 bands, 3 + 5 components, 4 poses
+        model_ = make_test_model(options);
+        write_paim(file_, model_);
+    }
+
+    ToolResult play(std::vector<std::string> arguments) const {
+        arguments.insert(arguments.begin(), {PAIM_PLAY, file_.string()});
+        return run_tool(arguments);
+    }
+
+    // Expects the exit code, one message that holds the text, and nothing on standard output.
+    void expect_failure(const std::vector<std::string>& arguments, int exit_code,
+                        const std::string& text) const {
+        const ToolResult result = play(arguments);
+        EXPECT_EQ(result.exit_code, exit_code) << result.err;
+        EXPECT_NE(result.err.find(text), std::string::npos) << result.err;
+        EXPECT_EQ(result.out, "");
+    }
+
+    std::string out(const char* name) const { return (directory_ / name).string(); }
+
+    TemporaryDirectory directory_;
+    std::filesystem::path file_ = directory_ / "ball.paim";
+    Model model_;
+};
+
+// The picture by the library alone: default camera, built-in sky.
+Image expected_picture(const Model& model, double time, double rotation_rad, int width, int height,
+                       const Vec3f& background) {
+    DecodedPose pose;
+    SvdDecoder(model).decode(time, {}, pose);
+    std::vector<Vec3f> positions(model.topology.num_vertices);
+    for (size_t v = 0; v < positions.size(); ++v) {
+        positions[v] = {pose.positions[v], pose.positions[positions.size() + v],
+                        pose.positions[2 * positions.size() + v]};
+    }
+    const LightCoefficients light =
+        turn_about_y(EnvironmentLight(make_sky())
+                         .coefficients(Vec3f::Zero(), static_cast<int>(model.layout.bands)),
+                     rotation_rad);
+    const Camera camera = frame_bounds(sequence_bounds(model),
+                                       static_cast<float>(width) / static_cast<float>(height));
+    return ray_cast(model.topology, positions, vertex_radiance(model, time, {}, light), camera,
+                    width, height, background);
+}
+
+TEST_F(PlayTest, SnapshotIsThePictureOfTheLibrary) {
+    const ToolResult result =
+        play({"--snapshot", out("a.exr"), "--pose", "1.5", "--env-rotation", "-40", "--size",
+              "100x70", "--background", "0.1,0.2,0.3", "--supersample", "3", "--exposure", "3"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.out, "");
+    const Image expected = downsample(
+        expected_picture(model_, 1.5, -40.0 * kPi / 180.0, 300, 210, Vec3f(0.1f, 0.2f, 0.3f)), 3);
+    // EXR stays linear, whatever the exposure. The limits are those the player promises.
+    const Difference difference = compare(expected, read_exr(out("a.exr")));
+    EXPECT_LE(difference.mean_relative, 1e-3);
+    EXPECT_LE(difference.fraction_off, 0.005);
+}
+
+TEST_F(PlayTest, SnapshotsAreRepeatableAndPngsWritten) {
+    for (const char* name : {"a.png", "b.png"}) {
+        const ToolResult result = play({"--snapshot", out(name), "--size", "64x48"});
+        ASSERT_EQ(result.exit_code, 0) << result.err;
+    }
+    const auto size_bytes = std::filesystem::file_size(out("a.png"));
+    EXPECT_GT(size_bytes, 500u);
+    EXPECT_EQ(read_file(out("a.png"), size_bytes), read_file(out("b.png"), size_bytes));
+}
+
+TEST_F(PlayTest, SnapshotReportsAsJson) {
+    const ToolResult result = play({"--snapshot", out("a.png"), "--size", "32x24", "--pose", "2.5",
+                                    "--transfer-components", "2", "--bands", "3", "--json"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+    const auto json = nlohmann::json::parse(result.out);
+    EXPECT_EQ(json["file"], file_.string());
+    EXPECT_EQ(json["snapshot"], out("a.png"));
+    EXPECT_EQ(json["pose"], 2.5);
+    EXPECT_EQ(json["geometry_components"], 3);
+    EXPECT_EQ(json["transfer_components"], 2);
+    EXPECT_EQ(json["bands"], 3);
+    EXPECT_EQ(json["size"], nlohmann::json({32, 24}));
+    EXPECT_EQ(json["multiply_adds_per_vertex"], 3 * 3 + 2 * 9 + 3 * 9);
+    EXPECT_FALSE(json["renderer"].get<std::string>().empty());
+}
+
+TEST_F(PlayTest, LimitsBeyondTheFileAreLoweredWithANote) {
+    const ToolResult result =
+        play({"--snapshot", out("a.png"), "--size", "32x24", "--transfer-components", "99",
+              "--geometry-components", "3", "--bands", "6", "--json"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(result.err.find("--transfer-components 99: the file has 5"), std::string::npos);
+    EXPECT_NE(result.err.find("--bands 6: the file has 5"), std::string::npos);
+    EXPECT_EQ(result.err.find("--geometry-components"), std::string::npos);
+    EXPECT_EQ(nlohmann::json::parse(result.out)["transfer_components"], 5);
+}
+
+TEST_F(PlayTest, RefusesCommandLinesThatMakeNoSense) {
+    const std::string png = out("a.png");
+    expect_failure({"--snapshot", png, "--pose", "3.01"}, 1, "--pose: expected 0 to 3");
+    expect_failure({"--snapshot", png, "--pose", "-1"}, 1, "--pose: expected a number from 0");
+    expect_failure({"--snapshot", png, "--pose", "nan"}, 1, "--pose");
+    expect_failure({"--geometry-components", "-1"}, 1, "--geometry-components: expected a whole");
+    expect_failure({"--transfer-components", "1.5"}, 1, "--transfer-components: expected a whole");
+    expect_failure({"--bands", "0"}, 1, "--bands: expected a whole number from 1");
+    expect_failure({"--exposure", "31"}, 1, "--exposure: expected a number from -30 to 30");
+    expect_failure({"--gamma", "-2"}, 1, "--gamma");
+    expect_failure({"--size", "0x5"}, 1, "--size: expected WIDTHxHEIGHT");
+    expect_failure({"--supersample", "9"}, 1, "--supersample: expected a whole number from 1 to 8");
+    expect_failure({"--background", "blue"}, 1, "--background");
+    expect_failure({"--camera", "10"}, 1, "--camera: expected AZIMUTH,ELEVATION");
+    expect_failure({"--camera", "10,90"}, 1, "--camera elevation: expected a number from -89");
+    expect_failure({"--camera", "10,20,0"}, 1, "--camera distance factor");
+    expect_failure({"--snapshot", out("a.jpg")}, 1, "ends in .png or .exr");
+    expect_failure({"--snapshot", png, "--bench", "3"}, 1, "exclude each other");
+    expect_failure({"--json"}, 1, "--json goes with --snapshot or --bench");
+    expect_failure({"--nonsense"}, 1, "--nonsense");
+    EXPECT_FALSE(std::filesystem::exists(png));
+}
+
+TEST_F(PlayTest, NamesFilesThatCannotBeReadOrWritten) {
+    expect_failure({"--env", out("none.exr"), "--snapshot", out("a.png")}, 2, "none.exr");
+    expect_failure({"--env", file_.string(), "--snapshot", out("a.png")}, 2, "ball.paim");
+    expect_failure({"--snapshot", out("none/a.png"), "--size", "8x8"}, 4, "none/a.png");
+    write_exr(out("bad.exr"), Image(4, 2, Vec3f::Constant(-1.0f)));
+    expect_failure({"--env", out("bad.exr"), "--snapshot", out("a.png")}, 2, "bad.exr");
+    const ToolResult missing = run_tool({PAIM_PLAY, out("none.paim"), "--snapshot", out("a.png")});
+    EXPECT_EQ(missing.exit_code, 2);
+    EXPECT_NE(missing.err.find("none.paim"), std::string::npos) << missing.err;
+}
+
+TEST_F(PlayTest, SaysWhatIsMissingToDraw) {
+    expect_failure({}, 3, "--snapshot");
+    expect_failure({"--snapshot", out("a.png"), "--size", "16384x16384", "--supersample", "8"}, 3,
+                   "131072 x 131072 samples");
+    ::setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent", 1);
+    expect_failure({"--snapshot", out("a.png")}, 3, "EGL_MESA_platform_surfaceless");
+    ::unsetenv("__EGL_VENDOR_LIBRARY_FILENAMES");
+}
+
+TEST_F(PlayTest, HelpNamesEveryOptionAndKey) {
+    const ToolResult result = run_tool({PAIM_PLAY, "--help"});
+    EXPECT_EQ(result.exit_code, 0);
+    for (const char* word : {"--env",
+                             "--env-rotation",
+                             "--background",
+                             "--geometry-components",
+                             "--transfer-components",
+                             "--bands",
+                             "--pose",
+                             "--camera",
+                             "--size",
+                             "--supersample",
+                             "--exposure",
+                             "--gamma",
+                             "--snapshot",
+                             "--bench",
+                             "--frames",
+                             "--json",
+                             "Space",
+                             "Esc",
+                             "degrees",
+                             "pixels"}) {
+        EXPECT_NE(result.out.find(word), std::string::npos) << word;
+    }
+}
+
+TEST_F(PlayTest, BenchReportsTimes) {
+    const ToolResult result = play({"--bench", "5", "--size", "64x48", "--json"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const auto json = nlohmann::json::parse(result.out);
+    EXPECT_EQ(json["frames"], 5);
+    for (const char* name : {"frame", "vertices", "cpu"}) {
+        const double median_ms = json[std::string(name) + "_median_ms"];
+        const double min_ms = json[std::string(name) + "_min_ms"];
+        EXPECT_GT(min_ms, 0.0) << name;
+        EXPECT_LE(min_ms, median_ms) << name;
+    }
+    EXPECT_NEAR(json["vertices_to_cpu_ratio"].get<double>() * json["cpu_median_ms"].get<double>(),
+                json["vertices_median_ms"].get<double>(), 1e-9);
+}
+
+TEST_F(PlayTest, WindowOpensPlaysAndCloses) {
+    const XServer server(PAIM_XVFB);
+    const ToolResult result = play({"--frames", "12", "--size", "320x240", "--supersample", "2"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.out, "");
+    EXPECT_EQ(result.err, "");
+}
+
+}  // namespace
+}  // namespace paim::player

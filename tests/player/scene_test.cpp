@@ -1,0 +1,244 @@
+// Background, light and tone curve on the GPU against the library on the CPU.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "paim/base/error.h"
+#include "paim/codec/sequence_bounds.h"
+#include "paim/codec/svd_decoder.h"
+#include "paim/light/environment.h"
+#include "player/gl/check.h"
+#include "player/gl/headless_context.h"
+#include "player/render/fit_image.h"
+#include "player/render/scene_renderer.h"
+#include "player/render/tone_mapper.h"
+#include "tests/player/ray_cast.h"
+#include "tests/player/test_model.h"
+
+namespace paim::player {
+namespace {
+
+constexpr int kWidth = 90;
+constexpr int kHeight = 60;
+constexpr float kAspect = float{kWidth} / kHeight;
+
+// Smooth in both directions and across the seam, no two places alike, up to about 2.
+Image make_environment() {
+    Image image(64, 32);
+    for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) {
+            const double u = 2.0 * kPi * (x + 0.5) / image.width, v = (y + 0.5) / image.height;
+            image.at(x, y) = Vec3d(1.0 + std::sin(u) * std::sin(kPi * v), 0.1 + v,
+                                   1.0 + std::cos(u) * std::sin(kPi * v))
+                                 .cast<float>();
+        }
+    }
+    return image;
+}
+
+Model make_empty_model() {
+    Model model = make_test_model({});
+    model.topology.triangles.clear();
+    return model;
+}
+
+class SceneTest : public testing::TestWithParam<gl::Api> {
+  protected:
+    SceneTest() : context_(gl::make_headless_context(GetParam())) { gl::report_driver_messages(); }
+    std::unique_ptr<gl::Context> context_;
+};
+
+INSTANTIATE_TEST_SUITE_P(Apis, SceneTest, testing::Values(gl::Api::desktop, gl::Api::es),
+                         [](const auto& api) {
+                             return api.param == gl::Api::desktop ? "Desktop" : "Es";
+                         });
+
+// Every pixel's direction, turned back by the light's angle and looked up on the CPU. Shaders may
+// compute atan to 4096 ulp (GLSL 4.1 and later; llvmpipe's is near 1e-6), and single precision moves
+// the place in the map by 1e-5 of it: 1e-4 pixels of 64, over which this map changes by 0.1 a pixel.
+TEST_P(SceneTest, BackgroundIsTheTurnedEnvironment) {
+    const Model model = make_empty_model();
+    const EnvironmentLight environment(make_environment());
+    SceneRenderer renderer(model, environment.image(), {});
+    struct View {
+        Vec3f eye;
+        double rotation_rad;
+    };
+    // Level, across the seam (which lies at -Z), nearly up and nearly down; turned both ways.
+    for (const View& view : {View{{1.0f, 0.2f, 0.3f}, 0.0}, View{{0.0f, 0.0f, 1.0f}, 0.0},
+                             View{{0.1f, -2.0f, 0.05f}, 0.4}, View{{0.1f, 2.0f, -0.05f}, -2.5},
+                             View{{-1.0f, 0.0f, 0.2f}, 9.0}}) {
+        Frame frame;
+        frame.camera.eye = view.eye;
+        frame.camera.vertical_fov_rad = 1.2f;
+        frame.env_rotation_rad = view.rotation_rad;
+        const Image image = renderer.render(frame, kWidth, kHeight, 1);
+        const Eigen::AngleAxisd turn_back(-view.rotation_rad, Vec3d::UnitY());
+        for (int y = 0; y < kHeight; ++y) {
+            for (int x = 0; x < kWidth; ++x) {
+                const Vec3d direction =
+                    frame.camera
+                        .ray_direction((static_cast<float>(x) + 0.5f) / kWidth,
+                                       (static_cast<float>(y) + 0.5f) / kHeight, kAspect)
+                        .cast<double>();
+                const Vec3f expected = environment.radiance(turn_back * direction);
+                ASSERT_LT((image.at(x, y) - expected).cwiseAbs().maxCoeff(), 1e-4f)
+                    << x << ", " << y;
+            }
+        }
+    }
+}
+
+TEST_P(SceneTest, LightTurnsWithTheBackground) {
+    const Model model = make_test_model({});
+    const EnvironmentLight environment(make_environment());
+    SceneRenderer renderer(model, environment.image(), {});
+    Frame frame;
+    frame.time = 1.25;
+    frame.bounds = pose_bounds(model, frame.time, frame.limits.geometry_components);
+    frame.camera = frame_bounds(frame.bounds, kAspect);
+    frame.background = {Background::Kind::color, Vec3f(0.1f, 0.2f, 0.3f)};
+    Image previous(kWidth, kHeight);
+    for (const double rotation_rad : {0.0, 1.0, -2.0, 0.0}) {
+        frame.env_rotation_rad = rotation_rad;
+        const LightCoefficients light =
+            turn_about_y(environment.coefficients(Vec3f::Zero(), 5), rotation_rad);
+        std::vector<Vec3f> positions(model.topology.num_vertices);
+        DecodedPose pose;
+        SvdDecoder(model).decode(frame.time, frame.limits, pose);
+        for (size_t v = 0; v < positions.size(); ++v) {
+            positions[v] = {pose.positions[v], pose.positions[positions.size() + v],
+                            pose.positions[2 * positions.size() + v]};
+        }
+        const Image expected = ray_cast(model.topology, positions,
+                                        vertex_radiance(model, frame.time, frame.limits, light),
+                                        frame.camera, kWidth, kHeight, frame.background.color);
+        const Image image = renderer.render(frame, kWidth, kHeight, 1);
+        const Difference difference = compare(expected, image);
+        EXPECT_LE(difference.mean_relative, 1e-3) << rotation_rad;
+        EXPECT_LE(difference.fraction_off, 0.005) << rotation_rad;
+        // The turn is to be seen.
+        EXPECT_GT(compare(previous, image).fraction_off, 0.1) << rotation_rad;
+        previous = image;
+    }
+}
+
+TEST_P(SceneTest, SupersamplesAreAveraged) {
+    const Model model = make_test_model({});
+    SceneRenderer renderer(model, make_environment(), {});
+    Frame frame;
+    frame.bounds = pose_bounds(model, 0.0, frame.limits.geometry_components);
+    frame.camera = frame_bounds(frame.bounds, kAspect);
+    const Image fine = renderer.render(frame, 3 * kWidth, 3 * kHeight, 1);
+    const Image averaged = renderer.render(frame, kWidth, kHeight, 3);
+    const Difference difference = compare(downsample(fine, 3), averaged);
+    EXPECT_EQ(difference.mean_relative, 0.0);
+}
+
+TEST_P(SceneTest, BadEnvironmentLeavesTheOldOne) {
+    const Model model = make_empty_model();
+    SceneRenderer renderer(model, make_environment(), {});
+    const Image before = renderer.render({}, kWidth, kHeight, 1);
+    Image bad = make_environment();
+    bad.at(3, 4).x() = std::nanf("");
+    EXPECT_THROW(renderer.set_environment(bad), Error);
+    EXPECT_EQ(compare(before, renderer.render({}, kWidth, kHeight, 1)).mean_relative, 0.0);
+    renderer.set_environment(Image(1, 1, Vec3f(0.5f, 0.25f, 4.0f)));
+    const Image after = renderer.render({}, kWidth, kHeight, 1);
+    for (const Vec3f& pixel : after.pixels) ASSERT_EQ(pixel, Vec3f(0.5f, 0.25f, 4.0f));
+}
+
+TEST_P(SceneTest, RefusesPicturesBeyondTheDriversLimit) {
+    const int too_much = gl::max_target_size() + 1;
+    try {
+        gl::Target(too_much, 4);
+        FAIL() << "expected an error";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ExitCode::unsupported);
+        EXPECT_NE(std::string(error.what()).find(std::to_string(too_much)), std::string::npos);
+    }
+}
+
+TEST_P(SceneTest, RefusedShadersAreNamedWithTheDriversLog) {
+    try {
+        gl::Program("nonsense", "void main() { gl_Position = vec4(0.0); }",
+                    "out vec4 c; void main() { c = undeclared; }");
+        FAIL() << "expected an error";
+    } catch (const Error& error) {
+        const std::string message = error.what();
+        EXPECT_NE(message.find("shader nonsense, fragment stage"), std::string::npos) << message;
+        EXPECT_NE(message.find("undeclared"), std::string::npos) << message;
+    }
+}
+
+// A framebuffer of eight bits, like a window's.
+class ByteTarget {
+  public:
+    ByteTarget(int width, int height) : width_(width), height_(height) {
+        glBindTexture(GL_TEXTURE_2D, color_.id());
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+                     nullptr);
+        glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
+        glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color_.id(), 0);
+        glViewport(0, 0, width, height);
+    }
+    std::vector<std::array<uint8_t, 4>> read() const {
+        std::vector<std::array<uint8_t, 4>> pixels(static_cast<size_t>(width_ * height_));
+        glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
+        return pixels;
+    }
+
+  private:
+    int width_;
+    int height_;
+    gl::TextureHandle color_;
+    gl::FramebufferHandle framebuffer_;
+};
+
+TEST_P(SceneTest, ToneMapperAgreesWithToneCurve) {
+    constexpr int kSamples = 2;
+    const gl::Target picture(kSamples * kWidth, kSamples * kHeight);
+    const Model model = make_empty_model();
+    SceneRenderer renderer(model, make_environment(), {});
+    renderer.draw({}, picture);
+    const Image image = downsample(picture.read(), kSamples);
+    const ToneMapper mapper;
+    for (const ToneCurve& curve : {ToneCurve{0.0f, 0.0f}, ToneCurve{-2.5f, 0.0f},
+                                   ToneCurve{1.0f, 2.2f}, ToneCurve{-9.0f, 0.0f}}) {
+        const ByteTarget target(kWidth, kHeight);
+        mapper.draw(picture, kSamples, curve);
+        gl::check_errors("testing");
+        const auto pixels = target.read();
+        for (int y = 0; y < kHeight; ++y) {
+            for (int x = 0; x < kWidth; ++x) {
+                for (int channel = 0; channel < 3; ++channel) {
+                    // One level: a value on the border of two may fall on either side.
+                    ASSERT_NEAR(pixels[static_cast<size_t>((kHeight - 1 - y) * kWidth + x)]
+                                      [static_cast<size_t>(channel)],
+                                curve.apply(image.at(x, y)[channel]), 1);
+                }
+            }
+        }
+    }
+}
+
+TEST(FitImage, AveragesWholeAndCutBlocks) {
+    Image image(5, 3);
+    for (int y = 0; y < 3; ++y) {
+        for (int x = 0; x < 5; ++x) image.at(x, y) = Vec3f(x, y, 1);
+    }
+    EXPECT_EQ(fit_image(image, 5).pixels, image.pixels);
+    const Image half = fit_image(image, 4);
+    ASSERT_EQ(half.width, 3);
+    ASSERT_EQ(half.height, 2);
+    EXPECT_EQ(half.at(0, 0), Vec3f(0.5f, 0.5f, 1.0f));
+    EXPECT_EQ(half.at(2, 0), Vec3f(4.0f, 0.5f, 1.0f));
+    EXPECT_EQ(half.at(1, 1), Vec3f(2.5f, 2.0f, 1.0f));
+    const Image one = fit_image(image, 1);
+    ASSERT_EQ(one.pixels.size(), 1u);
+    EXPECT_EQ(one.at(0, 0), Vec3f(2.0f, 1.0f, 1.0f));
+}
+
+}  // namespace
+}  // namespace paim::player

@@ -1,0 +1,70 @@
+// Bounds of animations.
+#include "paim/codec/sequence_bounds.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace paim {
+namespace {
+
+// Two vertices; component 0 moves the second along x, component 1 the first along z.
+Model moving_points(uint32_t num_poses) {
+    Model model;
+    model.topology.num_vertices = 2;
+    model.layout.bands = 1;
+    model.geometry.num_vertices = 2;
+    model.geometry.num_planes = 3;
+    model.geometry.num_poses = num_poses;
+    model.geometry.num_components = 2;
+    model.geometry.mean = {0, 1, 0, 2, 0, 3};  // x x y y z z
+    model.geometry.components = {0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0};
+    for (uint32_t p = 0; p < num_poses; ++p) {
+        model.geometry.weights.push_back(static_cast<float>(p));
+    }
+    for (uint32_t p = 0; p < num_poses; ++p) {
+        model.geometry.weights.push_back(p == 1 ? -4.0f : 0.0f);
+    }
+    model.transfer.num_vertices = 2;
+    model.transfer.num_planes = 1;
+    model.transfer.num_poses = num_poses;
+    model.transfer.mean = {0, 0};
+    return model;
+}
+
+TEST(PoseBounds, AreThoseOfTheDecodedPositions) {
+    const Model model = moving_points(3);
+    Bounds bounds = pose_bounds(model, 1.0, 2);
+    EXPECT_EQ(bounds.lower, Vec3f(0, 0, -4));
+    EXPECT_EQ(bounds.upper, Vec3f(2, 2, 3));
+    bounds = pose_bounds(model, 1.5, 2);
+    EXPECT_EQ(bounds.lower, Vec3f(0, 0, -2));
+    EXPECT_EQ(bounds.upper, Vec3f(2.5f, 2, 3));
+    bounds = pose_bounds(model, 1.0, 1);
+    EXPECT_EQ(bounds.lower, Vec3f(0, 0, 0));
+    bounds = pose_bounds(model, 1.0, 0);
+    EXPECT_EQ(bounds.upper, Vec3f(1, 2, 3));
+}
+
+TEST(SequenceBounds, HoldEveryPose) {
+    const Bounds bounds = sequence_bounds(moving_points(5));
+    EXPECT_EQ(bounds.lower, Vec3f(0, 0, -4));
+    EXPECT_EQ(bounds.upper, Vec3f(5, 2, 3));
+    const Bounds single = sequence_bounds(moving_points(1));
+    EXPECT_EQ(single.lower, Vec3f(0, 0, 0));
+    EXPECT_EQ(single.upper, Vec3f(1, 2, 3));
+}
+
+TEST(SequenceBounds, OfNothingAreEmpty) {
+    Model model = moving_points(3);
+    model.topology.num_vertices = 0;
+    for (LowRankMatrix* matrix : {&model.geometry, &model.transfer}) {
+        matrix->num_vertices = 0;
+        matrix->mean.clear();
+        matrix->components.clear();
+    }
+    EXPECT_TRUE(sequence_bounds(model).empty());
+}
+
+}  // namespace
+}  // namespace paim

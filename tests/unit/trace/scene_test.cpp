@@ -1,0 +1,62 @@
+// Rays against triangles: hits on both sides, distances, watertight edges, nothing at all.
+#include "paim/trace/scene.h"
+
+#include <gtest/gtest.h>
+
+#include "paim/base/seed.h"
+#include "poses/shapes.h"
+
+namespace paim {
+namespace {
+
+const Topology kTriangle{3, {{0, 1, 2}}};
+const std::vector<Vec3f> kCorners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+
+TEST(Scene, HitsBothSidesAtTheRightPlace) {
+    const Scene scene(kTriangle, kCorners);
+    for (const float side : {1.0f, -1.0f}) {
+        const auto hit = scene.first_hit({0.25f, 0.5f, 2.0f * side}, {0, 0, -side});
+        ASSERT_TRUE(hit);
+        EXPECT_NEAR(hit->distance, 2.0f, 1e-6f);
+        EXPECT_EQ(hit->triangle, 0u);
+        EXPECT_NEAR(hit->u, 0.25f, 1e-6f);
+        EXPECT_NEAR(hit->v, 0.5f, 1e-6f);
+    }
+    EXPECT_FALSE(scene.first_hit({0.75f, 0.75f, 1}, {0, 0, -1}));
+    EXPECT_FALSE(scene.first_hit({0.25f, 0.25f, 1}, {0, 0, 1}));
+}
+
+TEST(Scene, CountsBlockedDirections) {
+    const Scene scene(kTriangle, kCorners);
+    const float x[] = {0, 0, 1}, y[] = {0, 0, 0}, z[] = {-1, 1, 0};
+    float blocked[3];
+    EXPECT_EQ(scene.blocked({0.2f, 0.2f, 1}, x, y, z, 3, blocked), 1u);
+    EXPECT_EQ(blocked[0], 1.0f);
+    EXPECT_EQ(blocked[1], 0.0f);
+    EXPECT_EQ(blocked[2], 0.0f);
+}
+
+TEST(Scene, HoldsNothingWithoutTriangles) {
+    const Topology isolated{1, {}};
+    const Scene scene(isolated, std::vector<Vec3f>{{0, 0, 0}});
+    EXPECT_FALSE(scene.first_hit({0, 0, 1}, {0, 0, -1}));
+}
+
+TEST(Scene, LetsNoRayOutOfAClosedMesh) {
+    const auto sequence = poses::make_sphere_sequence(600);
+    const auto positions = sequence->positions(0, 1);
+    const Scene scene(sequence->topology(), positions);
+    RandomStream random(3);
+    for (int j = 0; j < 20000; ++j) {
+        // Towards vertices and points of edges too, where cracks would be.
+        const auto& t = sequence->topology().triangles[static_cast<size_t>(j) %
+                                                       sequence->topology().triangles.size()];
+        const auto along = static_cast<float>(random.uniform());
+        const Vec3f target = j % 2 == 0 ? positions[t[0]]
+                                        : Vec3f((1.0f - along) * positions[t[0]] + along * positions[t[1]]);
+        ASSERT_TRUE(scene.first_hit(Vec3f::Zero(), target.normalized())) << j;
+    }
+}
+
+}  // namespace
+}  // namespace paim
