@@ -80,6 +80,19 @@ TEST(ExrDamage, RefusesWhatIsNoExr) {
     EXPECT_FALSE(try_read(directory / "text.exr"));
 }
 
+TEST(ExrDamage, TheDeepFlagAloneIsRefused) {
+    const TemporaryDirectory directory;
+    std::vector<char> bytes = small_file(directory);
+    bytes[5] = 0x08;  // of the version field
+    put(directory / "a.exr", bytes, bytes.size());
+    try {
+        read_exr(directory / "a.exr");
+        FAIL() << "expected an error";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("deep image"), std::string::npos) << error.what();
+    }
+}
+
 TEST(ExrDamage, HugeWindowsAreRefusedBeforeAllocating) {
     const TemporaryDirectory directory;
     const std::vector<char> bytes = small_file(directory);

@@ -94,7 +94,7 @@ Image cone_image(int height, const Vec3d& axis, double half_angle) {
 
 TEST(ProjectLatLong, AConeIsItsClosedForm) {
     constexpr int kBands = 6;
-    constexpr int kHeight = 256;
+    constexpr int kHeight = 128;
     const double half_angle = 0.5;
     for (const Vec3d& axis : {Vec3d(Vec3d::UnitX()), Vec3d(-Vec3d::UnitX()), Vec3d(Vec3d::UnitY()),
                               Vec3d(-Vec3d::UnitY()), Vec3d(Vec3d::UnitZ()), Vec3d(-Vec3d::UnitZ()),
