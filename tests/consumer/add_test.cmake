@@ -1,5 +1,4 @@
-# The install as others see it.
-# Sanitized code needs its flags in the consumer too.
+# The install as others see it. Sanitized code needs its flags in the consumer too.
 set(consumer_flags ${CMAKE_CXX_FLAGS})
 if(PAIM_SANITIZE)
     string(APPEND consumer_flags " -fsanitize=address,undefined")
