@@ -4,17 +4,19 @@ find_package(fmt REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(TBB REQUIRED)
 find_package(PkgConfig REQUIRED)
-pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
+list(APPEND CMAKE_MODULE_PATH ${PROJECT_SOURCE_DIR}/cmake)
+find_package(xxHash REQUIRED)
 
-# OpenEXR 3 brings a CMake package; OpenEXR 2 (Ubuntu 22.04) is found through pkg-config.
+# OpenEXR 3 brings a CMake package; OpenEXR 2 (Ubuntu 22.04) is found through pkg-config. Consumers of
+# the installed library find the same one, so the target is named here and linked by that name.
 find_package(OpenEXR 3 CONFIG QUIET)
 if(OpenEXR_FOUND)
-    add_library(paim_openexr INTERFACE)
-    target_link_libraries(paim_openexr INTERFACE OpenEXR::OpenEXR)
+    set(PAIM_OPENEXR_VERSION 3)
+    set(PAIM_OPENEXR_TARGET OpenEXR::OpenEXR)
 else()
     pkg_check_modules(OPENEXR2 REQUIRED IMPORTED_TARGET OpenEXR)
-    add_library(paim_openexr INTERFACE)
-    target_link_libraries(paim_openexr INTERFACE PkgConfig::OPENEXR2)
+    set(PAIM_OPENEXR_VERSION 2)
+    set(PAIM_OPENEXR_TARGET PkgConfig::OPENEXR2)
 endif()
 
 find_path(STB_INCLUDE_DIR NAMES stb_image_write.h PATH_SUFFIXES stb REQUIRED)
