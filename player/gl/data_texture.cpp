@@ -68,7 +68,7 @@ DataTexture::DataTexture(const char* name, TexelFormat format, int width_log2, i
 void DataTexture::upload(const Fill& fill) const {
     const auto row_floats =
         static_cast<size_t>(width_) * static_cast<size_t>(floats_per_texel(format_));
-    const int num_rows = std::min(height_, std::max(1, (1 << 20) / width_));
+    const int num_rows = std::min(height_, std::max(1, (1 << 16) / width_));
     std::vector<float> values;
     for (int row = 0; row < height_; row += num_rows) {
         const int rows = std::min(num_rows, height_ - row);

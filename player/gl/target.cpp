@@ -47,7 +47,7 @@ Image Target::read() const {
     glPixelStorei(GL_PACK_ALIGNMENT, 4);
     Image image(width_, height_);
     // A few rows at a time, so that no second copy of a large picture is needed.
-    const int num_rows = std::max(1, (1 << 20) / width_);
+    const int num_rows = std::max(1, (1 << 16) / width_);
     std::vector<float> rows;
     for (int bottom = 0; bottom < height_; bottom += num_rows) {
         const int count = std::min(num_rows, height_ - bottom);

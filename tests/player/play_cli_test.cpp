@@ -78,11 +78,11 @@ Image expected_picture(const Model& model, double time, double rotation_rad, int
 TEST_F(PlayTest, SnapshotIsThePictureOfTheLibrary) {
     const ToolResult result =
         play({"--snapshot", out("a.exr"), "--pose", "1.5", "--env-rotation", "-40", "--size",
-              "100x70", "--background", "0.1,0.2,0.3", "--supersample", "3", "--exposure", "3"});
+              "120x80", "--background", "0.1,0.2,0.3", "--supersample", "3", "--exposure", "3"});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(result.out, "");
     const Image expected = downsample(
-        expected_picture(model_, 1.5, -40.0 * kPi / 180.0, 300, 210, Vec3f(0.1f, 0.2f, 0.3f)), 3);
+        expected_picture(model_, 1.5, -40.0 * kPi / 180.0, 360, 240, Vec3f(0.1f, 0.2f, 0.3f)), 3);
     // EXR stays linear, whatever the exposure. The limits are those the player promises.
     const Difference difference = compare(expected, read_exr(out("a.exr")));
     EXPECT_LE(difference.mean_relative, 1e-3);

@@ -204,8 +204,9 @@ TEST_P(SceneTest, ToneMapperAgreesWithToneCurve) {
     renderer.draw({}, picture);
     const Image image = downsample(picture.read(), kSamples);
     const ToneMapper mapper;
-    for (const ToneCurve& curve : {ToneCurve{0.0f, 0.0f}, ToneCurve{-2.5f, 0.0f},
-                                   ToneCurve{1.0f, 2.2f}, ToneCurve{-9.0f, 0.0f}}) {
+    for (const ToneCurve& curve :
+         {ToneCurve{0.0f, 0.0f}, ToneCurve{-2.5f, 0.0f}, ToneCurve{1.0f, 2.2f},
+          ToneCurve{-6.0f, 0.0f}, ToneCurve{-9.0f, 0.0f}}) {
         const ByteTarget target(kWidth, kHeight);
         mapper.draw(picture, kSamples, curve);
         gl::check_errors("testing");
