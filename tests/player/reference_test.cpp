@@ -1,0 +1,124 @@
+// paim-play's pictures of a baked, compressed octopus against the ray-cast reference renderer.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "compressor/bake/bake_sequence.h"
+#include "compressor/encode/encode.h"
+#include "paim/codec/sequence_bounds.h"
+#include "paim/codec/svd_decoder.h"
+#include "paim/format/paim_file.h"
+#include "paim/image/exr.h"
+#include "paim/image/tone.h"
+#include "paim/light/environment.h"
+#include "paim/light/sky.h"
+#include "paim/metrics/image_error.h"
+#include "paim/render/render.h"
+#include "paim/shade/shade.h"
+#include "poses/octopus.h"
+#include "tests/cli/run_tool.h"
+#include "tests/temporary_directory.h"
+
+namespace paim {
+namespace {
+
+constexpr int kWidth = 320;
+constexpr int kHeight = 240;
+
+// A red light from +X and a blue one from −Z, for colour and direction.
+Image make_two_lamps() {
+    Image image(64, 32, Vec3f::Constant(0.1f));
+    for (int y = 0; y < 32; ++y) {
+        for (int x = 0; x < 64; ++x) {
+            const Vec3d w = direction_from_latlong((x + 0.5) / 64, (y + 0.5) / 32);
+            if (w.x() > 0.8) image.at(x, y) += Vec3f(9, 1, 1);
+            if (w.z() < -0.7) image.at(x, y) += Vec3f(1, 2, 8);
+        }
+    }
+    return image;
+}
+
+class Reference : public testing::Test {
+  protected:
+    Reference() {
+        const PoseSet octopus = poses::make_octopus(4000, 6);
+        const BakeOptions options{5, 64, 1};
+        bake_sequence(octopus, options, "faces", directory_ / "x.bake", 0, 5, [](uint32_t) {});
+        encode(BakeReader(directory_ / "x.bake"), {}, directory_ / "x.paim");
+        model_ = read_paim(directory_ / "x.paim");
+    }
+
+    Image reference(double time, const Image& environment, double turn_rad) const {
+        DecodedPose pose;
+        SvdDecoder(model_).decode(time, {}, pose);
+        const size_t num_vertices = model_.topology.num_vertices;
+        std::vector<Vec3f> positions(num_vertices);
+        for (size_t v = 0; v < num_vertices; ++v) {
+            positions[v] = Vec3f(pose.positions[v], pose.positions[num_vertices + v],
+                                 pose.positions[2 * num_vertices + v]);
+        }
+        const EnvironmentLight light(environment);
+        std::vector<std::vector<Vec3f>> radiance(1);
+        shade(pose.layout, pose.transfer, model_.albedo,
+              turn_about_y(light.coefficients(Vec3f::Zero(), 5), turn_rad), radiance[0]);
+        const Camera camera =
+            frame_bounds(sequence_bounds(model_), static_cast<float>(kWidth) / kHeight);
+        return render_images(model_.topology, positions, radiance, camera, kWidth, kHeight)[0];
+    }
+
+    Image snapshot(double time, const std::vector<std::string>& light_arguments) const {
+        std::vector<std::string> arguments{PAIM_PLAY,       (directory_ / "x.paim").string(),
+                                           "--snapshot",    (directory_ / "x.exr").string(),
+                                           "--pose",        std::to_string(time),
+                                           "--size",        fmt::format("{}x{}", kWidth, kHeight),
+                                           "--supersample", "1",
+                                           "--background",  "black"};
+        arguments.insert(arguments.end(), light_arguments.begin(), light_arguments.end());
+        const ToolResult result = run_tool(arguments);
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        return read_exr(directory_ / "x.exr");
+    }
+
+    TemporaryDirectory directory_;
+    Model model_;
+};
+
+TEST_F(Reference, PlayerAgreesInThreePosesUnderTwoLights) {
+    write_exr(directory_ / "lamps.exr", make_two_lamps());
+    const std::string lamps = (directory_ / "lamps.exr").string();
+    const ToneCurve curve;
+    for (const double time : {0.0, 2.0, 4.5}) {
+        for (const bool use_sky : {true, false}) {
+            const double turn_deg = 40.0 * time;
+            std::vector<std::string> arguments{"--env-rotation", std::to_string(turn_deg)};
+            if (!use_sky) arguments.insert(arguments.end(), {"--env", lamps});
+            const Image expected =
+                reference(time, use_sky ? make_sky() : read_exr(lamps), turn_deg * kPi / 180.0);
+            const Image drawn = snapshot(time, arguments);
+            size_t covered = 0, off = 0;
+            for (size_t j = 0; j < expected.pixels.size(); ++j) {
+                if (expected.pixels[j].isZero(0.0f) && drawn.pixels[j].isZero(0.0f)) continue;
+                ++covered;
+                for (int channel = 0; channel < 3; ++channel) {
+                    const int difference = curve.apply(expected.pixels[j][channel]) -
+                                           curve.apply(drawn.pixels[j][channel]);
+                    if (std::abs(difference) > 2) {
+                        ++off;
+                        break;
+                    }
+                }
+            }
+            const double error = compare_images(drawn, expected).visual_error();
+            const double share = static_cast<double>(off) / static_cast<double>(covered);
+            RecordProperty(fmt::format("error_{}_{}", time, use_sky), std::to_string(error));
+            RecordProperty(fmt::format("off_{}_{}", time, use_sky), std::to_string(share));
+            EXPECT_GT(covered, 5000u);  // the octopus is in the picture
+            EXPECT_LE(error, 1e-3) << time << (use_sky ? " sky" : " lamps");
+            // Of the octopus's own pixels, which is stricter than of the image's.
+            EXPECT_LE(share, 5e-3) << time << (use_sky ? " sky" : " lamps");
+        }
+    }
+}
+
+}  // namespace
+}  // namespace paim
