@@ -72,8 +72,8 @@ void analyze(const AnalyzeOptions& options) {
                       options.size_pixels, options.num_poses);
     cli::Progress progress("measuring", "settings",
                            num_curve_points(model, options.components, options.bands), quiet);
-    const std::vector<Curve> curves = measure_curves(
-        bake, model, stage, options.components, options.bands, [&] { progress.advance(); });
+    const std::vector<Curve> curves = measure_curves(bake, model, stage, options.components,
+                                                     options.bands, [&] { progress.advance(); });
     progress.finish();
 
     nlohmann::ordered_json json;
@@ -84,11 +84,13 @@ void analyze(const AnalyzeOptions& options) {
         json[curve.name] = curve_json(curve, lights);
     }
     const std::string summary = fmt::format(
-        "{} vertices, {} triangles, {} poses of which {} are measured, {} bands. Errors are relative "
+        "{} vertices, {} triangles, {} poses of which {} are measured, {} bands. Errors are "
+        "relative "
         "to the bake itself.",
         bake.identity().num_vertices, bake.identity().num_triangles, bake.num_poses(),
         stage.poses().size(), model.layout.bands);
-    write_report(options.output, "Error analysis of " + model.name, summary, curves, stage, with_plots);
+    write_report(options.output, "Error analysis of " + model.name, summary, curves, stage,
+                 with_plots);
     if (options.json) {
         fmt::print("{}\n", json.dump(2));
     } else {

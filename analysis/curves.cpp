@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <set>
+#include <span>
 
 #include "paim/codec/svd_decoder.h"
 #include "paim/format/paim_file.h"
@@ -101,39 +102,44 @@ std::vector<Curve> measure_curves(const BakeReader& bake, const Model& model, co
                                   const std::vector<uint32_t>& components,
                                   const std::vector<uint32_t>& bands,
                                   const std::function<void()>& on_point) {
-    std::vector<Curve> curves{
-        {"geometry_components", "Geometry components (all of the transfer)", {}},
-        {"transfer_components", "Transfer components (all of the geometry)", {}},
-        {"bands", "Bands (all components)", {}}};
-
-    const auto measure_components = [&](const LowRankMatrix& matrix, auto member, Curve& curve) {
-        for (const uint32_t k : settings(matrix.num_components, components)) {
+    // all        how many there are
+    // spectrum   singular values, or what plays their part; `size(value)` of them are kept
+    // limit      the limit that a setting is
+    const auto measure_curve = [&](const char* name, const char* title, uint32_t all,
+                                   const std::vector<uint32_t>& others,
+                                   std::span<const double> spectrum, auto size, auto limit) {
+        Curve curve{name, title, {}, {}, {}};
+        for (uint32_t value = 0; value <= all; ++value) {
+            curve.theory_errors.push_back(theory_error(spectrum, size(value)));
+            curve.energy_errors.push_back(energy_error(spectrum, size(value)));
+        }
+        for (const uint32_t value : settings(all, others)) {
             DecodeLimits limits;
-            limits.*member = k;
+            limits.*limit = value;
             CurvePoint point = measure(model, stage, limits);
-            point.value = k;
-            point.all = k == matrix.num_components;
-            point.theory_error = theory_error(matrix.singular_values, k);
-            point.energy_error = energy_error(matrix.singular_values, k);
+            point.value = value;
+            point.all = value == all;
+            point.theory_error = curve.theory_errors[value];
+            point.energy_error = curve.energy_errors[value];
             curve.points.push_back(std::move(point));
             on_point();
         }
+        return curve;
     };
-    measure_components(model.geometry, &DecodeLimits::geometry_components, curves[0]);
-    measure_components(model.transfer, &DecodeLimits::transfer_components, curves[1]);
-
+    const auto as_it_is = [](uint32_t value) { return value; };
+    const auto squared = [](uint32_t value) { return value * value; };
     const std::vector<double> norms = coefficient_norms(bake);
-    for (const uint32_t b : settings(model.layout.bands, bands)) {
-        DecodeLimits limits;
-        limits.bands = b;
-        CurvePoint point = measure(model, stage, limits);
-        point.value = b;
-        point.all = b == model.layout.bands;
-        point.theory_error = theory_error(norms, b * b);
-        point.energy_error = energy_error(norms, b * b);
-        curves[2].points.push_back(std::move(point));
-        on_point();
-    }
+    std::vector<Curve> curves;
+    curves.push_back(
+        measure_curve("geometry_components", "Geometry components (all of the transfer)",
+                      model.geometry.num_components, components, model.geometry.singular_values,
+                      as_it_is, &DecodeLimits::geometry_components));
+    curves.push_back(
+        measure_curve("transfer_components", "Transfer components (all of the geometry)",
+                      model.transfer.num_components, components, model.transfer.singular_values,
+                      as_it_is, &DecodeLimits::transfer_components));
+    curves.push_back(measure_curve("bands", "Bands (all components)", model.layout.bands, bands,
+                                   norms, squared, &DecodeLimits::bands));
     return curves;
 }
 

@@ -24,9 +24,12 @@ struct CurvePoint {
 };
 
 struct Curve {
-    std::string name;   // "geometry_components", "transfer_components", "bands"
-    std::string title;  // for people
+    std::string name;                // "geometry_components", "transfer_components", "bands"
+    std::string title;               // for people
     std::vector<CurvePoint> points;  // from all downwards
+    // What every setting would lose, by theory: [0 … all]
+    std::vector<double> theory_errors;
+    std::vector<double> energy_errors;
 };
 
 // Norm of each coefficient over vertices, channels and poses, [bands²]: what plays the part of singular

@@ -46,8 +46,10 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
         "paim-analyze");
     app.set_version_flag("--version", cli::version_text("paim-analyze"));
     app.footer(
-        "Errors are fractions: theory_error is the share of the singular values that is dropped (E5),\n"
-        "energy_error its root-mean-square form, visual_error what is seen in rendered images (E6).\n"
+        "Errors are fractions: theory_error is the share of the singular values that is dropped "
+        "(E5),\n"
+        "energy_error its root-mean-square form, visual_error what is seen in rendered images "
+        "(E6).\n"
         "Exit codes: 0 ok, 1 usage, 2 bad input, 3 unsupported, 4 output failed.");
     app.add_option("BAKE", options.bake_directory, "The .bake directory to measure")->required();
     app.add_option("-o,--output", options.output, "Directory for the results")->required();
@@ -59,7 +61,8 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
     app.add_option("--bands", bands,
                    "Band counts to measure, besides all; those above the bake's are left out")
         ->capture_default_str();
-    app.add_option("--size", options.size_pixels, "Width and height of the images, pixels, 16 to 4096")
+    app.add_option("--size", options.size_pixels,
+                   "Width and height of the images, pixels, 16 to 4096")
         ->check(CLI::Range(16, 4096))
         ->capture_default_str();
     app.add_option("--poses", options.num_poses,

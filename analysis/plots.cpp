@@ -38,15 +38,17 @@ std::string quoted(const std::string& text) {
 struct Series {
     std::string title;
     std::vector<std::pair<double, double>> points;
+    bool measured = true;  // drawn with a mark at each point
 };
 
 std::string plot_script(const std::filesystem::path& output, const std::string& title,
                         const std::string& x_label, bool log_x, const std::vector<Series>& series) {
     std::string script = fmt::format(
         "set terminal svg size 640,420 noenhanced font 'sans,13' background 'white'\n"
-        "set output {}\nset title {} noenhanced\nset xlabel {}\nset ylabel 'error (fraction)'\n"
-        "set logscale y\nset format y '10^{{%L}}'\nset yrange [{:g}:*]\nset grid\n"
-        "set key below horizontal\n{}",
+        "set output {}\nset title {} noenhanced\nset xlabel {}\nset ylabel 'error (fraction of "
+        "1)'\n"
+        "set logscale y\nset format y '%g'\nset yrange [{:g}:*]\nset grid\n"
+        "set key inside left bottom\n{}",
         quoted(output.string()), quoted(title), quoted(x_label), kFloor,
         log_x ? "set logscale x\n" : "");
     for (size_t j = 0; j < series.size(); ++j) {
@@ -58,51 +60,63 @@ std::string plot_script(const std::filesystem::path& output, const std::string& 
     }
     script += "plot ";
     for (size_t j = 0; j < series.size(); ++j) {
-        script += fmt::format("{}$data{} using 1:2 with linespoints lw 2 pt 7 ps 0.6 title {}",
-                              j > 0 ? ", " : "", j, quoted(series[j].title));
+        script += fmt::format("{}$data{} using 1:2 with {} lw 2 title {}", j > 0 ? ", " : "", j,
+                              series[j].measured ? "linespoints pt 7 ps 0.6" : "lines",
+                              quoted(series[j].title));
     }
     return script + "\n";
 }
 
-Series make_series(const std::string& title, const Curve& curve,
-                   const std::function<double(const CurvePoint&)>& x,
-                   const std::function<double(const CurvePoint&)>& y) {
-    Series series{title, {}};
-    for (const CurvePoint& point : curve.points) series.points.emplace_back(x(point), y(point));
+// One value for every setting from 0 on.
+Series theory_series(const std::string& title, const std::vector<double>& errors) {
+    Series series{title, {}, false};
+    for (size_t value = 0; value < errors.size(); ++value) {
+        series.points.emplace_back(static_cast<double>(value), errors[value]);
+    }
     return series;
+}
+
+// The visual errors of all lights against x.
+std::vector<Series> visual_series(const Curve& curve, const std::vector<NamedLight>& lights,
+                                  const std::function<double(const CurvePoint&)>& x) {
+    std::vector<Series> all;
+    for (size_t light = 0; light < lights.size(); ++light) {
+        Series series{"seen, " + lights[light].name, {}};
+        for (const CurvePoint& point : curve.points) {
+            series.points.emplace_back(x(point), point.visual_error[light]);
+        }
+        all.push_back(std::move(series));
+    }
+    return all;
 }
 
 }  // namespace
 
-bool have_gnuplot() { return std::system("gnuplot --version > /dev/null 2>&1") == 0; }
+bool have_gnuplot() {
+    return std::system("gnuplot --version > /dev/null 2>&1") == 0;
+}
 
 void write_plots(const std::filesystem::path& directory, const Curve& curve,
                  const std::vector<NamedLight>& lights) {
-    const auto value = [](const CurvePoint& point) { return static_cast<double>(point.value); };
-    const auto visual_series = [&](const std::function<double(const CurvePoint&)>& x) {
-        std::vector<Series> series;
-        for (size_t light = 0; light < lights.size(); ++light) {
-            series.push_back(make_series(
-                "seen, " + lights[light].name, curve, x,
-                [light](const CurvePoint& point) { return point.visual_error[light]; }));
-        }
-        return series;
-    };
-    std::vector<Series> errors = visual_series(value);
-    errors.insert(errors.begin(), {make_series("theory", curve, value,
-                                               [](const CurvePoint& p) { return p.theory_error; }),
-                                   make_series("energy", curve, value,
-                                               [](const CurvePoint& p) { return p.energy_error; })});
     const auto draw = [&](const std::string& suffix, const std::string& x_label, bool log_x,
                           const std::vector<Series>& series) {
         const auto output = directory / (curve.name + suffix + ".svg");
         run_gnuplot(plot_script(output, curve.title, x_label, log_x, series), output);
     };
+    std::vector<Series> errors{theory_series("theory", curve.theory_errors),
+                               theory_series("energy", curve.energy_errors)};
+    for (Series& series : visual_series(curve, lights, [](const CurvePoint& point) {
+             return static_cast<double>(point.value);
+         })) {
+        errors.push_back(std::move(series));
+    }
     draw("", curve.name == "bands" ? "bands" : "components", false, errors);
-    draw("_bytes", "bytes", true,
-         visual_series([](const CurvePoint& p) { return static_cast<double>(p.size_bytes); }));
+    draw("_bytes", "megabytes of the whole file", false,
+         visual_series(curve, lights, [](const CurvePoint& point) {
+             return static_cast<double>(point.size_bytes) / 1e6;
+         }));
     draw("_time", "ms to decode a pose", true,
-         visual_series([](const CurvePoint& p) { return p.decode_ms; }));
+         visual_series(curve, lights, [](const CurvePoint& point) { return point.decode_ms; }));
 }
 
 }  // namespace paim

@@ -69,7 +69,8 @@ std::vector<Image> Stage::render_pose(const DecodedPose& pose) const {
     for (size_t j = 0; j < lights_.size(); ++j) {
         shade(pose.layout, pose.transfer, bake_.albedo(), lights_[j].coefficients, radiance[j]);
     }
-    return render_images(bake_.topology(), positions, radiance, camera_, size_pixels_, size_pixels_);
+    return render_images(bake_.topology(), positions, radiance, camera_, size_pixels_,
+                         size_pixels_);
 }
 
 }  // namespace paim

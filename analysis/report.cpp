@@ -13,7 +13,8 @@ namespace {
 constexpr float kDifferenceGain = 4.0f;
 
 constexpr const char* kStyle =
-    "body{font:15px/1.5 system-ui,sans-serif;margin:2em auto;max-width:78em;padding:0 1em;color:#222}"
+    "body{font:15px/1.5 system-ui,sans-serif;margin:2em auto;max-width:78em;padding:0 "
+    "1em;color:#222}"
     "h1,h2{font-weight:600}table{border-collapse:collapse;margin:1em 0}"
     "th,td{padding:.25em .8em;text-align:right;border-bottom:1px solid #ddd}"
     ".strip{display:flex;gap:6px;overflow-x:auto;margin:.5em 0}.strip figure{margin:0}"
@@ -25,11 +26,20 @@ std::string escape(const std::string& text) {
     std::string result;
     for (const char c : text) {
         switch (c) {
-            case '&': result += "&amp;"; break;
-            case '<': result += "&lt;"; break;
-            case '>': result += "&gt;"; break;
-            case '"': result += "&quot;"; break;
-            default: result += c;
+            case '&':
+                result += "&amp;";
+                break;
+            case '<':
+                result += "&lt;";
+                break;
+            case '>':
+                result += "&gt;";
+                break;
+            case '"':
+                result += "&quot;";
+                break;
+            default:
+                result += c;
         }
     }
     return result;
@@ -72,23 +82,24 @@ std::string strips(const std::filesystem::path& directory, const Curve& curve, c
                                   fmt::format("seen: {:.3g} %", 100.0 * point.visual_error[light]),
                                   difference(image, reference));
         }
-        html += "</div>\n<div class=\"strip\"><figure style=\"width:180px\"><figcaption>difference "
-                "from the bake, times four</figcaption></figure>" +
-                differences + "</div>\n";
+        html +=
+            "</div>\n<div class=\"strip\"><figure style=\"width:180px\"><figcaption>difference "
+            "from the bake, times four</figcaption></figure>" +
+            differences + "</div>\n";
     }
     return html;
 }
 
 std::string table(const Curve& curve, const Stage& stage) {
-    std::string html =
-        "<table><tr><th>kept</th><th>theory (E5)</th><th>energy</th>";
+    std::string html = "<table><tr><th>kept</th><th>theory (E5)</th><th>energy</th>";
     for (const NamedLight& light : stage.lights()) {
         html += fmt::format("<th>seen (E6), {}</th>", escape(light.name));
     }
     html += "<th>bytes</th><th>decode, ms</th></tr>\n";
     for (const CurvePoint& point : curve.points) {
-        html += fmt::format("<tr><td>{}</td><td>{:.3g} %</td><td>{:.3g} %</td>", label(curve, point),
-                            100.0 * point.theory_error, 100.0 * point.energy_error);
+        html +=
+            fmt::format("<tr><td>{}</td><td>{:.3g} %</td><td>{:.3g} %</td>", label(curve, point),
+                        100.0 * point.theory_error, 100.0 * point.energy_error);
         for (const double error : point.visual_error) {
             html += fmt::format("<td>{:.3g} %</td>", 100.0 * error);
         }
