@@ -30,7 +30,7 @@ PoseSet one_pose(const poses::Sequence& sequence) {
 
 TEST(Transfer, LoneSphereIsTheCosineLobe) {
     // So fine that the normals of its mesh are the sphere's to 1e-3 (their error falls with edge²).
-    const PoseSet sphere = one_pose(*poses::make_sphere_sequence(2500));
+    const PoseSet sphere = one_pose(*poses::make_sphere_sequence(5000));
     const BakeOptions options{5, 256, 1};
     const BakedPose baked = bake(sphere, 0, options);
     const Pose pose = sphere.load_pose(0);
@@ -50,6 +50,21 @@ TEST(Transfer, LoneSphereIsTheCosineLobe) {
     RecordProperty("relative_error", std::to_string(std::sqrt(error / reference)));
     EXPECT_LT(std::sqrt(error / reference), 1e-3);
     EXPECT_EQ(baked.statistics.blocked, 0u);
+}
+
+TEST(Transfer, OpenVerticesAreTheCosineLobeOfTheirNormalToRounding) {
+    const PoseSet sphere = one_pose(*poses::make_sphere_sequence(162));
+    const BakedPose baked = bake(sphere, 0, {7, 64, 1});
+    const Pose pose = sphere.load_pose(0);
+    std::vector<double> y(49);
+    for (size_t v = 0; v < 162; ++v) {
+        sh::evaluate_basis(7, pose.normals[v].cast<double>(), std::span(y));
+        for (size_t i = 0; i < 49; ++i) {
+            const double expected = sh::cosine_lobe(sh::band_of(static_cast<int>(i))) * y[i];
+            // Rounded once to float: half an ulp of values below 1.
+            EXPECT_NEAR(baked.transfer[i * 162 + v], expected, 0x1p-25);
+        }
+    }
 }
 
 TEST(Transfer, ConstantEnvironmentShowsTheAlbedo) {
