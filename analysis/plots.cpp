@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <functional>
+#include <limits>
 
 #include "paim/base/error.h"
 #include "paim/base/file.h"
@@ -41,15 +42,31 @@ struct Series {
     bool measured = true;  // drawn with a mark at each point
 };
 
+// The range of x over all series; a little round a single value, which has no extent.
+std::pair<double, double> x_range(const std::vector<Series>& series) {
+    double lowest = std::numeric_limits<double>::infinity();
+    double highest = -lowest;
+    for (const Series& one : series) {
+        for (const auto& [x, y] : one.points) {
+            lowest = std::min(lowest, x);
+            highest = std::max(highest, x);
+        }
+    }
+    if (lowest < highest) return {lowest, highest};
+    return lowest == 0.0 ? std::pair(-1.0, 1.0) : std::pair(0.9 * lowest, 1.1 * highest);
+}
+
 std::string plot_script(const std::filesystem::path& output, const std::string& title,
                         const std::string& x_label, bool log_x, const std::vector<Series>& series) {
+    const auto [lowest, highest] = x_range(series);
     std::string script = fmt::format(
         "set terminal svg size 640,420 noenhanced font 'sans,13' background 'white'\n"
         "set output {}\nset title {} noenhanced\nset xlabel {}\nset ylabel 'error (fraction of "
         "1)'\n"
-        "set logscale y\nset format y '%g'\nset yrange [{:g}:*]\nset grid\n"
+        "set logscale y\nset format y '%g'\nset yrange [{:g}:2]\nset xrange [{:.9g}:{:.9g}]\nset "
+        "grid\n"
         "set key inside left bottom\n{}",
-        quoted(output.string()), quoted(title), quoted(x_label), kFloor,
+        quoted(output.string()), quoted(title), quoted(x_label), kFloor, lowest, highest,
         log_x ? "set logscale x\n" : "");
     for (size_t j = 0; j < series.size(); ++j) {
         script += fmt::format("$data{} << EOD\n", j);
