@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <optional>
 
 #include "paim/base/error.h"
@@ -30,11 +31,14 @@ constexpr double kMessageSeconds = 6.0;
 constexpr double kIdleWaitSeconds = 0.1;  // between frames while nothing moves
 constexpr int kSnapshotSamples = 2;
 
-// What of a model to upload: all of it, so that limits can be raised again, or, where that is more
-// than this driver's textures hold, what the options ask for.
-DecodeLimits upload_limits(const Model& model, const DecodeLimits& wanted) {
-    const DecodeLimits all;
-    return upload_fits(model, all, gl::max_texture_size()) ? all : wanted;
+// Uploads all of the model, so that limits can be raised again, or, where that is more than this
+// driver takes, what the options ask for.
+std::unique_ptr<SceneRenderer> make_renderer(const Scene& scene, const DecodeLimits& wanted) {
+    try {
+        return std::make_unique<SceneRenderer>(scene.model, scene.environment, DecodeLimits());
+    } catch (const Error&) {
+        return std::make_unique<SceneRenderer>(scene.model, scene.environment, wanted);
+    }
 }
 
 class App {
@@ -44,11 +48,11 @@ class App {
           scene_(scene),
           window_(options.size.first, options.size.second,
                   options.model_path.filename().string() + " - paim-play"),
-          renderer_(scene.model, scene.environment, upload_limits(scene.model, options.limits)),
+          renderer_(make_renderer(scene, options.limits)),
           bounds_(scene.model),
           environment_name_(options.environment_path ? options.environment_path->filename().string()
                                                      : "built-in sky") {
-        const UploadPlan& plan = renderer_.plan();
+        const UploadPlan& plan = renderer_->plan();
         range_ = {scene.model.num_poses(), plan.geometry_components, plan.transfer_components,
                   plan.layout.bands};
         view_.time = options.pose;
@@ -65,7 +69,7 @@ class App {
         auto last = Clock::now();
         for (int i = 0; !window_.should_close() && i != options_.window_frames.value_or(-1); ++i) {
             const bool moving = view_.playing || view_.turning || options_.window_frames;
-            window_.poll(moving ? 0.0 : kIdleWaitSeconds);
+            window_.poll(moving && is_visible() ? 0.0 : kIdleWaitSeconds);
             const auto now = Clock::now();
             const double elapsed_s = std::chrono::duration<double>(now - last).count();
             last = now;
@@ -117,6 +121,12 @@ class App {
         camera_.frame(options_.camera, scene_.bounds, aspect);
     }
 
+    // False while the window is minimised.
+    bool is_visible() const {
+        const auto [width, height] = window_.framebuffer_size();
+        return width > 0 && height > 0;
+    }
+
     Frame current_frame() {
         Frame frame;
         frame.time = view_.time;
@@ -129,15 +139,15 @@ class App {
     }
 
     void draw() {
+        if (!is_visible()) return;
         const auto [width, height] = window_.framebuffer_size();
-        if (width == 0 || height == 0) return;  // minimised
         const auto start = Clock::now();
         const int samples = options_.supersample.value_or(1);
         if (!target_ || target_->width() != width * samples ||
             target_->height() != height * samples) {
             target_.emplace(width * samples, height * samples);
         }
-        renderer_.draw(current_frame(), *target_);
+        renderer_->draw(current_frame(), *target_);
         window_.bind();
         tone_mapper_.draw(*target_, samples, view_.tone_curve);
         imgui_->begin_frame();
@@ -172,7 +182,7 @@ class App {
 
     void change_light(const std::filesystem::path& path) {
         try {
-            renderer_.set_environment(load_environment(path));
+            renderer_->set_environment(load_environment(path));
             environment_name_ = path.filename().string();
             say("light: " + environment_name_);
         } catch (const Error& error) {
@@ -182,10 +192,10 @@ class App {
 
     void save_view() {
         try {
+            if (!is_visible()) return;
             const auto [width, height] = window_.framebuffer_size();
-            if (width == 0 || height == 0) return;
             const int samples = options_.supersample.value_or(kSnapshotSamples);
-            const Image image = renderer_.render(current_frame(), width, height, samples);
+            const Image image = renderer_->render(current_frame(), width, height, samples);
             const std::filesystem::path path = free_name();
             write_png(path, image, view_.tone_curve);
             say("saved " + path.string());
@@ -207,7 +217,7 @@ class App {
     const Scene& scene_;
     gl::Window window_;
     std::string renderer_name_ = window_.renderer();
-    SceneRenderer renderer_;
+    std::unique_ptr<SceneRenderer> renderer_;
     ToneMapper tone_mapper_;
     PoseBoundsCache bounds_;
     std::optional<gl::Target> target_;

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "paim/base/check.h"
-#include "paim/base/version.h"
 #include "paim/format/mesh_sections.h"
 #include "paim/format/paim_file.h"
 #include "paim/format/paim_sections.h"
@@ -28,7 +27,6 @@ ScalarType scalar_type(Precision precision) {
 
 std::string metadata(const Model& model) {
     nlohmann::ordered_json json;
-    json["paim_version"] = kVersion;
     json["name"] = model.name;
     json["num_vertices"] = model.topology.num_vertices;
     json["num_poses"] = model.num_poses();

@@ -72,13 +72,4 @@ UploadPlan plan_upload(const Model& model, const DecodeLimits& limits, int max_t
     return plan;
 }
 
-bool upload_fits(const Model& model, const DecodeLimits& limits, int max_texture_size) {
-    try {
-        plan_upload(model, limits, max_texture_size);
-        return true;
-    } catch (const Error&) {
-        return false;
-    }
-}
-
 }  // namespace paim::player

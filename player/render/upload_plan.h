@@ -30,7 +30,4 @@ int64_t transfer_texels(const Model& model, uint32_t num_components, uint32_t ba
 // by max_texture_size cannot hold a part.
 UploadPlan plan_upload(const Model& model, const DecodeLimits& limits, int max_texture_size);
 
-// True if plan_upload() would not throw.
-bool upload_fits(const Model& model, const DecodeLimits& limits, int max_texture_size);
-
 }  // namespace paim::player

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 #include "compressor/bake/transfer_baker.h"
 #include "paim/base/parallel.h"
@@ -23,11 +24,13 @@ BakedPose bake(const PoseSource& source, uint32_t p, const BakeOptions& options)
     return TransferBaker(options).bake(source.topology(), source.load_pose(p), p);
 }
 
-PoseSet one_pose(const poses::Sequence& sequence) { return poses::make_pose_set(sequence, 1); }
+PoseSet one_pose(const poses::Sequence& sequence) {
+    return poses::make_pose_set(sequence, 1);
+}
 
 TEST(Transfer, LoneSphereIsTheCosineLobe) {
     // So fine that the normals of its mesh are the sphere's to 1e-3 (their error falls with edge²).
-    const PoseSet sphere = one_pose(*poses::make_sphere_sequence(2500));
+    const PoseSet sphere = one_pose(*poses::make_sphere_sequence(5000));
     const BakeOptions options{5, 256, 1};
     const BakedPose baked = bake(sphere, 0, options);
     const Pose pose = sphere.load_pose(0);
@@ -44,8 +47,24 @@ TEST(Transfer, LoneSphereIsTheCosineLobe) {
             reference += expected * expected;
         }
     }
+    RecordProperty("relative_error", std::to_string(std::sqrt(error / reference)));
     EXPECT_LT(std::sqrt(error / reference), 1e-3);
     EXPECT_EQ(baked.statistics.blocked, 0u);
+}
+
+TEST(Transfer, OpenVerticesAreTheCosineLobeOfTheirNormalToRounding) {
+    const PoseSet sphere = one_pose(*poses::make_sphere_sequence(162));
+    const BakedPose baked = bake(sphere, 0, {7, 64, 1});
+    const Pose pose = sphere.load_pose(0);
+    std::vector<double> y(49);
+    for (size_t v = 0; v < 162; ++v) {
+        sh::evaluate_basis(7, pose.normals[v].cast<double>(), std::span(y));
+        for (size_t i = 0; i < 49; ++i) {
+            const double expected = sh::cosine_lobe(sh::band_of(static_cast<int>(i))) * y[i];
+            // Rounded once to float: half an ulp of values below 1.
+            EXPECT_NEAR(baked.transfer[i * 162 + v], expected, 0x1p-25);
+        }
+    }
 }
 
 TEST(Transfer, ConstantEnvironmentShowsTheAlbedo) {
@@ -53,7 +72,8 @@ TEST(Transfer, ConstantEnvironmentShowsTheAlbedo) {
     const BakedPose baked = bake(sphere, 0, {5, 256, 1});
     const Albedo albedo{{Vec3f(0.2f, 0.5f, 0.9f)}};
     LightCoefficients light{5, std::vector<Vec3f>(25, Vec3f::Zero())};
-    light.values[0] = Vec3f(2, 3, 4) / static_cast<float>(kY00);  // radiance 2, 3, 4 from everywhere
+    light.values[0] =
+        Vec3f(2, 3, 4) / static_cast<float>(kY00);  // radiance 2, 3, 4 from everywhere
     std::vector<Vec3f> radiance;
     shade({TransferKind::diffuse, 5, 1}, baked.transfer, albedo, light, radiance);
     for (const Vec3f& r : radiance) {
@@ -137,8 +157,11 @@ TEST(Transfer, TurningTheMeshTurnsTheCoefficients) {
             energy += out[i] * out[i];
         }
     }
-    const double noise = std::hypot(straight_bake.statistics.noise_rms, turned_bake.statistics.noise_rms) /
-                         straight_bake.statistics.transfer_rms;
+    const double noise =
+        std::hypot(straight_bake.statistics.noise_rms, turned_bake.statistics.noise_rms) /
+        straight_bake.statistics.transfer_rms;
+    RecordProperty("relative_error", std::to_string(std::sqrt(error / energy)));
+    RecordProperty("noise", std::to_string(noise));
     EXPECT_LT(std::sqrt(error / energy), 1.5 * noise);
     EXPECT_LT(noise, 0.02);
 }

@@ -32,10 +32,8 @@ std::string refusal(const Model& model, const DecodeLimits& limits, int max_text
         plan_upload(model, limits, max_texture_size);
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ExitCode::unsupported);
-        EXPECT_FALSE(upload_fits(model, limits, max_texture_size));
         return error.what();
     }
-    EXPECT_TRUE(upload_fits(model, limits, max_texture_size));
     return {};
 }
 

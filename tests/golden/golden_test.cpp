@@ -1,0 +1,47 @@
+// The bytes of the file format, version by version. A version's files stay readable for ever, and what is
+// written today is exactly the newest golden file.
+//
+// PAIM_UPDATE_GOLDEN=1 writes the newest file anew; a change of format adds one and leaves the old alone.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "paim/base/file.h"
+#include "paim/codec/svd_decoder.h"
+#include "paim/format/paim_file.h"
+#include "tests/example_model.h"
+#include "tests/temporary_directory.h"
+
+namespace paim {
+namespace {
+
+const std::filesystem::path kNewest = std::filesystem::path(PAIM_GOLDEN_DIR) / "example_v1.paim";
+
+Model golden_model() {
+    Model model = make_example_model(2, 1, 3, 2);
+    model.transfer.precision = Precision::f16;
+    return model;
+}
+
+TEST(Golden, WritesTheNewestFileByteForByte) {
+    if (std::getenv("PAIM_UPDATE_GOLDEN") != nullptr) write_paim(kNewest, golden_model());
+    const TemporaryDirectory directory;
+    write_paim(directory / "x.paim", golden_model());
+    EXPECT_EQ(read_file(directory / "x.paim", 1 << 20), read_file(kNewest, 1 << 20));
+}
+
+TEST(Golden, ReadsVersionOne) {
+    const Model model = read_paim(std::filesystem::path(PAIM_GOLDEN_DIR) / "example_v1.paim");
+    const Model expected = golden_model();
+    EXPECT_EQ(model.topology, expected.topology);
+    EXPECT_EQ(model.geometry.components, expected.geometry.components);
+    DecodedPose pose;
+    SvdDecoder(model).decode(1.0, {}, pose);
+    // Worked out once from the definition, mean + Σ weight · component, at row 0.
+    const LowRankMatrix& g = expected.geometry;
+    EXPECT_FLOAT_EQ(pose.positions[0],
+                    g.mean[0] + g.weights[1] * g.components[0] + g.weights[4] * g.components[12]);
+}
+
+}  // namespace
+}  // namespace paim
