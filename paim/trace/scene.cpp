@@ -3,8 +3,8 @@
 //           Tracing, 2014
 #include "paim/trace/scene.h"
 
-#include <cstring>
 #include <limits>
+#include <memory>
 #include <mutex>
 #include <string>
 
@@ -56,7 +56,7 @@ template <typename T>
 void set_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, const T* data,
                 size_t count) {
     void* buffer = rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(T), count);
-    if (buffer != nullptr && count > 0) std::memcpy(buffer, data, count * sizeof(T));
+    if (buffer != nullptr) std::uninitialized_copy_n(data, count, static_cast<T*>(buffer));
 }
 
 RTCRay make_ray(const Vec3f& origin, const Vec3f& direction) {
