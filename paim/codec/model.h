@@ -11,6 +11,9 @@
 
 namespace paim {
 
+// The most poses that a file may hold: twelve hours at 24 frames a second.
+constexpr uint32_t kMaxPoses = 1u << 20;
+
 // How components are stored in the file; means and weights are always f32.
 enum class Precision : uint32_t { f32 = 0, f16 = 1 };
 

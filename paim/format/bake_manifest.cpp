@@ -7,6 +7,7 @@
 #include "paim/base/error.h"
 #include "paim/base/file.h"
 #include "paim/base/hash.h"
+#include "paim/codec/model.h"
 #include "paim/format/metadata.h"
 
 namespace paim {
@@ -80,6 +81,9 @@ BakeIdentity read_manifest(const std::filesystem::path& path) {
     const auto poses = metadata.json().find("poses");
     if (poses == metadata.json().end() || !poses->is_array() || poses->empty()) {
         throw_bad_input("{}: 'poses': expected a list of at least one pose", file);
+    }
+    if (poses->size() > kMaxPoses) {
+        throw_unsupported("{}: {} poses, expected at most {}", file, poses->size(), kMaxPoses);
     }
     for (const ordered_json& entry : *poses) {
         const Metadata pose(entry.dump(-1, ' ', false, ordered_json::error_handler_t::replace),

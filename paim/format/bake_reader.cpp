@@ -71,6 +71,10 @@ BakeReader::BakeReader(std::filesystem::path directory) : directory_(std::move(d
         throw_bad_input("{}: {} of {} poses are missing, the first is {}; bake them first",
                         directory_.string(), num_missing, num_poses(), first_missing);
     }
+    // The manifest's count of vertices is believed only once a file holds that many.
+    const ContainerReader pose(bake_pose_file(directory_, 0), section::kKindPose);
+    require_planes(pose, section::kPositions, 3, identity_.num_vertices);
+    require_planes(pose, section::kTransfer, identity_.layout.num_planes(), identity_.num_vertices);
 }
 
 BakedPose BakeReader::read_pose(uint32_t p) const {

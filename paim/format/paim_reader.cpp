@@ -88,7 +88,7 @@ Model read_paim(const std::filesystem::path& path) {
     Model model;
     const auto num_vertices =
         metadata.integer("num_vertices", 0, std::numeric_limits<int32_t>::max());
-    const auto num_poses = metadata.integer("num_poses", 1, std::numeric_limits<int32_t>::max());
+    const uint32_t num_poses = metadata.integer("num_poses", 1, kMaxPoses);
     model.layout.bands = metadata.integer("bands", 1, sh::kMaxBands);
     model.layout.channels = metadata.integer("channels", 1, 3);
     if (model.layout.channels == 2) throw_unsupported("{}: 2 transfer channels", reader.path());
