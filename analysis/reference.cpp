@@ -8,23 +8,11 @@
 #include "paim/light/environment.h"
 #include "paim/light/sky.h"
 #include "paim/mesh/bounds.h"
+#include "paim/mesh/planes.h"
 #include "paim/render/render.h"
 #include "paim/shade/shade.h"
 
 namespace paim {
-
-namespace {
-
-std::vector<Vec3f> to_points(const std::vector<float>& planes) {
-    const size_t count = planes.size() / 3;
-    std::vector<Vec3f> points(count);
-    for (size_t v = 0; v < count; ++v) {
-        points[v] = Vec3f(planes[v], planes[count + v], planes[2 * count + v]);
-    }
-    return points;
-}
-
-}  // namespace
 
 std::vector<NamedLight> load_lights(const std::vector<std::filesystem::path>& environments,
                                     uint32_t bands) {
@@ -43,7 +31,7 @@ Camera stage_camera(const BakeReader& bake, double azimuth_rad, double elevation
     for (uint32_t p = 0; p < bake.num_poses(); ++p) {
         std::vector<float> planes(size_t{3} * bake.identity().num_vertices);
         bake.read_position_rows(p, 0, planes.size(), planes.data());
-        bounds.extend(to_points(planes));
+        bounds.extend(from_planes(planes));
     }
     return frame_bounds(bounds, 1.0f, static_cast<float>(azimuth_rad),
                         static_cast<float>(elevation_rad));
@@ -64,7 +52,7 @@ Stage::Stage(const BakeReader& bake, std::vector<NamedLight> lights, const Camer
 }
 
 std::vector<Image> Stage::render_pose(const DecodedPose& pose) const {
-    const std::vector<Vec3f> positions = to_points(pose.positions);
+    const std::vector<Vec3f> positions = from_planes(pose.positions);
     std::vector<std::vector<Vec3f>> radiance(lights_.size());
     for (size_t j = 0; j < lights_.size(); ++j) {
         shade(pose.layout, pose.transfer, bake_.albedo(), lights_[j].coefficients, radiance[j]);

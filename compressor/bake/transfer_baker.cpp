@@ -11,6 +11,7 @@
 #include "paim/base/check.h"
 #include "paim/base/parallel.h"
 #include "paim/base/seed.h"
+#include "paim/mesh/planes.h"
 #include "paim/sh/cosine_lobe.h"
 #include "paim/trace/scene.h"
 
@@ -22,17 +23,6 @@ constexpr uint32_t kLanes = sh::BatchBasis::kBatch;
 constexpr size_t kVerticesPerPiece = 64;
 // Lane sums are single precision; they are emptied into double before rounding matters.
 constexpr uint32_t kBatchesPerFlush = 32;
-
-std::vector<float> to_planes(const std::vector<Vec3f>& vectors) {
-    const size_t count = vectors.size();
-    std::vector<float> planes(3 * count);
-    for (size_t v = 0; v < count; ++v) {
-        for (size_t axis = 0; axis < 3; ++axis) {
-            planes[axis * count + v] = vectors[v][static_cast<Eigen::Index>(axis)];
-        }
-    }
-    return planes;
-}
 
 }  // namespace
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "paim/codec/svd_decoder.h"
+#include "paim/mesh/planes.h"
 
 namespace paim {
 
@@ -26,12 +27,8 @@ Bounds pose_bounds(const Model& model, double time, uint32_t num_geometry_compon
     limits.bands = 1;
     DecodedPose pose;
     SvdDecoder(model).decode(time, limits, pose);
-    const size_t num_vertices = model.topology.num_vertices;
     Bounds bounds;
-    for (size_t v = 0; v < num_vertices; ++v) {
-        bounds.extend(Vec3f(pose.positions[v], pose.positions[num_vertices + v],
-                            pose.positions[2 * num_vertices + v]));
-    }
+    bounds.extend(from_planes(pose.positions));
     return bounds;
 }
 

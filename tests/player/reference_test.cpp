@@ -12,6 +12,7 @@
 #include "paim/image/tone.h"
 #include "paim/light/environment.h"
 #include "paim/light/sky.h"
+#include "paim/mesh/planes.h"
 #include "paim/metrics/image_error.h"
 #include "paim/render/render.h"
 #include "paim/shade/shade.h"
@@ -51,19 +52,14 @@ class Reference : public testing::Test {
     Image reference(double time, const Image& environment, double turn_rad) const {
         DecodedPose pose;
         SvdDecoder(model_).decode(time, {}, pose);
-        const size_t num_vertices = model_.topology.num_vertices;
-        std::vector<Vec3f> positions(num_vertices);
-        for (size_t v = 0; v < num_vertices; ++v) {
-            positions[v] = Vec3f(pose.positions[v], pose.positions[num_vertices + v],
-                                 pose.positions[2 * num_vertices + v]);
-        }
         const EnvironmentLight light(environment);
         std::vector<std::vector<Vec3f>> radiance(1);
         shade(pose.layout, pose.transfer, model_.albedo,
               turn_about_y(light.coefficients(Vec3f::Zero(), 5), turn_rad), radiance[0]);
         const Camera camera =
             frame_bounds(sequence_bounds(model_), static_cast<float>(kWidth) / kHeight);
-        return render_images(model_.topology, positions, radiance, camera, kWidth, kHeight)[0];
+        return render_images(model_.topology, from_planes(pose.positions), radiance, camera, kWidth,
+                             kHeight)[0];
     }
 
     Image snapshot(double time, const std::vector<std::string>& light_arguments) const {
