@@ -4,8 +4,10 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <functional>
+#include <limits>
 
 #include "paim/base/error.h"
 #include "paim/base/file.h"
@@ -40,14 +42,34 @@ struct Series {
     std::vector<std::pair<double, double>> points;
 };
 
+// gnuplot warns about axes on which all values are one; they get a range round it.
+std::string axis_ranges(const std::vector<Series>& series) {
+    double least_x = std::numeric_limits<double>::infinity();
+    double greatest_x = -least_x;
+    double greatest_y = kFloor;
+    for (const Series& one : series) {
+        for (const auto& [x, y] : one.points) {
+            least_x = std::min(least_x, x);
+            greatest_x = std::max(greatest_x, x);
+            greatest_y = std::max(greatest_y, y);
+        }
+    }
+    std::string ranges = fmt::format("set yrange [{:g}:{}]\n", kFloor,
+                                     greatest_y > kFloor ? "*" : fmt::format("{:g}", 10 * kFloor));
+    if (least_x == greatest_x) {
+        const double margin = least_x == 0.0 ? 1.0 : 0.5 * std::abs(least_x);
+        ranges += fmt::format("set xrange [{:.9g}:{:.9g}]\n", least_x - margin, least_x + margin);
+    }
+    return ranges;
+}
+
 std::string plot_script(const std::filesystem::path& output, const std::string& title,
                         const std::string& x_label, bool log_x, const std::vector<Series>& series) {
     std::string script = fmt::format(
         "set terminal svg size 640,420 noenhanced font 'sans,13' background 'white'\n"
         "set output {}\nset title {} noenhanced\nset xlabel {}\nset ylabel 'error (fraction)'\n"
-        "set logscale y\nset format y '10^{{%L}}'\nset yrange [{:g}:*]\nset grid\n"
-        "set key below horizontal\n{}",
-        quoted(output.string()), quoted(title), quoted(x_label), kFloor,
+        "set logscale y\nset format y '10^{{%L}}'\nset grid\nset key below horizontal\n{}{}",
+        quoted(output.string()), quoted(title), quoted(x_label), axis_ranges(series),
         log_x ? "set logscale x\n" : "");
     for (size_t j = 0; j < series.size(); ++j) {
         script += fmt::format("$data{} << EOD\n", j);
