@@ -65,6 +65,7 @@ void analyze(const AnalyzeOptions& options) {
         load_lights(options.environments, bake.identity().layout.bands);
     const bool with_plots = have_gnuplot();
     if (!with_plots) fmt::print(stderr, "warning: gnuplot is not installed: no SVG curves\n");
+    bake.verify_all();  // before anything is written
     ensure_directory(options.output);
 
     const Model model = encode_everything(bake, options.output);
@@ -92,7 +93,7 @@ void analyze(const AnalyzeOptions& options) {
     write_report(options.output, "Error analysis of " + model.name, summary, curves, stage,
                  with_plots);
     if (options.json) {
-        fmt::print("{}\n", json.dump(2));
+        fmt::print("{}\n", json.dump(2, ' ', false, decltype(json)::error_handler_t::replace));
     } else {
         fmt::print("{}\n", (options.output / "index.html").string());
     }

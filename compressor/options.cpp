@@ -151,6 +151,10 @@ std::optional<CompressOptions> parse_options(int argc, const char* const* argv, 
         if (options.inputs.empty()) throw_usage("no OBJ files given; see --help");
         if (options.output.empty()) throw_usage("--output is required; see --help");
         if (!options.poses.empty()) throw_usage("--poses goes with 'bake' only");
+        if (options.output.extension() == ".bake") {
+            throw_usage("--output: expected the .paim file to write, got '{}'; its bake is kept "
+                        "beside it under that name", options.output.string());
+        }
     }
     apply(raw, options);
     return options;

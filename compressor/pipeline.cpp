@@ -1,9 +1,11 @@
 // What paim-compress does, step by step.
 #include "compressor/pipeline.h"
 
-#include <nlohmann/json.hpp>
+#include <unistd.h>
 
-#include <memory>
+#include <cerrno>
+#include <cstring>
+#include <nlohmann/json.hpp>
 
 #include "compressor/bake/bake_sequence.h"
 #include "compressor/io/obj_files.h"
@@ -22,8 +24,13 @@ namespace {
 // Names the output while the input can still be read: a long bake must not end in a typing mistake.
 void check_output(const std::filesystem::path& output) {
     const std::filesystem::path parent = std::filesystem::absolute(output).parent_path();
-    if (!std::filesystem::is_directory(parent)) {
-        throw_output_failed("{}: the directory {} does not exist", output.string(), parent.string());
+    std::error_code ignored;
+    if (!std::filesystem::is_directory(parent, ignored)) {
+        throw_output_failed("{}: {} is not a directory", output.string(), parent.string());
+    }
+    if (::access(parent.c_str(), W_OK) != 0) {
+        throw_output_failed("{}: cannot write to {}: {}", output.string(), parent.string(),
+                            std::strerror(errno));
     }
 }
 
@@ -128,6 +135,14 @@ ordered_json encode_to(const CompressOptions& options, const std::filesystem::pa
     return json;
 }
 
+void discard(const std::filesystem::path& directory) {
+    std::error_code failure;
+    std::filesystem::remove_all(directory, failure);
+    if (failure) {
+        throw_output_failed("{}: cannot remove: {}", directory.string(), failure.message());
+    }
+}
+
 }  // namespace
 
 void run(const CompressOptions& options) {
@@ -144,11 +159,13 @@ void run(const CompressOptions& options) {
             directory.replace_extension(".bake");
             json["bake"] = bake(options, directory);
             json["encode"] = encode_to(options, directory);
-            if (options.discard_bake) std::filesystem::remove_all(directory);
+            if (options.discard_bake) discard(directory);
             break;
         }
     }
-    if (options.json) fmt::print("{}\n", json.dump(2));
+    if (options.json) {
+        fmt::print("{}\n", json.dump(2, ' ', false, ordered_json::error_handler_t::replace));
+    }
 }
 
 }  // namespace paim

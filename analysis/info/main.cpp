@@ -17,7 +17,11 @@ int main(int argc, char** argv) {
         const int exit_code = paim::cli::parse(app, argc, argv);
         if (exit_code >= 0) return exit_code;
         const auto description = paim::describe(path);
-        fmt::print("{}", json ? description.dump(2) + "\n" : paim::as_text(description));
+        using nlohmann::ordered_json;
+        fmt::print("{}", json ? description.dump(2, ' ', false,
+                                                 ordered_json::error_handler_t::replace) +
+                                    "\n"
+                              : paim::as_text(description));
         return 0;
     });
 }

@@ -2,6 +2,7 @@
 #include "paim/base/file.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -9,6 +10,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <regex>
 #include <utility>
 
 #include "paim/base/error.h"
@@ -58,13 +60,28 @@ std::vector<char> read_file(const std::filesystem::path& path, uint64_t max_size
     return data;
 }
 
+bool is_temporary_name(const std::string& name) {
+    static const std::regex pattern(R"(.+\.[0-9]+-[0-9]+\.tmp)");
+    return std::regex_match(name, pattern);
+}
+
 AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
     // Unique among the writers of this and other processes.
     static std::atomic<unsigned> counter{0};
-    temporary_path_ = path_;
-    temporary_path_ += fmt::format(".{}-{}.tmp", ::getpid(), counter.fetch_add(1));
-    descriptor_ = ::open(temporary_path_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (descriptor_ < 0) fail("cannot create");
+    while (descriptor_ < 0) {
+        temporary_path_ = path_;
+        temporary_path_ += fmt::format(".{}-{}.tmp", ::getpid(), counter.fetch_add(1));
+        descriptor_ = ::open(temporary_path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (descriptor_ < 0 && errno == EEXIST) continue;
+        if (descriptor_ < 0) fail("cannot create");
+        // The lock says that someone is still writing. Where remove_abandoned_files() came between
+        // the two calls, the file has lost its name and another is made.
+        struct stat info {};
+        ::flock(descriptor_, LOCK_EX | LOCK_NB);
+        if (::fstat(descriptor_, &info) == 0 && info.st_nlink == 0) {
+            ::close(std::exchange(descriptor_, -1));
+        }
+    }
 }
 
 AtomicFile::~AtomicFile() {
@@ -100,13 +117,20 @@ void AtomicFile::resize(uint64_t size_bytes) {
 }
 
 void AtomicFile::commit() {
+    // Renamed while it is still locked; fsync has reported what close could.
     if (::fsync(descriptor_) != 0) fail("cannot flush");
-    const int closed = ::close(std::exchange(descriptor_, -1));
-    if (closed != 0 || ::rename(temporary_path_.c_str(), path_.c_str()) != 0) {
-        const int reason = errno;
-        ::unlink(temporary_path_.c_str());
-        errno = reason;
-        fail("cannot finish writing");
+    if (::rename(temporary_path_.c_str(), path_.c_str()) != 0) fail("cannot finish writing");
+    ::close(std::exchange(descriptor_, -1));
+}
+
+void remove_abandoned_files(const std::filesystem::path& directory) {
+    std::error_code failure;
+    for (std::filesystem::directory_iterator entry(directory, failure), end;
+         !failure && entry != end; entry.increment(failure)) {
+        const std::filesystem::path& path = entry->path();
+        if (!is_temporary_name(path.filename().string())) continue;
+        const Descriptor file{::open(path.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC)};
+        if (file.fd >= 0 && ::flock(file.fd, LOCK_EX | LOCK_NB) == 0) ::unlink(path.c_str());
     }
 }
 

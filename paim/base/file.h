@@ -37,6 +37,13 @@ class AtomicFile {
     uint64_t end_ = 0;
 };
 
+// Whether a file of this name is one that AtomicFile has not committed yet.
+bool is_temporary_name(const std::string& name);
+
+// Removes what AtomicFile left in this directory where a process was killed; files that are being
+// written, by whichever process, stay.
+void remove_abandoned_files(const std::filesystem::path& directory);
+
 // Writes the text as a whole, through AtomicFile.
 void write_file(const std::filesystem::path& path, std::string_view contents);
 

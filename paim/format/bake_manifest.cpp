@@ -36,6 +36,12 @@ uint64_t parse_hex(const std::string& text, const std::string& file, const char*
 
 }  // namespace
 
+std::string as_manifest_text(const std::string& text) {
+    const std::string dumped =
+        ordered_json(text).dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+    return ordered_json::parse(dumped).get<std::string>();
+}
+
 std::string manifest_text(const BakeIdentity& identity) {
     ordered_json json;
     json["format"] = "paim-bake";

@@ -53,6 +53,10 @@ BakeReader::BakeReader(std::filesystem::path directory) : directory_(std::move(d
     if (!std::filesystem::is_directory(directory_)) {
         throw_bad_input("{}: expected a .bake directory", directory_.string());
     }
+    if (!std::filesystem::exists(directory_ / "manifest.json")) {
+        throw_bad_input("{}: expected a .bake directory, got one without manifest.json",
+                        directory_.string());
+    }
     identity_ = read_manifest(directory_ / "manifest.json");
     const ContainerReader mesh(directory_ / "mesh.bin", section::kKindMesh);
     topology_ = read_triangles(mesh, identity_.num_vertices);

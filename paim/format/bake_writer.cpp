@@ -10,7 +10,6 @@
 #include "paim/format/bake_directory.h"
 #include "paim/format/bake_manifest.h"
 #include "paim/format/mesh_sections.h"
-#include "paim/format/metadata.h"
 #include "paim/format/paim_sections.h"
 
 namespace paim {
@@ -28,6 +27,16 @@ std::string pose_metadata(const BakeIdentity& identity, uint32_t p,
     json["transfer_rms"] = statistics.transfer_rms;
     json["noise_rms"] = statistics.noise_rms;
     return json.dump(2) + "\n";
+}
+
+// Whether nothing is here but what comes before the manifest: this bake is being begun by another
+// process just now, or was killed while it began.
+bool holds_only_a_beginning(const std::filesystem::path& directory) {
+    for (const auto& entry : std::filesystem::directory_iterator(directory)) {
+        const std::string name = entry.path().filename().string();
+        if (name != "mesh.bin" && name != "manifest.json" && !is_temporary_name(name)) return false;
+    }
+    return true;
 }
 
 void write_mesh(const std::filesystem::path& path, const Topology& topology, const Albedo& albedo) {
@@ -54,6 +63,7 @@ std::filesystem::path bake_pose_file(const std::filesystem::path& directory, uin
 BakeWriter::BakeWriter(std::filesystem::path directory, const BakeIdentity& identity,
                        const Topology& topology, const Albedo& albedo)
     : directory_(std::move(directory)), identity_(identity) {
+    for (auto& source : identity_.poses) source.name = as_manifest_text(source.name);
     const std::filesystem::path manifest = directory_ / "manifest.json";
     if (std::filesystem::exists(manifest)) {
         const std::string difference = first_difference(read_manifest(manifest), identity_);
@@ -61,11 +71,11 @@ BakeWriter::BakeWriter(std::filesystem::path directory, const BakeIdentity& iden
             throw_bad_input("{}: holds another bake ({}); choose another output or remove it",
                             directory_.string(), difference);
         }
-    } else if (std::filesystem::is_directory(directory_) &&
-               !std::filesystem::is_empty(directory_)) {
+    } else if (std::filesystem::is_directory(directory_) && !holds_only_a_beginning(directory_)) {
         throw_bad_input("{}: is not empty and not a bake (no manifest.json)", directory_.string());
     }
     ensure_directory(directory_);
+    remove_abandoned_files(directory_);
     // The manifest comes last: where it is, the mesh is.
     write_mesh(directory_ / "mesh.bin", topology, albedo);
     write_file(manifest, manifest_text(identity_));
@@ -75,13 +85,11 @@ bool BakeWriter::has_pose(uint32_t p) const {
     const std::filesystem::path path = bake_pose_file(directory_, p);
     if (!std::filesystem::exists(path)) return false;
     try {
-        const ContainerReader reader(path, section::kKindPose);
-        const Metadata metadata(
-            reader.read_text(reader.require(section::kMetadata, ScalarType::u8)), reader.path());
-        reader.verify_all();
-        return metadata.text("bake") == fmt::format("{:016x}", identity_checksum(identity_));
+        read_bake_statistics(directory_, identity_, p);
+        ContainerReader(path, section::kKindPose).verify_all();
+        return true;
     } catch (const Error&) {
-        return false;  // damaged: it is baked again
+        return false;  // damaged or of another bake or pose: it is baked again
     }
 }
 

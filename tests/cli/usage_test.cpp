@@ -1,0 +1,107 @@
+// Command lines that make no sense: exit code 1, a message that names the option, nothing written.
+#include <utility>
+
+#include "tests/cli/tool_test.h"
+
+namespace paim {
+namespace {
+
+class Usage : public ToolTest {
+  protected:
+    void expect_usage_error(const char* tool, const Arguments& arguments,
+                            const Arguments& parts) const {
+        const Contents before = contents_of(directory_.path());
+        expect_failure(run(tool, arguments), 1, parts);
+        expect_same(contents_of(directory_.path()), before);
+    }
+};
+
+TEST_F(Usage, Compress) {
+    const std::string poses = make_poses("box", 3, 50);
+    expect_usage_error(PAIM_COMPRESS, {}, {"no OBJ files given", "--help"});
+    expect_usage_error(PAIM_COMPRESS, {poses}, {"--output is required"});
+    expect_usage_error(PAIM_COMPRESS, {poses, "-o", path("x.bake")}, {"--output", ".paim"});
+    expect_usage_error(PAIM_COMPRESS, {poses, "-o", path("x.paim"), "--poses", "0-1"},
+                       {"--poses goes with 'bake' only"});
+    expect_usage_error(PAIM_COMPRESS, {"bake", "-o", path("x.bake")}, {"OBJ is required"});
+    expect_usage_error(PAIM_COMPRESS, {"bake", poses}, {"--output is required"});
+    expect_usage_error(PAIM_COMPRESS, {"encode", "-o", path("x.paim")}, {"BAKE is required"});
+
+    const std::vector<std::pair<Arguments, Arguments>> bake_cases{
+        {{"--rays", "15"}, {"--rays: expected an even number", "got 15"}},
+        {{"--rays", "0"}, {"--rays", "0"}},
+        {{"--rays", "many"}, {"--rays", "many"}},
+        {{"--bands", "0"}, {"--bands", "0"}},
+        {{"--bands", "65"}, {"--bands", "65"}},
+        {{"--bands", "-1"}, {"--bands", "-1"}},
+        {{"--seed", "-1"}, {"--seed", "-1"}},
+        {{"--threads", "-1"}, {"--threads", "-1"}},
+        {{"--normals", "smooth"}, {"--normals", "smooth"}},
+        {{"--albedo", "1,2,3"}, {"--albedo: expected", "'1,2,3'"}},
+        {{"--albedo", "red"}, {"--albedo: expected", "'red'"}},
+        {{"--poses", "2-1"}, {"--poses: expected A-B with 0 <= A <= B <= 2, got '2-1'"}},
+        {{"--poses", "0-3"}, {"--poses: expected A-B", "'0-3'"}},
+        {{"--poses", "-1"}, {"--poses"}},
+        {{"--poses", "1-"}, {"--poses: expected A-B", "'1-'"}},
+        {{"--poses", "1-2x"}, {"--poses: expected A-B", "'1-2x'"}},
+        {{"--poses", "all"}, {"--poses: expected A-B", "'all'"}},
+        {{"--geometry-components", "2"}, {"--geometry-components"}},  // of encode
+    };
+    for (const auto& [options, parts] : bake_cases) {
+        Arguments arguments{"bake", poses, "-o", path("x.bake")};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        expect_usage_error(PAIM_COMPRESS, arguments, parts);
+    }
+
+    const std::string bake = make_bake("y.bake");
+    const std::vector<std::pair<Arguments, Arguments>> encode_cases{
+        {{"--geometry-components", "-3"},
+         {"--geometry-components: expected a number, 'auto' or 'all'", "'-3'"}},
+        {{"--transfer-components", "most"}, {"--transfer-components: expected", "'most'"}},
+        {{"--transfer-components", "4x"}, {"--transfer-components: expected", "'4x'"}},
+        {{"--transfer-components", "99999999999"},
+         {"--transfer-components: expected", "99999999999"}},
+        {{"--transfer-components", ""}, {"--transfer-components"}},
+        {{"--bands", "0"}, {"--bands", "0"}},
+        {{"--precision", "i7"}, {"--precision", "i7"}},
+        {{"--fps", "0"}, {"--fps", "0"}},
+        {{"--fps", "nan"}, {"--fps"}},
+        {{"--rays", "16"}, {"--rays"}},  // of bake
+    };
+    for (const auto& [options, parts] : encode_cases) {
+        Arguments arguments{"encode", bake, "-o", path("x.paim")};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        expect_usage_error(PAIM_COMPRESS, arguments, parts);
+    }
+}
+
+TEST_F(Usage, Info) {
+    expect_usage_error(PAIM_INFO, {}, {"FILE is required", "--help"});
+    expect_usage_error(PAIM_INFO, {"a.paim", "b.paim"}, {"b.paim"});
+}
+
+TEST_F(Usage, Analyze) {
+    const std::string bake = make_bake("x.bake");
+    expect_usage_error(PAIM_ANALYZE, {"-o", path("out")}, {"BAKE is required"});
+    expect_usage_error(PAIM_ANALYZE, {bake}, {"--output is required"});
+    const std::vector<std::pair<Arguments, Arguments>> cases{
+        {{"--components", "4,,2"}, {"--components: expected numbers from 0 to", "'4,,2'"}},
+        {{"--components", "4,2,"}, {"--components: expected numbers", "'4,2,'"}},
+        {{"--components", "-4"}, {"--components"}},
+        {{"--bands", "0"}, {"--bands: expected numbers from 1 to", "'0'"}},
+        {{"--bands", "two"}, {"--bands: expected numbers", "'two'"}},
+        {{"--size", "15"}, {"--size", "15"}},
+        {{"--size", "5000"}, {"--size", "5000"}},
+        {{"--poses", "0"}, {"--poses", "0"}},
+        {{"--elevation", "90"}, {"--elevation", "90"}},
+        {{"--azimuth", "nan"}, {"--azimuth"}},
+    };
+    for (const auto& [options, parts] : cases) {
+        Arguments arguments{bake, "-o", path("out")};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        expect_usage_error(PAIM_ANALYZE, arguments, parts);
+    }
+}
+
+}  // namespace
+}  // namespace paim
