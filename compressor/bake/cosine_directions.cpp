@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace paim {
 
@@ -12,15 +13,52 @@ namespace {
 
 constexpr uint32_t kPadding = 16;
 
-// sin and cos for |x| <= π/4, Taylor series to below float rounding; branch-free, so that loops over
-// directions become vector code.
-inline float small_sin(float x) {
-    const float s = x * x;
-    return x * (1.0f + s * (-1.0f / 6 + s * (1.0f / 120 + s * (-1.0f / 5040 + s * (1.0f / 362880)))));
+// Vector registers on every machine we know (SSE2, NEON); GCC and Clang do arithmetic on them directly.
+// Left to itself GCC 12 keeps this loop scalar, at two and a half times the cost.
+constexpr uint32_t kLanes = 4;
+using Floats = float __attribute__((vector_size(16)));
+using Ints = int32_t __attribute__((vector_size(16)));
+using Words = uint32_t __attribute__((vector_size(16)));
+
+template <typename T>
+T load(const void* from) {
+    T lanes;
+    std::memcpy(&lanes, from, sizeof lanes);
+    return lanes;
 }
 
-inline float small_cos(float x) {
-    const float s = x * x;
+inline Floats select(Ints mask, Floats yes, Floats no) {
+    return reinterpret_cast<Floats>((mask & reinterpret_cast<Ints>(yes)) |
+                                    (~mask & reinterpret_cast<Ints>(no)));
+}
+
+// As integers, which order as the floats do.
+inline Ints magnitude(Floats x) {
+    return reinterpret_cast<Ints>(x) & 0x7fffffff;
+}
+
+inline Floats square_root(Floats x) {
+    for (uint32_t lane = 0; lane < kLanes; ++lane) x[lane] = std::sqrt(x[lane]);
+    return x;
+}
+
+// scrambled_fraction of four coordinates, stretched to [−1, 1).
+inline Floats signed_fraction(Words reversed, uint32_t seed) {
+    const Words scrambled = reverse_bits(laine_karras_permutation(reversed, seed)) >> 8;
+    // 24 bits are exact in float; as signed numbers, which SSE2 can convert.
+    const Floats integer = __builtin_convertvector(reinterpret_cast<Ints>(scrambled), Floats);
+    return integer * 0x1.0p-23f - 1.0f;
+}
+
+// sin and cos for |x| <= π/4, Taylor series to below float rounding.
+inline Floats small_sin(Floats x) {
+    const Floats s = x * x;
+    return x *
+           (1.0f + s * (-1.0f / 6 + s * (1.0f / 120 + s * (-1.0f / 5040 + s * (1.0f / 362880)))));
+}
+
+inline Floats small_cos(Floats x) {
+    const Floats s = x * x;
     return 1.0f + s * (-0.5f + s * (1.0f / 24 + s * (-1.0f / 720 + s * (1.0f / 40320))));
 }
 
@@ -34,8 +72,11 @@ void orthonormal_basis(const Vec3f& normal, Vec3f& tangent, Vec3f& bitangent) {
     bitangent = Vec3f(b, sign + normal.y() * normal.y() * a, -normal.y());
 }
 
-CosineDirections::CosineDirections(uint32_t count)
-    : count_(count), points_((count + kPadding - 1) / kPadding * kPadding) {}
+CosineDirections::CosineDirections(uint32_t count) : count_(count), points_(count) {
+    const uint32_t padded = (count + kPadding - 1) / kPadding * kPadding;
+    points_.reversed_x.resize(padded, 0);
+    points_.reversed_y.resize(padded, 0);
+}
 
 void CosineDirections::generate(const Vec3f& normal, uint64_t key, DirectionArrays& out) const {
     Vec3f tangent, bitangent;
@@ -46,28 +87,34 @@ void CosineDirections::generate(const Vec3f& normal, uint64_t key, DirectionArra
     out.x.resize(padded);
     out.y.resize(padded);
     out.z.resize(padded);
-    const uint32_t* reversed_x = points_.reversed_x.data();
-    const uint32_t* reversed_y = points_.reversed_y.data();
-    float* x = out.x.data();
-    float* y = out.y.data();
-    float* z = out.z.data();
-    for (uint32_t j = 0; j < padded; ++j) {
-        const float a = 2.0f * scrambled_fraction(reversed_x[j], seed_x) - 1.0f;
-        const float b = 2.0f * scrambled_fraction(reversed_y[j], seed_y) - 1.0f;
+    float* const to[3] = {out.x.data(), out.y.data(), out.z.data()};
+    // Two loops, each short enough for the processor to overlap its steps.
+    for (uint32_t j = 0; j < padded; j += kLanes) {
+        const Floats a = signed_fraction(load<Words>(points_.reversed_x.data() + j), seed_x);
+        const Floats b = signed_fraction(load<Words>(points_.reversed_y.data() + j), seed_y);
+        std::memcpy(to[0] + j, &a, sizeof a);
+        std::memcpy(to[1] + j, &b, sizeof b);
+    }
+    const Vec3f n = normal;  // a copy, which the stores below cannot change
+    for (uint32_t j = 0; j < padded; j += kLanes) {
+        const Floats a = load<Floats>(to[0] + j);
+        const Floats b = load<Floats>(to[1] + j);
         // Concentric map: the larger coordinate is the signed radius, their ratio the angle from its axis.
-        const bool first = std::abs(a) > std::abs(b);
-        const float radius = first ? a : b;
-        const float other = first ? b : a;
-        const float safe_radius = radius == 0.0f ? 1.0f : radius;
-        const float angle = static_cast<float>(kPi / 4) * (other / safe_radius);
-        const float along = radius * small_cos(angle);
-        const float across = radius * small_sin(angle);
-        const float disk_x = first ? along : across;
-        const float disk_y = first ? across : along;
-        const float height = std::sqrt(std::max(0.0f, 1.0f - disk_x * disk_x - disk_y * disk_y));
-        x[j] = disk_x * tangent.x() + disk_y * bitangent.x() + height * normal.x();
-        y[j] = disk_x * tangent.y() + disk_y * bitangent.y() + height * normal.y();
-        z[j] = disk_x * tangent.z() + disk_y * bitangent.z() + height * normal.z();
+        const Ints first = magnitude(a) > magnitude(b);
+        const Floats radius = select(first, a, b);
+        const Floats other = select(first, b, a);
+        const Floats safe_radius = select(radius == 0.0f, Floats{} + 1.0f, radius);
+        const Floats angle = static_cast<float>(kPi / 4) * (other / safe_radius);
+        const Floats along = radius * small_cos(angle);
+        const Floats across = radius * small_sin(angle);
+        const Floats disk_x = select(first, along, across);
+        const Floats disk_y = select(first, across, along);
+        const Floats height2 = 1.0f - disk_x * disk_x - disk_y * disk_y;
+        const Floats height = square_root(select(height2 > 0.0f, height2, Floats{}));
+        for (int axis = 0; axis < 3; ++axis) {
+            const Floats w = disk_x * tangent[axis] + disk_y * bitangent[axis] + height * n[axis];
+            std::memcpy(to[axis] + j, &w, sizeof w);
+        }
     }
     std::fill(out.x.begin() + count_, out.x.end(), 0.0f);
     std::fill(out.y.begin() + count_, out.y.end(), 0.0f);

@@ -3,20 +3,48 @@
 //           dimension from the primitive polynomial x + 1
 #include "compressor/bake/sobol.h"
 
+#include <algorithm>
+
 namespace paim {
 
+namespace {
+
+// The second coordinate of point j, its bits reversed; the first one's are j itself.
+uint32_t reversed_second(uint32_t j) {
+    uint32_t y = 0;
+    uint32_t direction = 0x80000000u;  // v_{j+1} = v_j ^ (v_j >> 1)
+    for (; j != 0; j >>= 1) {
+        if (j & 1u) y ^= direction;
+        direction ^= direction >> 1;
+    }
+    return reverse_bits(y);
+}
+
+// Bits of x and y in turn, the highest first.
+// Based on: G. M. Morton, A Computer Oriented Geodetic Data Base, 1966
+uint64_t morton_code(uint32_t x, uint32_t y) {
+    uint64_t code = 0;
+    for (uint32_t bit = 32; bit-- > 0;) code = code << 2 | (x >> bit & 1u) << 1 | (y >> bit & 1u);
+    return code;
+}
+
+struct OrderedPoint {
+    uint64_t code;
+    uint32_t index;
+    auto operator<=>(const OrderedPoint&) const = default;
+};
+
+}  // namespace
+
 SobolPoints::SobolPoints(uint32_t count) : reversed_x(count), reversed_y(count) {
-    // The first coordinate is the index with its bits reversed; reversed once more, the index itself.
-    // The second one's direction numbers are v_{j+1} = v_j ^ (v_j >> 1).
+    std::vector<OrderedPoint> points(count);
     for (uint32_t j = 0; j < count; ++j) {
-        reversed_x[j] = j;
-        uint32_t y = 0;
-        uint32_t direction = 0x80000000u;
-        for (uint32_t bits = j; bits != 0; bits >>= 1) {
-            if (bits & 1u) y ^= direction;
-            direction ^= direction >> 1;
-        }
-        reversed_y[j] = reverse_bits(y);
+        points[j] = {morton_code(reverse_bits(j), reverse_bits(reversed_second(j))), j};
+    }
+    std::sort(points.begin(), points.end());
+    for (uint32_t j = 0; j < count; ++j) {
+        reversed_x[j] = points[j].index;
+        reversed_y[j] = reversed_second(points[j].index);
     }
 }
 

@@ -9,7 +9,9 @@
 namespace paim {
 
 // The first `count` points of the (0, 2)-sequence, each coordinate a 32-bit fraction with its bits
-// reversed, which is the form that scrambling works on.
+// reversed, which is the form that scrambling works on. In Morton order: points of the same square or
+// half square (an elementary interval) follow one another, and as scrambling moves whole intervals,
+// they still do afterwards, whatever the seed. Rays along neighbouring directions go together.
 struct SobolPoints {
     std::vector<uint32_t> reversed_x;
     std::vector<uint32_t> reversed_y;
@@ -17,7 +19,9 @@ struct SobolPoints {
     explicit SobolPoints(uint32_t count);
 };
 
-constexpr uint32_t reverse_bits(uint32_t x) {
+// These two take one number or, as vectors of the compiler, several.
+template <typename Word>
+constexpr Word reverse_bits(Word x) {
     x = (x >> 16) | (x << 16);
     x = ((x & 0x00ff00ffu) << 8) | ((x & 0xff00ff00u) >> 8);
     x = ((x & 0x0f0f0f0fu) << 4) | ((x & 0xf0f0f0f0u) >> 4);
@@ -28,7 +32,8 @@ constexpr uint32_t reverse_bits(uint32_t x) {
 // Permutes so that every bit depends only on itself, the seed and lower bits: an Owen scramble when the
 // bits are reversed. The constants are Nathan Vegdahl's, with better avalanche than Burley's:
 // "Building a Better LK Hash", 2021.
-constexpr uint32_t laine_karras_permutation(uint32_t x, uint32_t seed) {
+template <typename Word>
+constexpr Word laine_karras_permutation(Word x, uint32_t seed) {
     x ^= x * 0x3d20adeau;
     x += seed;
     x *= (seed >> 16) | 1u;

@@ -19,89 +19,69 @@ namespace paim {
 
 namespace {
 
-constexpr uint32_t kLanes = sh::BatchBasis::kBatch;
+constexpr uint32_t kBatch = sh::BatchBasis::kBatch;
+constexpr size_t kSumLanes = sh::BatchBasis::kSumLanes;
 constexpr size_t kVerticesPerPiece = 64;
 // Lane sums are single precision; they are emptied into double before rounding matters.
-constexpr uint32_t kBatchesPerFlush = 32;
+constexpr uint32_t kRaysPerFlush = 32 * kBatch;
 
 }  // namespace
 
 std::vector<double> cosine_lobe_by_coefficient(uint32_t bands) {
     std::vector<double> lobe(size_t{bands} * bands);
-    for (size_t i = 0; i < lobe.size(); ++i) lobe[i] = sh::cosine_lobe(sh::band_of(static_cast<int>(i)));
+    for (size_t i = 0; i < lobe.size(); ++i)
+        lobe[i] = sh::cosine_lobe(sh::band_of(static_cast<int>(i)));
     return lobe;
 }
 
 // One half of a vertex's rays.
 struct Half {
     DirectionArrays directions;
-    std::vector<float> blocked;  // 1 or 0, padded with 0
+    std::vector<float> blocked;  // 1 or 0
     uint32_t num_blocked = 0;
-    std::vector<double> all_sum;      // [C] Σ y_i over all rays
-    std::vector<double> blocked_sum;  // [C] Σ y_i over the blocked ones
 };
 
 struct TransferBaker::Workspace {
     Half halves[2];
-    std::vector<float> values;       // [C][kLanes]
-    std::vector<float> all_lanes;    // [C][kLanes]
-    std::vector<float> blocked_lanes;  // [C][kLanes]
-    std::vector<double> at_normal;   // [C] y_i(n)
-    std::vector<double> mean;        // [C] the transfer
-    std::vector<double> lobe;        // [C]
+    std::vector<float> weights;     // [padded rays]
+    std::vector<float> lanes;       // [C][kSumLanes]
+    std::vector<double> sums[2];    // [C] of each half
+    std::vector<double> at_normal;  // [C] y_i(n)
+    std::vector<double> mean;       // [C] the transfer
+    std::vector<double> lobe;       // [C]
 
-    Workspace(uint32_t bands, uint32_t padded_rays)
-        : values(size_t{bands} * bands * kLanes),
-          all_lanes(values.size()),
-          blocked_lanes(values.size()),
+    Workspace(uint32_t bands, uint32_t num_rays, uint32_t padded_rays)
+        : weights(padded_rays, 0.0f),
+          lanes(size_t{bands} * bands * kSumLanes),
           at_normal(size_t{bands} * bands),
           mean(at_normal.size()),
           lobe(cosine_lobe_by_coefficient(bands)) {
-        for (Half& half : halves) {
-            half.blocked.resize(padded_rays, 0.0f);
-            half.all_sum.resize(at_normal.size());
-            half.blocked_sum.resize(at_normal.size());
+        for (size_t h = 0; h < 2; ++h) {
+            halves[h].blocked.resize(num_rays);
+            sums[h].resize(at_normal.size());
         }
     }
 
-    // Σ y_i over the rays of a half, all of them and the blocked ones.
-    void sum(const sh::BatchBasis& basis, uint32_t num_rays, Half& half) {
-        std::fill(half.all_sum.begin(), half.all_sum.end(), 0.0);
-        std::fill(half.blocked_sum.begin(), half.blocked_sum.end(), 0.0);
-        uint32_t unflushed = 0;
-        for (uint32_t first = 0; first < num_rays; first += kLanes) {
-            basis.evaluate(half.directions.x.data() + first, half.directions.y.data() + first,
-                           half.directions.z.data() + first, values.data());
-            const uint32_t num_lanes = std::min(kLanes, num_rays - first);
-            const float* blocked = half.blocked.data() + first;
+    // Σ ((1 − blocked) − open) y_i over the rays of half h.
+    void sum(const sh::BatchBasis& basis, size_t h, float open) {
+        const Half& half = halves[h];
+        const auto num_rays = static_cast<uint32_t>(half.blocked.size());
+        // Padding keeps its weight of zero.
+        for (uint32_t j = 0; j < num_rays; ++j) weights[j] = (1.0f - half.blocked[j]) - open;
+        std::fill(sums[h].begin(), sums[h].end(), 0.0);
+        for (uint32_t first = 0; first < num_rays; first += kRaysPerFlush) {
+            std::fill(lanes.begin(), lanes.end(), 0.0f);
+            const uint32_t end = std::min(num_rays, first + kRaysPerFlush);
+            for (uint32_t j = first; j < end; j += kBatch) {
+                basis.accumulate(half.directions.x.data() + j, half.directions.y.data() + j,
+                                 half.directions.z.data() + j, weights.data() + j, lanes.data());
+            }
             for (size_t i = 0; i < mean.size(); ++i) {
-                float* value = values.data() + i * kLanes;
-                std::fill(value + num_lanes, value + kLanes, 0.0f);
-                float* all_lane = all_lanes.data() + i * kLanes;
-                float* blocked_lane = blocked_lanes.data() + i * kLanes;
-                for (uint32_t j = 0; j < kLanes; ++j) {
-                    all_lane[j] += value[j];
-                    blocked_lane[j] += blocked[j] * value[j];
+                for (size_t lane = 0; lane < kSumLanes; ++lane) {
+                    sums[h][i] += static_cast<double>(lanes[i * kSumLanes + lane]);
                 }
             }
-            if (++unflushed == kBatchesPerFlush) {
-                flush(half);
-                unflushed = 0;
-            }
         }
-        flush(half);
-    }
-
-  private:
-    void flush(Half& half) {
-        for (size_t i = 0; i < mean.size(); ++i) {
-            for (uint32_t j = 0; j < kLanes; ++j) {
-                half.all_sum[i] += static_cast<double>(all_lanes[i * kLanes + j]);
-                half.blocked_sum[i] += static_cast<double>(blocked_lanes[i * kLanes + j]);
-            }
-        }
-        std::fill(all_lanes.begin(), all_lanes.end(), 0.0f);
-        std::fill(blocked_lanes.begin(), blocked_lanes.end(), 0.0f);
     }
 };
 
@@ -113,9 +93,7 @@ struct TransferBaker::Estimate {
 };
 
 TransferBaker::TransferBaker(const BakeOptions& options)
-    : options_(options),
-      directions_(options.rays / 2),
-      basis_(static_cast<int>(options.bands)) {
+    : options_(options), directions_(options.rays / 2), basis_(static_cast<int>(options.bands)) {
     PAIM_CHECK(options.rays >= 2 && options.rays % 2 == 0);
 }
 
@@ -135,20 +113,19 @@ TransferBaker::Estimate TransferBaker::estimate(const Scene& scene, const Vec3f&
                        std::span(work.at_normal));
     const bool all_open = result.num_blocked == 0;
     const bool all_blocked = result.num_blocked == 2 * num_rays;
-    if (!all_open && !all_blocked) {
-        for (Half& half : work.halves) work.sum(basis_, num_rays, half);
+    const bool partly = !all_open && !all_blocked;
+    double open[2];  // of each half, what the other one says; rounded as the weights are
+    for (size_t h = 0; h < 2; ++h) {
+        const double blocked = static_cast<double>(work.halves[1 - h].num_blocked) / num_rays;
+        const auto rounded = static_cast<float>(1.0 - blocked);
+        open[h] = static_cast<double>(rounded);
+        if (partly) work.sum(basis_, h, rounded);
     }
     for (size_t i = 0; i < work.mean.size(); ++i) {
         const double unoccluded = work.lobe[i] * work.at_normal[i];
-        double estimates[2] = {all_open ? unoccluded : 0.0, all_open ? unoccluded : 0.0};
-        if (!all_open && !all_blocked) {
-            for (size_t h = 0; h < 2; ++h) {
-                const Half& half = work.halves[h];
-                const double open = 1.0 - static_cast<double>(work.halves[1 - h].num_blocked) / num_rays;
-                estimates[h] =
-                    open * unoccluded +
-                    ((1.0 - open) * half.all_sum[i] - half.blocked_sum[i]) / num_rays;
-            }
+        double estimates[2];
+        for (size_t h = 0; h < 2; ++h) {
+            estimates[h] = open[h] * unoccluded + (partly ? work.sums[h][i] / num_rays : 0.0);
         }
         work.mean[i] = 0.5 * (estimates[0] + estimates[1]);
         const double error = 0.5 * (estimates[0] - estimates[1]);
@@ -173,7 +150,7 @@ BakedPose TransferBaker::bake(const Topology& topology, const Pose& pose, uint32
     std::vector<Estimate> estimates(num_vertices);
     std::vector<uint8_t> has_normal(num_vertices, 0);
     parallel_for(num_vertices, kVerticesPerPiece, [&](size_t begin, size_t end) {
-        Workspace work(options_.bands, directions_.padded_count());
+        Workspace work(options_.bands, directions_.count(), directions_.padded_count());
         for (size_t v = begin; v < end; ++v) {
             const Vec3f& normal = pose.normals[v];
             if (normal.isZero(0.0f)) continue;

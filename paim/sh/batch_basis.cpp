@@ -33,13 +33,6 @@ Batch constant(float value) {
     return {{lanes, lanes, lanes, lanes}};
 }
 
-void store_product(const Batch& a, const Batch& b, float* to) {
-    for (int r = 0; r < kNumRegisters; ++r) {
-        const Lanes product = a.v[r] * b.v[r];
-        std::memcpy(to + r * kNumLanes, &product, sizeof product);
-    }
-}
-
 }  // namespace
 
 // recurrence_ holds, for each m: the diagonal q_mm, then a and b of each l = m+1 … bands−1.
@@ -58,12 +51,15 @@ BatchBasis::BatchBasis(int bands) : bands_(bands) {
     }
 }
 
-void BatchBasis::evaluate(const float* x, const float* y, const float* z, float* values) const {
+// sink(i, a, b) takes coefficient i of all directions as the product of two batches.
+template <typename Weights, typename Sink>
+void BatchBasis::run(const float* x, const float* y, const float* z, const Weights& weights,
+                     const Sink& sink) const {
     const Batch bx = load(x);
     const Batch by = load(y);
     const Batch bz = load(z);
-    Batch cosine = constant(1.0f);  // sin^m θ cos mφ
-    Batch sine = constant(0.0f);    // sin^m θ sin mφ
+    Batch cosine = weights;       // sin^m θ cos mφ, weighted
+    Batch sine = constant(0.0f);  // sin^m θ sin mφ, weighted
     const float* step = recurrence_.data();
     for (int m = 0; m < bands_; ++m) {
         if (m > 0) {
@@ -76,9 +72,8 @@ void BatchBasis::evaluate(const float* x, const float* y, const float* z, float*
         Batch legendre = constant(*step++);
         Batch before = constant(0.0f);
         for (int l = m;; ++l) {
-            float* centre = values + static_cast<ptrdiff_t>(index(l, 0)) * kBatch;
-            store_product(legendre, cosine, centre + m * kBatch);
-            if (m > 0) store_product(legendre, sine, centre - m * kBatch);
+            sink(index(l, m), legendre, cosine);
+            if (m > 0) sink(index(l, -m), legendre, sine);
             if (l + 1 == bands_) break;
             const Batch a = constant(*step++);
             const Batch b = constant(*step++);
@@ -90,6 +85,28 @@ void BatchBasis::evaluate(const float* x, const float* y, const float* z, float*
             }
         }
     }
+}
+
+void BatchBasis::evaluate(const float* x, const float* y, const float* z, float* values) const {
+    run(x, y, z, constant(1.0f), [values](int i, const Batch& a, const Batch& b) {
+        float* to = values + static_cast<ptrdiff_t>(i) * kBatch;
+        for (int r = 0; r < kNumRegisters; ++r) {
+            const Lanes product = a.v[r] * b.v[r];
+            std::memcpy(to + r * kNumLanes, &product, sizeof product);
+        }
+    });
+}
+
+void BatchBasis::accumulate(const float* x, const float* y, const float* z, const float* weights,
+                            float* sums) const {
+    static_assert(kSumLanes == kNumLanes && kNumRegisters == 4);
+    run(x, y, z, load(weights), [sums](int i, const Batch& a, const Batch& b) {
+        float* to = sums + static_cast<ptrdiff_t>(i) * kSumLanes;
+        Lanes sum;
+        std::memcpy(&sum, to, sizeof sum);
+        sum += (a.v[0] * b.v[0] + a.v[1] * b.v[1]) + (a.v[2] * b.v[2] + a.v[3] * b.v[3]);
+        std::memcpy(to, &sum, sizeof sum);
+    });
 }
 
 }  // namespace paim::sh

@@ -9,7 +9,8 @@
 
 namespace paim::embree {
 
-// The default way to trace a ray. May be shared by the rays of one thread.
+// The default way to trace a ray, or sixteen of which `valid` takes part (-1) or not (0). May be shared
+// by the rays of one thread.
 class Context {
   public:
 #if PAIM_EMBREE_VERSION >= 4
@@ -17,16 +18,32 @@ class Context {
         rtcInitOccludedArguments(&occluded_);
         rtcInitIntersectArguments(&intersect_);
     }
-    void occluded(RTCScene scene, RTCRay& ray) { rtcOccluded1(scene, &ray, &occluded_); }
-    void intersect(RTCScene scene, RTCRayHit& ray) { rtcIntersect1(scene, &ray, &intersect_); }
+    void occluded(RTCScene scene, RTCRay& ray) {
+        rtcOccluded1(scene, &ray, &occluded_);
+    }
+    void occluded(const int* valid, RTCScene scene, RTCRay16& rays) {
+        rtcOccluded16(valid, scene, &rays, &occluded_);
+    }
+    void intersect(RTCScene scene, RTCRayHit& ray) {
+        rtcIntersect1(scene, &ray, &intersect_);
+    }
 
   private:
     RTCOccludedArguments occluded_;
     RTCIntersectArguments intersect_;
 #else
-    Context() { rtcInitIntersectContext(&context_); }
-    void occluded(RTCScene scene, RTCRay& ray) { rtcOccluded1(scene, &context_, &ray); }
-    void intersect(RTCScene scene, RTCRayHit& ray) { rtcIntersect1(scene, &context_, &ray); }
+    Context() {
+        rtcInitIntersectContext(&context_);
+    }
+    void occluded(RTCScene scene, RTCRay& ray) {
+        rtcOccluded1(scene, &context_, &ray);
+    }
+    void occluded(const int* valid, RTCScene scene, RTCRay16& rays) {
+        rtcOccluded16(valid, scene, &context_, &rays);
+    }
+    void intersect(RTCScene scene, RTCRayHit& ray) {
+        rtcIntersect1(scene, &context_, &ray);
+    }
 
   private:
     RTCIntersectContext context_;

@@ -3,6 +3,7 @@
 //           Tracing, 2014
 #include "paim/trace/scene.h"
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <mutex>
@@ -112,14 +113,28 @@ Scene::~Scene() = default;
 
 uint32_t Scene::blocked(const Vec3f& origin, const float* x, const float* y, const float* z,
                         uint32_t count, float* blocked) const {
+    constexpr uint32_t kPacket = 16;
     embree::Context context;
+    RTCRay16 rays{};
+    std::fill_n(rays.org_x, kPacket, origin.x());
+    std::fill_n(rays.org_y, kPacket, origin.y());
+    std::fill_n(rays.org_z, kPacket, origin.z());
+    std::fill_n(rays.mask, kPacket, 0xffffffffu);
+    alignas(64) int valid[kPacket];
     uint32_t num_blocked = 0;
-    for (uint32_t j = 0; j < count; ++j) {
-        RTCRay ray = make_ray(origin, {x[j], y[j], z[j]});
-        context.occluded(impl_->scene, ray);
-        const bool hit = ray.tfar < 0.0f;  // Embree's mark of a blocked ray
-        blocked[j] = hit ? 1.0f : 0.0f;
-        num_blocked += hit ? 1 : 0;
+    for (uint32_t first = 0; first < count; first += kPacket) {
+        const uint32_t num_rays = std::min(kPacket, count - first);
+        for (uint32_t j = 0; j < kPacket; ++j) valid[j] = j < num_rays ? -1 : 0;
+        std::copy_n(x + first, num_rays, rays.dir_x);
+        std::copy_n(y + first, num_rays, rays.dir_y);
+        std::copy_n(z + first, num_rays, rays.dir_z);
+        std::fill_n(rays.tfar, kPacket, std::numeric_limits<float>::infinity());
+        context.occluded(valid, impl_->scene, rays);
+        for (uint32_t j = 0; j < num_rays; ++j) {
+            const bool hit = rays.tfar[j] < 0.0f;  // Embree's mark of a blocked ray
+            blocked[first + j] = hit ? 1.0f : 0.0f;
+            num_blocked += hit ? 1 : 0;
+        }
     }
     return num_blocked;
 }

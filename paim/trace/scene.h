@@ -31,6 +31,7 @@ class Scene {
     // Whether anything lies in each direction from the origin, at any distance > 0.
     // x, y, z  [count] unit directions
     // blocked  [count] 1 or 0
+    // note     sixteen at a time: fastest if neighbouring directions follow one another
     // returns  how many are blocked
     uint32_t blocked(const Vec3f& origin, const float* x, const float* y, const float* z,
                      uint32_t count, float* blocked) const;

@@ -30,6 +30,22 @@ TEST(ScrambledSobol, EveryElementaryIntervalHoldsOnePoint) {
     }
 }
 
+TEST(ScrambledSobol, SixteenNeighboursShareAnElementaryInterval) {
+    // 256 points, 16 in each of the 4 x 4 squares, under any seed.
+    const SobolPoints points(256);
+    for (const uint32_t seed : {0u, 1u, 0xdeadbeefu}) {
+        for (size_t first = 0; first < 256; first += 16) {
+            std::set<std::pair<int, int>> squares;
+            for (size_t j = first; j < first + 16; ++j) {
+                squares.emplace(
+                    static_cast<int>(4.0f * scrambled_fraction(points.reversed_x[j], seed)),
+                    static_cast<int>(4.0f * scrambled_fraction(points.reversed_y[j], seed + 1)));
+            }
+            EXPECT_EQ(squares.size(), 1u) << seed << ' ' << first;
+        }
+    }
+}
+
 TEST(ScrambledSobol, SeedsGiveUniformIndependentPoints) {
     // One point under many seeds is uniform: mean 1/2, variance 1/12, no correlation of the axes.
     const SobolPoints points(16);
@@ -91,7 +107,8 @@ TEST(CosineDirections, AverageTheBasisToTheCosineLobe) {
 }
 
 TEST(OrthonormalBasis, IsRightHandedEverywhere) {
-    for (const Vec3f& n : {Vec3f(0, 0, 1), Vec3f(0, 0, -1), Vec3f(1, 0, 0), Vec3f(0.6f, 0, -0.8f)}) {
+    for (const Vec3f& n :
+         {Vec3f(0, 0, 1), Vec3f(0, 0, -1), Vec3f(1, 0, 0), Vec3f(0.6f, 0, -0.8f)}) {
         Vec3f t, b;
         orthonormal_basis(n, t, b);
         EXPECT_NEAR((t.cross(b) - n).norm(), 0.0f, 1e-6f);

@@ -68,6 +68,40 @@ TEST(BatchBasis, LanesDoNotTouchOneAnother) {
     }
 }
 
+TEST_P(BatchBasisOfBands, AccumulatesWeightedValues) {
+    const int bands = GetParam();
+    const BatchBasis basis(bands);
+    const auto num_values = static_cast<size_t>(num_coefficients(bands));
+    const std::vector<Vec3d> directions = test_directions();
+    Lanes lanes{};
+    float weights[kBatch];
+    for (int j = 0; j < kBatch; ++j) {
+        lanes.set(j, directions[static_cast<size_t>(j) * 5 % directions.size()]);
+        weights[j] = static_cast<float>(0.3 * j - 2.0);
+    }
+    std::vector<float> values(num_values * kBatch);
+    std::vector<float> sums(num_values * BatchBasis::kSumLanes, 1.0f);  // it adds to what is there
+    basis.evaluate(lanes.x, lanes.y, lanes.z, values.data());
+    basis.accumulate(lanes.x, lanes.y, lanes.z, weights, sums.data());
+    for (int l = 0; l < bands; ++l) {
+        for (int m = -l; m <= l; ++m) {
+            const auto i = static_cast<size_t>(index(l, m));
+            double expected = BatchBasis::kSumLanes;
+            double sum = 0.0;
+            for (size_t j = 0; j < kBatch; ++j) {
+                expected += static_cast<double>(weights[j]) * values[i * kBatch + j];
+            }
+            for (size_t j = 0; j < BatchBasis::kSumLanes; ++j)
+                sum += sums[i * BatchBasis::kSumLanes + j];
+            // Sixteen weights of at most 2.5, each value's recurrence as in AgreesWithTheReference, and
+            // the sums' own roundings.
+            const double tolerance =
+                0x1.0p-24 * (16 * 2.5 * (8.0 + 0.5 * l * (l + 1.0)) * band_maximum(l) + 16.0);
+            ASSERT_NEAR(sum, expected, tolerance) << l << " " << m;
+        }
+    }
+}
+
 TEST(BatchBasisDeathTest, RefusesTooManyBands) {
     EXPECT_DEATH(BatchBasis(65), "check failed.*bands");
     EXPECT_DEATH(BatchBasis(0), "check failed.*bands");

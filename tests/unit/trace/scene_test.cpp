@@ -36,6 +36,39 @@ TEST(Scene, CountsBlockedDirections) {
     EXPECT_EQ(blocked[2], 0.0f);
 }
 
+TEST(Scene, PacketsAnswerAsSingleRays) {
+    // Any count, so that packets that are not full are among them.
+    const auto sequence = poses::make_bowl_sequence(600);
+    const auto positions = sequence->positions(0, 1);
+    const Scene scene(sequence->topology(), positions);
+    RandomStream random(4);
+    uint32_t total = 0;
+    for (uint32_t count = 0; count < 100; ++count) {
+        std::vector<float> x(count), y(count), z(count), blocked(count + 1, -1.0f);
+        const auto coordinate = [&] { return static_cast<float>(random.uniform() - 0.5); };
+        for (size_t j = 0; j < count; ++j) {
+            const Vec3f direction = Vec3f(coordinate(), coordinate(), coordinate()).normalized();
+            x[j] = direction.x();
+            y[j] = direction.y();
+            z[j] = direction.z();
+        }
+        const Vec3f origin(coordinate(), coordinate(), coordinate());
+        uint32_t expected = 0;
+        const uint32_t num_blocked =
+            scene.blocked(origin, x.data(), y.data(), z.data(), count, blocked.data());
+        for (size_t j = 0; j < count; ++j) {
+            const bool hit = scene.first_hit(origin, {x[j], y[j], z[j]}).has_value();
+            ASSERT_EQ(blocked[j], hit ? 1.0f : 0.0f) << count << ' ' << j;
+            expected += hit ? 1 : 0;
+        }
+        EXPECT_EQ(num_blocked, expected);
+        EXPECT_EQ(blocked[count], -1.0f);
+        total += expected;
+    }
+    EXPECT_GT(total, 500u);   // of 4950: the bowl is in the way of some,
+    EXPECT_LT(total, 4500u);  // not of all
+}
+
 TEST(Scene, HoldsNothingWithoutTriangles) {
     const Topology isolated{1, {}};
     const Scene scene(isolated, std::vector<Vec3f>{{0, 0, 0}});
@@ -49,11 +82,13 @@ TEST(Scene, LetsNoRayOutOfAClosedMesh) {
     RandomStream random(3);
     for (int j = 0; j < 20000; ++j) {
         // Towards vertices and points of edges too, where cracks would be.
-        const auto& t = sequence->topology().triangles[static_cast<size_t>(j) %
-                                                       sequence->topology().triangles.size()];
+        const auto& t =
+            sequence->topology()
+                .triangles[static_cast<size_t>(j) % sequence->topology().triangles.size()];
         const auto along = static_cast<float>(random.uniform());
-        const Vec3f target = j % 2 == 0 ? positions[t[0]]
-                                        : Vec3f((1.0f - along) * positions[t[0]] + along * positions[t[1]]);
+        const Vec3f target =
+            j % 2 == 0 ? positions[t[0]]
+                       : Vec3f((1.0f - along) * positions[t[0]] + along * positions[t[1]]);
         ASSERT_TRUE(scene.first_hit(Vec3f::Zero(), target.normalized())) << j;
     }
 }
