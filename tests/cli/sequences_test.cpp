@@ -64,8 +64,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Sequence{"horse-gallop", 48, 8431}, Sequence{"wolf", 21, 5075},
                     Sequence{"dembones_bone", 400, 754}, Sequence{"knight_2h_spin", 73, 2454},
                     Sequence{"robot_dance", 81, 1820}, Sequence{"blender_flag", 90, 6305}),
-    [](const testing::TestParamInfo<Sequence>& info) {
-        std::string name = info.param.name;
+    [](const testing::TestParamInfo<Sequence>& tested) {
+        std::string name = tested.param.name;
         std::replace_if(
             name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
         return name;
