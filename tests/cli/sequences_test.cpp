@@ -1,6 +1,7 @@
 // The whole road with real sequences: many shapes, materials, quads, parts and open sheets.
 #include <algorithm>
 #include <cctype>
+#include <ostream>
 
 #include "tests/cli/tool_test.h"
 
@@ -13,6 +14,10 @@ struct Sequence {
     uint32_t num_poses;
     uint32_t num_vertices;
 };
+
+void PrintTo(const Sequence& sequence, std::ostream* out) {
+    *out << sequence.name;
+}
 
 class RealSequence : public ToolTest, public testing::WithParamInterface<Sequence> {};
 
