@@ -53,8 +53,7 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
     app.add_option("-o,--output", options.output, "Directory for the results")->required();
     app.add_option("--env", options.environments,
                    "Lat-long environment map (OpenEXR); may be given several times; default: the "
-                   "built-in sky")
-        ->allow_extra_args(false);  // one each, so that BAKE may follow
+                   "built-in sky");
     app.add_option("--components", components, "Component counts to measure, besides all")
         ->capture_default_str();
     app.add_option("--bands", bands,

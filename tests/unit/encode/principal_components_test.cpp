@@ -73,9 +73,9 @@ TEST(PrincipalComponents, SingularValuesAgreeWithEigen) {
 TEST(PrincipalComponents, CentringTakesOneWhateverTheOffset) {
     // Far from the origin, the singular value that is zero comes out as rounding of the offset.
     for (const float offset : {0.0f, 10.0f, 1000.0f, 1e5f}) {
-        MatrixXf matrix = random_matrix(9000, 4);
+        MatrixXf matrix = random_matrix(9000, 7);  // the mean of seven rounds
         matrix.array() += offset;
-        EXPECT_EQ(principal_components(MatrixRows(matrix)).rank(), 3u) << offset;
+        EXPECT_EQ(principal_components(MatrixRows(matrix)).rank(), 6u) << offset;
     }
     EXPECT_EQ(principal_components(MatrixRows(random_matrix(50, 1))).rank(), 0u);
 }
