@@ -63,20 +63,22 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
         ->capture_default_str();
     app.add_option("--size", options.size_pixels,
                    "Width and height of the images, pixels, 16 to 4096")
-        ->check(CLI::Range(16, 4096))
+        ->check(cli::in_range(16, 4096))
         ->capture_default_str();
     app.add_option("--poses", options.num_poses,
-                   "Poses that are rendered, evenly spaced over the sequence, 1 or more")
-        ->check(CLI::Range(1u, 1u << 20))
+                   "Poses that are rendered, evenly spaced over the sequence, 1 to 1048576")
+        ->check(cli::in_range(1u, 1u << 20))
         ->capture_default_str();
-    app.add_option("--azimuth", azimuth_deg, "Camera angle about +Y, degrees; 0 looks along -Z")
-        ->check(CLI::Range(-360.0, 360.0))
+    app.add_option("--azimuth", azimuth_deg,
+                   "Camera angle about +Y, degrees, -360 to 360; 0 looks along -Z")
+        ->check(cli::in_range(-360.0, 360.0))
         ->capture_default_str();
-    app.add_option("--elevation", elevation_deg, "Camera angle above the horizon, degrees")
-        ->check(CLI::Range(-89.0, 89.0))
+    app.add_option("--elevation", elevation_deg,
+                   "Camera angle above the horizon, degrees, -89 to 89")
+        ->check(cli::in_range(-89.0, 89.0))
         ->capture_default_str();
-    app.add_option("--threads", options.num_threads, "Threads, 0 for every core")
-        ->check(CLI::Range(0, 1024))
+    app.add_option("--threads", options.num_threads, "Threads, 0 to 1024; 0 takes every core")
+        ->check(cli::in_range(0, 1024))
         ->capture_default_str();
     app.add_flag("--json", options.json, "Write one JSON object on stdout and nothing else");
     app.add_flag("--quiet", options.quiet, "Show no progress");

@@ -1,6 +1,8 @@
 // The scene that is measured.
 #include "analysis/reference.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -17,7 +19,14 @@ namespace paim {
 std::vector<NamedLight> load_lights(const std::vector<std::filesystem::path>& environments,
                                     uint32_t bands) {
     std::vector<NamedLight> lights;
-    const auto add = [&](const std::string& name, Image image) {
+    const auto add = [&](const std::string& stem, Image image) {
+        // Maps of the same name from two folders stay two lights.
+        std::string name = stem;
+        for (int copy = 2; std::any_of(lights.begin(), lights.end(),
+                                       [&](const NamedLight& l) { return l.name == name; });
+             ++copy) {
+            name = fmt::format("{} ({})", stem, copy);
+        }
         const EnvironmentLight light(std::move(image));
         lights.push_back({name, light.coefficients(Vec3f::Zero(), static_cast<int>(bands))});
     };

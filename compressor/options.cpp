@@ -2,6 +2,7 @@
 #include "compressor/options.h"
 
 #include <charconv>
+#include <limits>
 
 #include "paim/base/error.h"
 #include "paim/cli/parse.h"
@@ -34,15 +35,14 @@ void add_input_options(CLI::App& app, CompressOptions& options) {
 void add_bake_options(CLI::App& app, CompressOptions& options, RawOptions& raw) {
     app.add_option("--rays", options.bake.rays,
                    "Rays per vertex and pose, even, 2 to 16777216; more rays, less noise")
-        ->check(CLI::Range(uint32_t{2}, uint32_t{1} << 24))
+        ->check(cli::in_range(uint32_t{2}, uint32_t{1} << 24))
         ->capture_default_str();
     app.add_option("--albedo", raw.albedo,
                    "Diffuse reflectance R,G,B (or one number), linear, 0 to 1; default: vertex "
                    "colours, else Kd of the materials, else 0.8");
-    app.add_option("--poses", options.poses,
-                   "Bake only poses A-B (counted from 0), so that several processes can share a "
-                   "bake; default: all");
-    app.add_option("--seed", options.bake.seed, "Seed of the random streams")->capture_default_str();
+    app.add_option("--seed", options.bake.seed, "Seed of the random streams, 0 to 2^64 - 1")
+        ->check(cli::in_range(uint64_t{0}, std::numeric_limits<uint64_t>::max()))
+        ->capture_default_str();
 }
 
 void add_encode_options(CLI::App& app, CompressOptions& options, RawOptions& raw) {
@@ -59,15 +59,15 @@ void add_encode_options(CLI::App& app, CompressOptions& options, RawOptions& raw
         ->capture_default_str();
     app.add_option("--fps", options.encode.frames_per_second,
                    "Poses per second at which the animation plays, 0.001 to 1000000")
-        ->check(CLI::Range(1e-3, 1e6))
+        ->check(cli::in_range(1e-3, 1e6))
         ->capture_default_str();
 }
 
 void add_common_options(CLI::App& app, CompressOptions& options, const std::string& output_help) {
     app.add_option("-o,--output", options.output, output_help)->required();
     app.add_option("--threads", options.num_threads,
-                   "Threads, 0 for every core; the result is the same for any number")
-        ->check(CLI::Range(0, 1024))
+                   "Threads, 0 to 1024; 0 takes every core; the result is the same for any number")
+        ->check(cli::in_range(0, 1024))
         ->capture_default_str();
     app.add_flag("--json", options.json, "Write one JSON object on stdout and nothing else");
     app.add_flag("--quiet", options.quiet, "Show no progress");
@@ -116,7 +116,7 @@ std::optional<CompressOptions> parse_options(int argc, const char* const* argv, 
         "Exit codes: 0 ok, 1 usage, 2 bad input, 3 unsupported, 4 output failed.");
     const std::string bands_help = fmt::format(
         "Spherical-harmonic bands, 1 to {}; B bands are B*B coefficients", sh::kMaxBands);
-    const auto bands_range = CLI::Range(1, sh::kMaxBands);
+    const auto bands_range = cli::in_range(1, static_cast<int>(sh::kMaxBands));
 
     // The one-go form has the options of both; its output is required only where it is meant.
     add_input_options(app, options);
@@ -134,11 +134,14 @@ std::optional<CompressOptions> parse_options(int argc, const char* const* argv, 
     bake->add_option("--bands", options.bake.bands, bands_help)
         ->check(bands_range)
         ->capture_default_str();
+    bake->add_option("--poses", options.poses,
+                     "Bake only poses A-B (counted from 0), so that several processes can share a "
+                     "bake; default: all");
     add_common_options(*bake, options, "The .bake directory to write, or to go on with");
 
     CLI::App* encode = app.add_subcommand("encode", "Encode a .bake directory as a .paim file");
     encode->add_option("BAKE", options.bake_directory, "The .bake directory")->required();
-    encode->add_option("--bands", raw.encode_bands, "Bands to keep; default: all of the bake's")
+    encode->add_option("--bands", raw.encode_bands, "Bands to keep; more than the bake has are all of them, the default")
         ->check(bands_range);
     add_encode_options(*encode, options, raw);
     add_common_options(*encode, options, "The .paim file to write");
@@ -150,7 +153,6 @@ std::optional<CompressOptions> parse_options(int argc, const char* const* argv, 
     if (options.command == CompressOptions::Command::bake_and_encode) {
         if (options.inputs.empty()) throw_usage("no OBJ files given; see --help");
         if (options.output.empty()) throw_usage("--output is required; see --help");
-        if (!options.poses.empty()) throw_usage("--poses goes with 'bake' only");
         if (options.output.extension() == ".bake") {
             throw_usage("--output: expected the .paim file to write, got '{}'; its bake is kept "
                         "beside it under that name", options.output.string());

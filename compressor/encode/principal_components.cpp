@@ -50,8 +50,9 @@ uint32_t PrincipalComponents::rank() const {
     if (singular_values.empty()) return 0;
     const double floor =
         singular_values[0] * static_cast<double>(v.cols()) * std::numeric_limits<double>::epsilon();
-    return static_cast<uint32_t>(std::count_if(singular_values.begin(), singular_values.end(),
-                                               [&](double s) { return s > floor; }));
+    const auto above = std::count_if(singular_values.begin(), singular_values.end(),
+                                     [&](double s) { return s > floor; });
+    return static_cast<uint32_t>(std::min<Index>(above, v.cols() - 1));
 }
 
 PrincipalComponents principal_components(const RowSource& rows) {

@@ -16,7 +16,8 @@ struct PrincipalComponents {
     std::vector<double> singular_values;  // [min(rows, P)], descending
     Eigen::MatrixXd v;                    // [P][P]
 
-    // How many singular values are more than rounding: above P · 2⁻⁵² of the largest.
+    // How many singular values are more than rounding: above P · 2⁻⁵² of the largest, and at most
+    // P − 1, since centring takes one.
     uint32_t rank() const;
 };
 

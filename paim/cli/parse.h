@@ -1,9 +1,12 @@
 // Command-line parsing shared by the tools: CLI11 with Paim's exit codes and value forms.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
+#include <charconv>
 #include <string>
+#include <system_error>
 
 #include "paim/base/vector.h"
 
@@ -12,6 +15,23 @@ namespace paim::cli {
 // Parses argv. Prints help or version and returns 0, or prints what is wrong and returns
 // ExitCode::usage; returns -1 when the tool should go on.
 int parse(CLI::App& app, int argc, const char* const* argv);
+
+// A check for options: a whole number (or, for floating-point T, a finite one) from lowest to highest.
+// What it says is what every other message says; the range is in the option's own description.
+template <typename T>
+CLI::Validator in_range(T lowest, T highest) {
+    const auto check = [lowest, highest](std::string& text) {
+        T value{};
+        const char* end = text.data() + text.size();
+        const auto [rest, failure] = std::from_chars(text.data(), end, value);
+        // Written so that NaN fails it.
+        if (failure == std::errc() && rest == end && value >= lowest && value <= highest) {
+            return std::string();
+        }
+        return fmt::format("expected {} to {}, got '{}'", lowest, highest, text);
+    };
+    return CLI::Validator(check, "");
+}
 
 // "0.05" or "5%" as 0.05. Throws Error(usage) naming the option unless it is a finite number >= 0.
 double parse_fraction(const std::string& text, const std::string& option);

@@ -51,7 +51,8 @@ PoseStatistics read_statistics_of(const ContainerReader& reader, const BakeIdent
 
 BakeReader::BakeReader(std::filesystem::path directory) : directory_(std::move(directory)) {
     if (!std::filesystem::is_directory(directory_)) {
-        throw_bad_input("{}: expected a .bake directory", directory_.string());
+        throw_bad_input("{}: expected a .bake directory, got {}", directory_.string(),
+                        std::filesystem::exists(directory_) ? "a file" : "nothing of that name");
     }
     if (!std::filesystem::exists(directory_ / "manifest.json")) {
         throw_bad_input("{}: expected a .bake directory, got one without manifest.json",

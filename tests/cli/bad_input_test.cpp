@@ -133,7 +133,9 @@ TEST_F(BadInput, NeitherFileNorBake) {
         path("folder"),
         {path("folder") + ": expected a .bake directory, got one without manifest"});
     expect_refusal(PAIM_COMPRESS, {"encode", path("a.paim"), "-o", path("out.paim")}, 2,
-                   {path("a.paim") + ": expected a .bake directory"});
+                   {path("a.paim") + ": expected a .bake directory, got a file"});
+    expect_refusal(PAIM_COMPRESS, {"encode", path("b.bake"), "-o", path("out.paim")}, 2,
+                   {path("b.bake") + ": expected a .bake directory, got nothing of that name"});
 }
 
 TEST_F(BadInput, DamagedBakes) {

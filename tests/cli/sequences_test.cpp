@@ -1,6 +1,7 @@
 // The whole road with real sequences: many shapes, materials, quads, parts and open sheets.
 #include <algorithm>
 #include <cctype>
+#include <ostream>
 
 #include "tests/cli/tool_test.h"
 
@@ -13,6 +14,10 @@ struct Sequence {
     uint32_t num_poses;
     uint32_t num_vertices;
 };
+
+void PrintTo(const Sequence& sequence, std::ostream* out) {
+    *out << sequence.name;
+}
 
 class RealSequence : public ToolTest, public testing::WithParamInterface<Sequence> {};
 
@@ -64,8 +69,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Sequence{"horse-gallop", 48, 8431}, Sequence{"wolf", 21, 5075},
                     Sequence{"dembones_bone", 400, 754}, Sequence{"knight_2h_spin", 73, 2454},
                     Sequence{"robot_dance", 81, 1820}, Sequence{"blender_flag", 90, 6305}),
-    [](const testing::TestParamInfo<Sequence>& info) {
-        std::string name = info.param.name;
+    [](const testing::TestParamInfo<Sequence>& tested) {
+        std::string name = tested.param.name;
         std::replace_if(
             name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
         return name;

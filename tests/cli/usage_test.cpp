@@ -22,19 +22,20 @@ TEST_F(Usage, Compress) {
     expect_usage_error(PAIM_COMPRESS, {poses}, {"--output is required"});
     expect_usage_error(PAIM_COMPRESS, {poses, "-o", path("x.bake")}, {"--output", ".paim"});
     expect_usage_error(PAIM_COMPRESS, {poses, "-o", path("x.paim"), "--poses", "0-1"},
-                       {"--poses goes with 'bake' only"});
+                       {"--poses", "not expected"});
     expect_usage_error(PAIM_COMPRESS, {"bake", "-o", path("x.bake")}, {"OBJ is required"});
     expect_usage_error(PAIM_COMPRESS, {"bake", poses}, {"--output is required"});
     expect_usage_error(PAIM_COMPRESS, {"encode", "-o", path("x.paim")}, {"BAKE is required"});
 
     const std::vector<std::pair<Arguments, Arguments>> bake_cases{
         {{"--rays", "15"}, {"--rays: expected an even number", "got 15"}},
-        {{"--rays", "0"}, {"--rays", "0"}},
+        {{"--rays", "0"}, {"--rays: expected 2 to 16777216, got '0'"}},
         {{"--rays", "many"}, {"--rays", "many"}},
-        {{"--bands", "0"}, {"--bands", "0"}},
+        {{"--bands", "0"}, {"--bands: expected 1 to 64, got '0'"}},
         {{"--bands", "65"}, {"--bands", "65"}},
         {{"--bands", "-1"}, {"--bands", "-1"}},
         {{"--seed", "-1"}, {"--seed", "-1"}},
+        {{"--seed", "18446744073709551616"}, {"--seed", "18446744073709551616"}},
         {{"--threads", "-1"}, {"--threads", "-1"}},
         {{"--normals", "smooth"}, {"--normals", "smooth"}},
         {{"--albedo", "1,2,3"}, {"--albedo: expected", "'1,2,3'"}},

@@ -32,6 +32,19 @@ TEST(ParseSize, TakesWholePixels) {
     }
 }
 
+TEST(InRange, TakesWholeNumbersOrFiniteOnes) {
+    const CLI::Validator whole = in_range(-2, 5);
+    for (const char* good : {"-2", "0", "5"}) EXPECT_EQ(whole(good), "") << good;
+    for (const char* bad : {"", "-3", "6", "1.5", "x", "5x", " 5", "99999999999"}) {
+        EXPECT_EQ(whole(bad), fmt::format("expected -2 to 5, got '{}'", bad));
+    }
+    const CLI::Validator real = in_range(0.5, 2.0);
+    for (const char* good : {"0.5", "1e0", "2"}) EXPECT_EQ(real(good), "") << good;
+    for (const char* bad : {"", "0.49", "2.1", "nan", "inf", "-nan", "1,5"}) {
+        EXPECT_EQ(real(bad), fmt::format("expected 0.5 to 2, got '{}'", bad));
+    }
+}
+
 TEST(FormatDuration, ReadsWell) {
     EXPECT_EQ(format_duration(1.23), "1.2 s");
     EXPECT_EQ(format_duration(185.0), "3 min 05 s");

@@ -70,6 +70,16 @@ TEST(PrincipalComponents, SingularValuesAgreeWithEigen) {
     }
 }
 
+TEST(PrincipalComponents, CentringTakesOneWhateverTheOffset) {
+    // Far from the origin, the singular value that is zero comes out as rounding of the offset.
+    for (const float offset : {0.0f, 10.0f, 1000.0f, 1e5f}) {
+        MatrixXf matrix = random_matrix(9000, 7);  // the mean of seven rounds
+        matrix.array() += offset;
+        EXPECT_EQ(principal_components(MatrixRows(matrix)).rank(), 6u) << offset;
+    }
+    EXPECT_EQ(principal_components(MatrixRows(random_matrix(50, 1))).rank(), 0u);
+}
+
 TEST(PrincipalComponents, AllComponentsGiveTheDataBackToFloatRounding) {
     const MatrixXf matrix = random_matrix(5000, 20);
     const PrincipalComponents components = principal_components(MatrixRows(matrix));
