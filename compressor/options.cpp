@@ -21,9 +21,10 @@ struct RawOptions {
 };
 
 void add_input_options(CLI::App& app, CompressOptions& options) {
-    app.add_option("OBJ", options.inputs,
-                   "Poses: OBJ files, quoted patterns ('poses/*.obj') or directories, one topology; "
-                   "taken in natural order (x_2 before x_10)");
+    app.add_option(
+        "OBJ", options.inputs,
+        "Poses: OBJ files, quoted patterns ('poses/*.obj') or directories, one topology; "
+        "taken in natural order (x_2 before x_10)");
     app.add_flag("--keep-order", options.keep_order, "Take files in the order given instead");
     app.add_option("--normals", options.normals,
                    "Vertex normals: 'faces' averages the faces round a vertex, 'file' takes the "
@@ -46,11 +47,13 @@ void add_bake_options(CLI::App& app, CompressOptions& options, RawOptions& raw) 
 }
 
 void add_encode_options(CLI::App& app, CompressOptions& options, RawOptions& raw) {
-    app.add_option("--geometry-components", raw.geometry_components,
-                   "Components of the geometry: a number, 'all', or 'auto' (energy error below 1 %)")
+    app.add_option(
+           "--geometry-components", raw.geometry_components,
+           "Components of the geometry: a number, 'all', or 'auto' (energy error below 1 %)")
         ->capture_default_str();
-    app.add_option("--transfer-components", raw.transfer_components,
-                   "Components of the transfer: a number, 'all', or 'auto' (energy error below 1 %)")
+    app.add_option(
+           "--transfer-components", raw.transfer_components,
+           "Components of the transfer: a number, 'all', or 'auto' (energy error below 1 %)")
         ->capture_default_str();
     app.add_option("--precision", raw.precision,
                    "How components are stored: f32 or f16 (half the size, relative rounding "
@@ -121,7 +124,9 @@ std::optional<CompressOptions> parse_options(int argc, const char* const* argv, 
     // The one-go form has the options of both; its output is required only where it is meant.
     add_input_options(app, options);
     add_bake_options(app, options, raw);
-    app.add_option("--bands", options.bake.bands, bands_help)->check(bands_range)->capture_default_str();
+    app.add_option("--bands", options.bake.bands, bands_help)
+        ->check(bands_range)
+        ->capture_default_str();
     add_encode_options(app, options, raw);
     app.add_flag("--discard-bake", options.discard_bake, "Remove the bake once it is encoded");
     add_common_options(app, options, "The .paim file to write");
@@ -141,7 +146,9 @@ std::optional<CompressOptions> parse_options(int argc, const char* const* argv, 
 
     CLI::App* encode = app.add_subcommand("encode", "Encode a .bake directory as a .paim file");
     encode->add_option("BAKE", options.bake_directory, "The .bake directory")->required();
-    encode->add_option("--bands", raw.encode_bands, "Bands to keep; more than the bake has are all of them, the default")
+    encode
+        ->add_option("--bands", raw.encode_bands,
+                     "Bands to keep; more than the bake has are all of them, the default")
         ->check(bands_range);
     add_encode_options(*encode, options, raw);
     add_common_options(*encode, options, "The .paim file to write");
@@ -154,8 +161,10 @@ std::optional<CompressOptions> parse_options(int argc, const char* const* argv, 
         if (options.inputs.empty()) throw_usage("no OBJ files given; see --help");
         if (options.output.empty()) throw_usage("--output is required; see --help");
         if (options.output.extension() == ".bake") {
-            throw_usage("--output: expected the .paim file to write, got '{}'; its bake is kept "
-                        "beside it under that name", options.output.string());
+            throw_usage(
+                "--output: expected the .paim file to write, got '{}'; its bake is kept "
+                "beside it under that name",
+                options.output.string());
         }
     }
     apply(raw, options);

@@ -81,15 +81,17 @@ ordered_json bake(const CompressOptions& options, const std::filesystem::path& d
     json["vertices_without_normal"] = summary.total.zero_normals;
     json["relative_noise"] = noise;
     if (!options.json) {
-        fmt::print("{}: {} vertices, {} triangles, poses {}-{} of {} ({} baked, {} found), {} bands\n",
-                   directory.string(), num_vertices, sequence.topology().triangles.size(), first,
-                   last, sequence.num_poses(), summary.baked, summary.resumed, options.bake.bands);
-        fmt::print("  {} rays a vertex, {:.1f} % blocked; estimated noise {:.2f} % of the transfer\n",
-                   options.bake.rays,
-                   summary.total.rays > 0 ? 100.0 * static_cast<double>(summary.total.blocked) /
-                                                static_cast<double>(summary.total.rays)
-                                          : 0.0,
-                   100.0 * noise);
+        fmt::print(
+            "{}: {} vertices, {} triangles, poses {}-{} of {} ({} baked, {} found), {} bands\n",
+            directory.string(), num_vertices, sequence.topology().triangles.size(), first, last,
+            sequence.num_poses(), summary.baked, summary.resumed, options.bake.bands);
+        fmt::print(
+            "  {} rays a vertex, {:.1f} % blocked; estimated noise {:.2f} % of the transfer\n",
+            options.bake.rays,
+            summary.total.rays > 0 ? 100.0 * static_cast<double>(summary.total.blocked) /
+                                         static_cast<double>(summary.total.rays)
+                                   : 0.0,
+            100.0 * noise);
         if (summary.total.zero_normals > 0) {
             fmt::print("  {} vertices (over all poses) have no normal; their transfer is 0\n",
                        summary.total.zero_normals);
@@ -125,12 +127,14 @@ ordered_json encode_to(const CompressOptions& options, const std::filesystem::pa
     if (!options.json) {
         fmt::print("{}: {:.2f} MB, {} bands\n", options.output.string(),
                    static_cast<double>(summary.size_bytes) / 1e6, summary.bands);
-        fmt::print("  geometry: {} of {} components, energy error {:.3g} %, theoretical error {:.3g} %\n",
-                   summary.geometry_components, summary.geometry_rank,
-                   100.0 * summary.geometry_energy_error, 100.0 * summary.geometry_theory_error);
-        fmt::print("  transfer: {} of {} components, energy error {:.3g} %, theoretical error {:.3g} %\n",
-                   summary.transfer_components, summary.transfer_rank,
-                   100.0 * summary.transfer_energy_error, 100.0 * summary.transfer_theory_error);
+        fmt::print(
+            "  geometry: {} of {} components, energy error {:.3g} %, theoretical error {:.3g} %\n",
+            summary.geometry_components, summary.geometry_rank,
+            100.0 * summary.geometry_energy_error, 100.0 * summary.geometry_theory_error);
+        fmt::print(
+            "  transfer: {} of {} components, energy error {:.3g} %, theoretical error {:.3g} %\n",
+            summary.transfer_components, summary.transfer_rank,
+            100.0 * summary.transfer_energy_error, 100.0 * summary.transfer_theory_error);
     }
     return json;
 }
@@ -149,7 +153,9 @@ void run(const CompressOptions& options) {
     const ThreadLimit limit(options.num_threads);
     ordered_json json;
     switch (options.command) {
-        case CompressOptions::Command::bake: json = bake(options, options.output); break;
+        case CompressOptions::Command::bake:
+            json = bake(options, options.output);
+            break;
         case CompressOptions::Command::encode:
             json = encode_to(options, options.bake_directory);
             break;

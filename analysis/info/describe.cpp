@@ -23,8 +23,9 @@ ordered_json describe_part(const LowRankMatrix& matrix) {
     json["theory_error"] = theory_error(matrix.singular_values, matrix.num_components);
     json["energy_error"] = energy_error(matrix.singular_values, matrix.num_components);
     const size_t shown = std::min<size_t>(matrix.singular_values.size(), 10);
-    json["largest_singular_values"] = std::vector<double>(
-        matrix.singular_values.begin(), matrix.singular_values.begin() + static_cast<ptrdiff_t>(shown));
+    json["largest_singular_values"] =
+        std::vector<double>(matrix.singular_values.begin(),
+                            matrix.singular_values.begin() + static_cast<ptrdiff_t>(shown));
     return json;
 }
 
@@ -103,7 +104,8 @@ void append_lines(const ordered_json& json, int indent, std::string& text) {
             for (const auto& entry : value) text += fmt::format(" {:.5g}", entry.get<double>());
             text += '\n';
         } else {
-            text += fmt::format(" {}\n", value.is_string() ? value.get<std::string>() : value.dump());
+            text +=
+                fmt::format(" {}\n", value.is_string() ? value.get<std::string>() : value.dump());
         }
     }
 }

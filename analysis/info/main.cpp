@@ -9,7 +9,8 @@ int main(int argc, char** argv) {
     return paim::cli::run_main("paim-info", [&] {
         std::filesystem::path path;
         bool json = false;
-        CLI::App app("Checks a .paim file or a .bake directory and says what it holds.", "paim-info");
+        CLI::App app("Checks a .paim file or a .bake directory and says what it holds.",
+                     "paim-info");
         app.set_version_flag("--version", paim::cli::version_text("paim-info"));
         app.footer("Exit codes: 0 ok, 1 usage, 2 missing or damaged, 3 unsupported.");
         app.add_option("FILE", path, "A .paim file or a .bake directory")->required();
@@ -18,10 +19,10 @@ int main(int argc, char** argv) {
         if (exit_code >= 0) return exit_code;
         const auto description = paim::describe(path);
         using nlohmann::ordered_json;
-        fmt::print("{}", json ? description.dump(2, ' ', false,
-                                                 ordered_json::error_handler_t::replace) +
-                                    "\n"
-                              : paim::as_text(description));
+        fmt::print(
+            "{}",
+            json ? description.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n"
+                 : paim::as_text(description));
         return 0;
     });
 }

@@ -15,9 +15,7 @@ void GeometryRows::read(uint64_t first, Eigen::MatrixXf& block) const {
 }
 
 TransferRows::TransferRows(const BakeReader& bake, uint32_t bands)
-    : bake_(bake),
-      layout_(bake.identity().layout),
-      num_vertices_(bake.identity().num_vertices) {
+    : bake_(bake), layout_(bake.identity().layout), num_vertices_(bake.identity().num_vertices) {
     PAIM_CHECK(bands >= 1 && bands <= layout_.bands);
     layout_.bands = bands;
 }
@@ -25,8 +23,7 @@ TransferRows::TransferRows(const BakeReader& bake, uint32_t bands)
 void TransferRows::read(uint64_t first, Eigen::MatrixXf& block) const {
     // Within a channel the kept planes come first, so they are contiguous in the bake.
     const uint64_t kept_per_channel = layout_.num_coefficients() * num_vertices_;
-    const uint64_t baked_per_channel =
-        bake_.identity().layout.num_coefficients() * num_vertices_;
+    const uint64_t baked_per_channel = bake_.identity().layout.num_coefficients() * num_vertices_;
     const auto count = static_cast<uint64_t>(block.rows());
     for (uint32_t p = 0; p < num_columns(); ++p) {
         for (uint64_t done = 0; done < count;) {

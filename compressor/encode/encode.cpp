@@ -66,9 +66,12 @@ std::string provenance(const BakeReader& bake) {
 uint32_t choose_components(const ComponentChoice& choice, std::span<const double> singular_values,
                            uint32_t rank, double automatic_energy_error) {
     switch (choice.kind) {
-        case ComponentChoice::Kind::all: return rank;
-        case ComponentChoice::Kind::number: return std::min(choice.number, rank);
-        case ComponentChoice::Kind::automatic: break;
+        case ComponentChoice::Kind::all:
+            return rank;
+        case ComponentChoice::Kind::number:
+            return std::min(choice.number, rank);
+        case ComponentChoice::Kind::automatic:
+            break;
     }
     uint32_t k = 0;
     while (k < rank && energy_error(singular_values, k) >= automatic_energy_error) ++k;

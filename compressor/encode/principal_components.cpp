@@ -59,7 +59,8 @@ PrincipalComponents principal_components(const RowSource& rows) {
     SmallSvd svd = jacobi_svd(centred_triangular_factor(rows));
     const size_t count = std::min<uint64_t>(rows.num_rows(), rows.num_columns());
     PrincipalComponents components;
-    components.singular_values.assign(svd.singular_values.data(), svd.singular_values.data() + count);
+    components.singular_values.assign(svd.singular_values.data(),
+                                      svd.singular_values.data() + count);
     components.v = std::move(svd.v);
     return components;
 }

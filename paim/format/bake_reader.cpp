@@ -78,6 +78,7 @@ BakeReader::BakeReader(std::filesystem::path directory) : directory_(std::move(d
     }
     // The manifest's count of vertices is believed only once a file holds that many.
     const ContainerReader pose(bake_pose_file(directory_, 0), section::kKindPose);
+    read_statistics_of(pose, identity_, 0);
     require_planes(pose, section::kPositions, 3, identity_.num_vertices);
     require_planes(pose, section::kTransfer, identity_.layout.num_planes(), identity_.num_vertices);
 }

@@ -44,7 +44,8 @@ TEST(SvdDecoder, ObeysLimits) {
     ASSERT_EQ(pose.transfer.size(), 3u * 4 * 4);
     EXPECT_NEAR(pose.positions[7], element(model.geometry, 7, 2, 1), 1e-6f);
     // Plane 1·4+3 of the limited layout is plane 1·9+3 of the model's; vertex 2.
-    EXPECT_NEAR(pose.transfer[(4 + 3) * 4 + 2], element(model.transfer, (9 + 3) * 4 + 2, 2, 2), 1e-6f);
+    EXPECT_NEAR(pose.transfer[(4 + 3) * 4 + 2], element(model.transfer, (9 + 3) * 4 + 2, 2, 2),
+                1e-6f);
 }
 
 TEST(SvdDecoder, InterpolatesWeightsAndClampsTime) {

@@ -36,8 +36,9 @@ MatrixXd rebuild(const MatrixXf& matrix, const PrincipalComponents& components, 
             for (Eigen::Index p = 0; p < matrix.cols(); ++p) {
                 double value = block.mean[r];
                 for (uint32_t k = 0; k < count; ++k) {
-                    value += static_cast<double>(block.components[k][r]) *
-                             weights[k * static_cast<size_t>(matrix.cols()) + static_cast<size_t>(p)];
+                    value +=
+                        static_cast<double>(block.components[k][r]) *
+                        weights[k * static_cast<size_t>(matrix.cols()) + static_cast<size_t>(p)];
                 }
                 result(first, p) = value;
             }
@@ -61,7 +62,8 @@ TEST(PrincipalComponents, SingularValuesAgreeWithEigen) {
     for (const auto& [rows, columns] : {std::pair{6000, 20}, {7, 20}, {20, 20}, {50, 1}, {50, 2}}) {
         const MatrixXf matrix = random_matrix(rows, columns);
         const PrincipalComponents components = principal_components(MatrixRows(matrix));
-        const Eigen::VectorXd reference = Eigen::JacobiSVD<MatrixXd>(centred(matrix)).singularValues();
+        const Eigen::VectorXd reference =
+            Eigen::JacobiSVD<MatrixXd>(centred(matrix)).singularValues();
         ASSERT_EQ(components.singular_values.size(), static_cast<size_t>(reference.size()));
         for (Eigen::Index k = 0; k < reference.size(); ++k) {
             EXPECT_NEAR(components.singular_values[static_cast<size_t>(k)], reference[k],
