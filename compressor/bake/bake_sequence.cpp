@@ -2,14 +2,44 @@
 #include "compressor/bake/bake_sequence.h"
 
 #include <cmath>
+#include <future>
 
 #include "paim/base/check.h"
+#include "paim/base/parallel.h"
 
 namespace paim {
+
+namespace {
+
+// Reads a pose while another one is baked, for reading keeps one core busy and the others idle.
+class ReadAhead {
+  public:
+    explicit ReadAhead(const PoseSource& source) : source_(source) {}
+
+    void start(uint32_t p) {
+        if (max_parallelism() < 2) return;
+        pose_number_ = p;
+        pose_ = std::async(std::launch::async, [this, p] { return source_.load_pose(p); });
+    }
+
+    // Pose p, whether it was started or not. Errors: those of the source.
+    Pose take(uint32_t p) {
+        if (pose_.valid() && pose_number_ == p) return pose_.get();
+        return source_.load_pose(p);
+    }
+
+  private:
+    const PoseSource& source_;
+    uint32_t pose_number_ = 0;
+    std::future<Pose> pose_;
+};
+
+}  // namespace
 
 BakeIdentity bake_identity(const PoseSource& source, const BakeOptions& options,
                            const std::string& normals) {
     BakeIdentity identity;
+    identity.baker = kBakerVersion;
     identity.layout = {TransferKind::diffuse, options.bands, 1};
     identity.rays = options.rays;
     identity.seed = options.seed;
@@ -34,16 +64,19 @@ BakeSummary bake_sequence(const PoseSource& source, const BakeOptions& options,
     const BakeIdentity identity = bake_identity(source, options, normals);
     const BakeWriter writer(directory, identity, source.topology(), source.albedo());
     const TransferBaker baker(options);
+    ReadAhead ahead(source);
     BakeSummary summary;
     double transfer_energy = 0.0;
     double noise_energy = 0.0;
     for (uint32_t p = first; p <= last; ++p) {
         PoseStatistics statistics;
         if (writer.has_pose(p)) {
-            statistics = read_bake_statistics(directory, identity, p);
+            statistics = writer.read_statistics(p);
             ++summary.resumed;
         } else {
-            const BakedPose baked = baker.bake(source.topology(), source.load_pose(p), p);
+            const Pose pose = ahead.take(p);
+            if (p < last && !writer.has_pose(p + 1)) ahead.start(p + 1);
+            const BakedPose baked = baker.bake(source.topology(), pose, p);
             writer.write_pose(p, baked);
             statistics = baked.statistics;
             ++summary.baked;

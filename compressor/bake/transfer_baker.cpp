@@ -25,14 +25,16 @@ constexpr size_t kVerticesPerPiece = 64;
 // Lane sums are single precision; they are emptied into double before rounding matters.
 constexpr uint32_t kRaysPerFlush = 32 * kBatch;
 
-}  // namespace
-
+// â_l / π for each coefficient, [bands²]: the transfer of an unoccluded vertex is this times y_i(n).
 std::vector<double> cosine_lobe_by_coefficient(uint32_t bands) {
     std::vector<double> lobe(size_t{bands} * bands);
-    for (size_t i = 0; i < lobe.size(); ++i)
+    for (size_t i = 0; i < lobe.size(); ++i) {
         lobe[i] = sh::cosine_lobe(sh::band_of(static_cast<int>(i)));
+    }
     return lobe;
 }
+
+}  // namespace
 
 // One half of a vertex's rays.
 struct Half {

@@ -13,6 +13,9 @@
 
 namespace paim {
 
+// Raised whenever the same options give other bytes, so that bakes of different builds do not mix.
+constexpr uint32_t kBakerVersion = 1;
+
 struct BakeOptions {
     uint32_t bands = 5;   // 1 … sh::kMaxBands
     uint32_t rays = 512;  // per vertex, even, 2 … 2^24
@@ -48,8 +51,5 @@ class TransferBaker {
     CosineDirections directions_;
     sh::BatchBasis basis_;
 };
-
-// SH_lm weights of an unoccluded vertex: â_l / π for each coefficient i. returns [bands²]
-std::vector<double> cosine_lobe_by_coefficient(uint32_t bands);
 
 }  // namespace paim

@@ -24,21 +24,20 @@ EncodedRows encode_block(const RowSource& rows, uint64_t first, uint64_t count,
                          const MatrixXd& projection) {
     Eigen::MatrixXf block(static_cast<Index>(count), static_cast<Index>(rows.num_columns()));
     rows.read(first, block);
-    MatrixXd centred;
-    Eigen::VectorXd mean;
-    centre_rows(block, centred, mean);
-    const MatrixXd scores = centred * projection;
     EncodedRows encoded;
     encoded.mean.resize(count);
-    for (uint64_t r = 0; r < count; ++r) {
-        encoded.mean[r] = static_cast<float>(mean[static_cast<Index>(r)]);
-    }
     encoded.components.resize(static_cast<size_t>(projection.cols()));
-    for (Index k = 0; k < projection.cols(); ++k) {
-        auto& component = encoded.components[static_cast<size_t>(k)];
-        component.resize(count);
-        for (uint64_t r = 0; r < count; ++r) {
-            component[r] = static_cast<float>(scores(static_cast<Index>(r), k));
+    for (auto& component : encoded.components) component.resize(count);
+    MatrixXd centred, scores;
+    Eigen::VectorXd mean;
+    for (Index row = 0; row < block.rows(); row += kRowsAtOnce) {
+        const Index size = std::min(kRowsAtOnce, block.rows() - row);
+        centre_rows(block.middleRows(row, size), centred, mean);
+        scores.noalias() = centred * projection;
+        Eigen::Map<Eigen::VectorXf>(encoded.mean.data() + row, size) = mean.cast<float>();
+        for (Index k = 0; k < projection.cols(); ++k) {
+            float* component = encoded.components[static_cast<size_t>(k)].data();
+            Eigen::Map<Eigen::VectorXf>(component + row, size) = scores.col(k).cast<float>();
         }
     }
     return encoded;

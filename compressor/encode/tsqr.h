@@ -15,10 +15,14 @@ namespace paim {
 // same on any number of threads.
 Eigen::MatrixXd centred_triangular_factor(const RowSource& rows);
 
-// Rows that are read together for n columns.
+// Rows that are read together for n columns: many, as each column may be a file to open.
 uint64_t rows_per_block(uint32_t num_columns);
 
+// Rows that are worked on together: few, so that their doubles stay in the cache.
+constexpr Eigen::Index kRowsAtOnce = 256;
+
 // Subtracts from each row of the block its mean over the columns; mean [rows].
-void centre_rows(const Eigen::MatrixXf& block, Eigen::MatrixXd& centred, Eigen::VectorXd& mean);
+void centre_rows(const Eigen::Ref<const Eigen::MatrixXf>& block, Eigen::MatrixXd& centred,
+                 Eigen::VectorXd& mean);
 
 }  // namespace paim

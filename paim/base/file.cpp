@@ -10,7 +10,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
-#include <regex>
+#include <string_view>
 #include <utility>
 
 #include "paim/base/error.h"
@@ -61,8 +61,19 @@ std::vector<char> read_file(const std::filesystem::path& path, uint64_t max_size
 }
 
 bool is_temporary_name(const std::string& name) {
-    static const std::regex pattern(R"(.+\.[0-9]+-[0-9]+\.tmp)");
-    return std::regex_match(name, pattern);
+    // NAME.PID-NUMBER.tmp, read from its end.
+    std::string_view rest = name;
+    const auto take_digits = [&] {
+        const size_t before = rest.size();
+        while (!rest.empty() && rest.back() >= '0' && rest.back() <= '9') rest.remove_suffix(1);
+        return rest.size() < before;
+    };
+    const auto take = [&](std::string_view text) {
+        if (!rest.ends_with(text)) return false;
+        rest.remove_suffix(text.size());
+        return true;
+    };
+    return take(".tmp") && take_digits() && take("-") && take_digits() && take(".") && !rest.empty();
 }
 
 AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
@@ -77,8 +88,8 @@ AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
         // The lock says that someone is still writing. Where remove_abandoned_files() came between
         // the two calls, the file has lost its name and another is made.
         struct stat info {};
-        ::flock(descriptor_, LOCK_EX | LOCK_NB);
-        if (::fstat(descriptor_, &info) == 0 && info.st_nlink == 0) {
+        const bool taken = ::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+        if (taken || (::fstat(descriptor_, &info) == 0 && info.st_nlink == 0)) {
             ::close(std::exchange(descriptor_, -1));
         }
     }

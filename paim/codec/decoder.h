@@ -9,7 +9,7 @@
 
 namespace paim {
 
-// What of a model to use; larger numbers than it has mean all.
+// What of a model to use; larger numbers than it has mean all, and at least one band is kept.
 struct DecodeLimits {
     uint32_t geometry_components = std::numeric_limits<uint32_t>::max();
     uint32_t transfer_components = std::numeric_limits<uint32_t>::max();

@@ -53,7 +53,7 @@ void SvdDecoder::decode(double time, const DecodeLimits& limits, DecodedPose& ou
             std::min(limits.geometry_components, model_.geometry.num_components), out.positions);
 
     out.layout = model_.layout;
-    out.layout.bands = std::min(limits.bands, model_.layout.bands);
+    out.layout.bands = std::clamp(limits.bands, 1u, model_.layout.bands);
     std::vector<uint32_t> planes;
     for (uint32_t channel = 0; channel < out.layout.channels; ++channel) {
         for (uint32_t i = 0; i < out.layout.num_coefficients(); ++i) {

@@ -16,6 +16,7 @@ namespace paim {
 // Everything that decides the bytes of a bake. Two bakes with the same identity may share a
 // directory.
 struct BakeIdentity {
+    uint32_t baker = 0;  // version of the baker, raised whenever the bytes it makes change
     TransferLayout layout;
     uint32_t rays = 0;  // per vertex
     uint64_t seed = 0;
@@ -54,6 +55,11 @@ struct BakedPose {
     PoseStatistics statistics;
 };
 
+// What the bake of pose p found out about itself. Errors (bad input) name the file: damaged, or of
+// another pose or bake than the one with this checksum (bake_manifest.h).
+PoseStatistics read_bake_statistics(const std::filesystem::path& directory,
+                                    uint64_t identity_checksum, uint32_t p);
+
 // Writes a bake, possibly one that was begun before.
 class BakeWriter {
   public:
@@ -65,17 +71,19 @@ class BakeWriter {
     // Whether pose p is there, whole and of this identity.
     bool has_pose(uint32_t p) const;
 
+    // What the bake of a pose that is there found out about itself.
+    PoseStatistics read_statistics(uint32_t p) const {
+        return read_bake_statistics(directory_, identity_checksum_, p);
+    }
+
     // All or nothing; may be called from several threads.
     void write_pose(uint32_t p, const BakedPose& pose) const;
 
   private:
     std::filesystem::path directory_;
     BakeIdentity identity_;
+    uint64_t identity_checksum_;
 };
-
-// What the bake of pose p found out about itself. Errors (bad input) name the file.
-PoseStatistics read_bake_statistics(const std::filesystem::path& directory,
-                                    const BakeIdentity& identity, uint32_t p);
 
 // Reads a complete bake.
 class BakeReader {
@@ -92,7 +100,7 @@ class BakeReader {
     // Reads every byte of pose p and checks it. May be called from several threads.
     BakedPose read_pose(uint32_t p) const;
     PoseStatistics read_statistics(uint32_t p) const {
-        return read_bake_statistics(directory_, identity_, p);
+        return read_bake_statistics(directory_, identity_checksum_, p);
     }
 
     // Checks the checksums of all poses, once, before rows are streamed.
@@ -106,6 +114,7 @@ class BakeReader {
   private:
     std::filesystem::path directory_;
     BakeIdentity identity_;
+    uint64_t identity_checksum_;
     Topology topology_;
     Albedo albedo_;
 };

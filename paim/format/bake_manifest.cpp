@@ -46,6 +46,7 @@ std::string manifest_text(const BakeIdentity& identity) {
     ordered_json json;
     json["format"] = "paim-bake";
     json["version"] = kManifestVersion;
+    json["baker"] = identity.baker;
     json["transfer_kind"] = "diffuse";
     json["bands"] = identity.layout.bands;
     json["channels"] = identity.layout.channels;
@@ -78,6 +79,8 @@ BakeIdentity read_manifest(const std::filesystem::path& path) {
     BakeIdentity identity;
     identity.layout.bands = metadata.integer("bands", 1, sh::kMaxBands);
     identity.layout.channels = metadata.integer("channels", 1, 3);
+    if (identity.layout.channels == 2) throw_unsupported("{}: 2 transfer channels", file);
+    identity.baker = metadata.integer("baker", 0, kMaxCount);
     identity.rays = metadata.integer("rays", 1, kMaxCount);
     identity.seed = parse_hex(metadata.text("seed"), file, "seed");
     identity.normals = metadata.text("normals");
@@ -91,9 +94,8 @@ BakeIdentity read_manifest(const std::filesystem::path& path) {
     if (poses->size() > kMaxPoses) {
         throw_unsupported("{}: {} poses, expected at most {}", file, poses->size(), kMaxPoses);
     }
-    for (const ordered_json& entry : *poses) {
-        const Metadata pose(entry.dump(-1, ' ', false, ordered_json::error_handler_t::replace),
-                            file);
+    for (const nlohmann::json& entry : *poses) {
+        const Metadata pose(entry, file);
         identity.poses.push_back({pose.text("name"), parse_hex(pose.text("xxh3"), file, "xxh3")});
     }
     return identity;
@@ -104,7 +106,8 @@ std::string first_difference(const BakeIdentity& there, const BakeIdentity& want
         return a == b ? std::string() : fmt::format("{}: {} there, {} asked for", what, a, b);
     };
     for (const std::string& difference :
-         {differ("bands", there.layout.bands, wanted.layout.bands),
+         {differ("baker", there.baker, wanted.baker),
+          differ("bands", there.layout.bands, wanted.layout.bands),
           differ("channels", there.layout.channels, wanted.layout.channels),
           differ("rays", there.rays, wanted.rays), differ("seed", there.seed, wanted.seed),
           differ("normals", there.normals, wanted.normals),

@@ -25,11 +25,11 @@ const Section& require_planes(const ContainerReader& reader, Tag tag, uint32_t n
     return section;
 }
 
-PoseStatistics read_statistics_of(const ContainerReader& reader, const BakeIdentity& identity,
+PoseStatistics read_statistics_of(const ContainerReader& reader, uint64_t identity_checksum,
                                   uint32_t p) {
     const Metadata metadata(reader.read_text(reader.require(section::kMetadata, ScalarType::u8)),
                             reader.path());
-    const std::string bake = fmt::format("{:016x}", identity_checksum(identity));
+    const std::string bake = fmt::format("{:016x}", identity_checksum);
     if (metadata.text("bake") != bake) {
         throw_bad_input("{}: belongs to bake {}, expected {}", reader.path(), metadata.text("bake"),
                         bake);
@@ -50,6 +50,8 @@ PoseStatistics read_statistics_of(const ContainerReader& reader, const BakeIdent
 }  // namespace
 
 BakeReader::BakeReader(std::filesystem::path directory) : directory_(std::move(directory)) {
+    // "x.bake/" is x.bake, also where its name is asked for.
+    if (!directory_.has_filename()) directory_ = directory_.parent_path();
     if (!std::filesystem::is_directory(directory_)) {
         throw_bad_input("{}: expected a .bake directory, got {}", directory_.string(),
                         std::filesystem::exists(directory_) ? "a file" : "nothing of that name");
@@ -59,6 +61,7 @@ BakeReader::BakeReader(std::filesystem::path directory) : directory_(std::move(d
                         directory_.string());
     }
     identity_ = read_manifest(directory_ / "manifest.json");
+    identity_checksum_ = identity_checksum(identity_);
     const ContainerReader mesh(directory_ / "mesh.bin", section::kKindMesh);
     topology_ = read_triangles(mesh, identity_.num_vertices);
     albedo_ = read_albedo(mesh, identity_.num_vertices);
@@ -78,7 +81,7 @@ BakeReader::BakeReader(std::filesystem::path directory) : directory_(std::move(d
     }
     // The manifest's count of vertices is believed only once a file holds that many.
     const ContainerReader pose(bake_pose_file(directory_, 0), section::kKindPose);
-    read_statistics_of(pose, identity_, 0);
+    read_statistics_of(pose, identity_checksum_, 0);
     require_planes(pose, section::kPositions, 3, identity_.num_vertices);
     require_planes(pose, section::kTransfer, identity_.layout.num_planes(), identity_.num_vertices);
 }
@@ -92,7 +95,7 @@ BakedPose BakeReader::read_pose(uint32_t p) const {
         return values;
     };
     BakedPose pose;
-    pose.statistics = read_statistics_of(reader, identity_, p);
+    pose.statistics = read_statistics_of(reader, identity_checksum_, p);
     pose.positions = read(section::kPositions, 3);
     pose.normals = read(section::kNormals, 3);
     pose.transfer = read(section::kTransfer, identity_.layout.num_planes());
@@ -100,9 +103,9 @@ BakedPose BakeReader::read_pose(uint32_t p) const {
 }
 
 PoseStatistics read_bake_statistics(const std::filesystem::path& directory,
-                                    const BakeIdentity& identity, uint32_t p) {
+                                    uint64_t identity_checksum, uint32_t p) {
     const ContainerReader reader(bake_pose_file(directory, p), section::kKindPose);
-    return read_statistics_of(reader, identity, p);
+    return read_statistics_of(reader, identity_checksum, p);
 }
 
 void BakeReader::verify_all() const {

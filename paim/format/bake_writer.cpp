@@ -16,11 +16,11 @@ namespace paim {
 
 namespace {
 
-std::string pose_metadata(const BakeIdentity& identity, uint32_t p,
+std::string pose_metadata(uint64_t bake, uint32_t p,
                           const PoseStatistics& statistics) {
     nlohmann::ordered_json json;
     json["pose"] = p;
-    json["bake"] = fmt::format("{:016x}", identity_checksum(identity));
+    json["bake"] = fmt::format("{:016x}", bake);
     json["rays"] = statistics.rays;
     json["blocked"] = statistics.blocked;
     json["zero_normals"] = statistics.zero_normals;
@@ -64,6 +64,7 @@ BakeWriter::BakeWriter(std::filesystem::path directory, const BakeIdentity& iden
                        const Topology& topology, const Albedo& albedo)
     : directory_(std::move(directory)), identity_(identity) {
     for (auto& source : identity_.poses) source.name = as_manifest_text(source.name);
+    identity_checksum_ = identity_checksum(identity_);
     const std::filesystem::path manifest = directory_ / "manifest.json";
     if (std::filesystem::exists(manifest)) {
         const std::string difference = first_difference(read_manifest(manifest), identity_);
@@ -85,7 +86,7 @@ bool BakeWriter::has_pose(uint32_t p) const {
     const std::filesystem::path path = bake_pose_file(directory_, p);
     if (!std::filesystem::exists(path)) return false;
     try {
-        read_bake_statistics(directory_, identity_, p);
+        read_statistics(p);
         ContainerReader(path, section::kKindPose).verify_all();
         return true;
     } catch (const Error&) {
@@ -97,7 +98,7 @@ void BakeWriter::write_pose(uint32_t p, const BakedPose& pose) const {
     const uint32_t num_vertices = identity_.num_vertices;
     const uint32_t num_planes = identity_.layout.num_planes();
     PAIM_CHECK_EQ(pose.transfer.size(), size_t{num_planes} * num_vertices);
-    const std::string metadata = pose_metadata(identity_, p, pose.statistics);
+    const std::string metadata = pose_metadata(identity_checksum_, p, pose.statistics);
     const auto planes = [&](Tag tag, uint32_t count) {
         return SectionSpec{tag, ScalarType::f32, 0, {1, count, num_vertices}};
     };

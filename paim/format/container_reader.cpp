@@ -104,7 +104,7 @@ Section check_entry(const std::string& path, const TableEntry& entry, uint64_t f
 }  // namespace
 
 ContainerReader::ContainerReader(const std::filesystem::path& path, Tag kind)
-    : path_(path.string()), descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+    : path_(path.string()), descriptor_(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {
     if (descriptor_ < 0) throw_bad_input("{}: cannot open: {}", path_, std::strerror(errno));
     try {
         struct stat info {};

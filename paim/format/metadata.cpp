@@ -7,15 +7,16 @@
 
 namespace paim {
 
-using nlohmann::ordered_json;
+using nlohmann::json;
 
 namespace {
 
 constexpr size_t kMaxSizeBytes = 64 << 20;
+constexpr int kMaxDepth = 16;
 
 // The value as text, short enough for a message.
-std::string shown(const ordered_json& value) {
-    return value.dump(-1, ' ', false, ordered_json::error_handler_t::replace).substr(0, 60);
+std::string shown(const json& value) {
+    return value.dump(-1, ' ', false, json::error_handler_t::replace).substr(0, 60);
 }
 
 }  // namespace
@@ -25,18 +26,31 @@ Metadata::Metadata(std::string_view text, std::string file) : file_(std::move(fi
         throw_bad_input("{}: {} bytes of metadata, expected at most {}", file_, text.size(),
                         kMaxSizeBytes);
     }
-    json_ = ordered_json::parse(text, nullptr, false);
+    // Parsing is iterative, but writing and copying what was parsed are not.
+    bool too_deep = false;
+    const auto check_depth = [&](int depth, json::parse_event_t, json&) {
+        too_deep = too_deep || depth > kMaxDepth;
+        return !too_deep;
+    };
+    json_ = json::parse(text, check_depth, false);
+    if (too_deep) {
+        throw_bad_input("{}: the metadata is nested more than {} deep", file_, kMaxDepth);
+    }
     if (!json_.is_object()) throw_bad_input("{}: the metadata is not a JSON object", file_);
 }
 
-const ordered_json& Metadata::member(const char* key) const {
+Metadata::Metadata(json part, std::string file) : json_(std::move(part)), file_(std::move(file)) {
+    if (!json_.is_object()) throw_bad_input("{}: the metadata is not a JSON object", file_);
+}
+
+const json& Metadata::member(const char* key) const {
     const auto found = json_.find(key);
     if (found == json_.end()) throw_bad_input("{}: metadata: '{}' is missing", file_, key);
     return *found;
 }
 
 uint32_t Metadata::integer(const char* key, uint32_t lowest, uint32_t highest) const {
-    const ordered_json& value = member(key);
+    const json& value = member(key);
     if (!value.is_number_unsigned() || value.get<uint64_t>() < lowest ||
         value.get<uint64_t>() > highest) {
         throw_bad_input("{}: metadata: '{}': expected {} to {}, got {}", file_, key, lowest,
@@ -46,7 +60,7 @@ uint32_t Metadata::integer(const char* key, uint32_t lowest, uint32_t highest) c
 }
 
 double Metadata::number(const char* key, double lowest, double highest) const {
-    const ordered_json& value = member(key);
+    const json& value = member(key);
     if (!value.is_number() || !(value.get<double>() >= lowest && value.get<double>() <= highest)) {
         throw_bad_input("{}: metadata: '{}': expected {} to {}, got {}", file_, key, lowest,
                         highest, shown(value));
@@ -55,7 +69,7 @@ double Metadata::number(const char* key, double lowest, double highest) const {
 }
 
 std::string Metadata::text(const char* key) const {
-    const ordered_json& value = member(key);
+    const json& value = member(key);
     if (!value.is_string()) {
         throw_bad_input("{}: metadata: '{}': expected text, got {}", file_, key, shown(value));
     }

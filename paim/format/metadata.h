@@ -12,19 +12,22 @@ namespace paim {
 // the file, the member, what was expected and what was got.
 class Metadata {
   public:
-    // Parses the text; at most 64 MiB.
+    // Parses the text: an object of at most 64 MiB, nested at most 16 deep.
     Metadata(std::string_view text, std::string file);
+
+    // A part of what another one has parsed.
+    Metadata(nlohmann::json part, std::string file);
 
     uint32_t integer(const char* key, uint32_t lowest, uint32_t highest) const;
     double number(const char* key, double lowest, double highest) const;
     std::string text(const char* key) const;
     std::string object_text(const char* key) const;  // "{}" if absent
-    const nlohmann::ordered_json& json() const { return json_; }
+    const nlohmann::json& json() const { return json_; }
 
   private:
-    const nlohmann::ordered_json& member(const char* key) const;
+    const nlohmann::json& member(const char* key) const;
 
-    nlohmann::ordered_json json_;
+    nlohmann::json json_;
     std::string file_;
 };
 

@@ -1,6 +1,7 @@
 // Reads .paim files.
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -107,7 +108,9 @@ Model read_paim(const std::filesystem::path& path) {
         matrix.num_vertices = num_vertices;
         matrix.num_planes = num_planes;
         matrix.num_poses = num_poses;
-        matrix.num_components = metadata.integer(key, 0, container::kMaxSections);
+        // No matrix has more components than columns or rows.
+        const uint64_t most = std::min<uint64_t>(num_poses, matrix.num_rows());
+        matrix.num_components = metadata.integer(key, 0, static_cast<uint32_t>(most));
         return matrix;
     };
     model.geometry = start("geometry_components", 3);
