@@ -157,7 +157,13 @@ std::optional<CompressOptions> parse_options(int argc, const char* const* argv, 
     if (exit_code >= 0) return std::nullopt;
     if (bake->parsed()) options.command = CompressOptions::Command::bake;
     if (encode->parsed()) options.command = CompressOptions::Command::encode;
-    if (options.command == CompressOptions::Command::bake_and_encode) {
+    if (options.command != CompressOptions::Command::bake_and_encode) {
+        for (const CLI::Option* option : app.get_options()) {
+            if (option->count() == 0) continue;
+            throw_usage("{}: goes after '{}', not before it", option->get_name(),
+                        bake->parsed() ? "bake" : "encode");
+        }
+    } else {
         if (options.inputs.empty()) throw_usage("no OBJ files given; see --help");
         if (options.output.empty()) throw_usage("--output is required; see --help");
         if (options.output.extension() == ".bake") {

@@ -101,7 +101,10 @@ void append_lines(const ordered_json& json, int indent, std::string& text) {
         } else if (value.is_number_float()) {
             text += fmt::format(" {:.6g}\n", value.get<double>());
         } else if (value.is_array()) {
-            for (const auto& entry : value) text += fmt::format(" {:.5g}", entry.get<double>());
+            for (const auto& entry : value) {
+                text += ' ';
+                text += entry.is_number() ? fmt::format("{:.5g}", entry.get<double>()) : entry.dump();
+            }
             text += '\n';
         } else {
             text +=

@@ -10,6 +10,7 @@
 
 #include "compressor/encode/bake_rows.h"
 #include "compressor/encode/principal_components.h"
+#include "paim/base/file.h"
 #include "paim/format/paim_file.h"
 #include "paim/metrics/spectrum.h"
 
@@ -81,6 +82,8 @@ uint32_t choose_components(const ComponentChoice& choice, std::span<const double
 EncodeSummary encode(const BakeReader& bake, const EncodeOptions& options,
                      const std::filesystem::path& output) {
     bake.verify_all();
+    remove_abandoned_files(std::filesystem::absolute(output).parent_path(),
+                           output.filename().string() + ".");
     Model model;
     model.topology = bake.topology();
     model.albedo = bake.albedo();

@@ -17,68 +17,72 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-// Turns columns p and q of both matrices so that those of `work` become orthogonal. Returns whether
-// they were not.
-bool orthogonalise(MatrixXd& work, MatrixXd& v, Index p, Index q) {
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+
+// Turns columns p and q so that they become orthogonal. Returns whether they were not. Pairs shorter
+// than `negligible` are rounding, which would never come to rest.
+bool orthogonalise(MatrixXd& work, Index p, Index q, double negligible) {
     const double alpha = work.col(p).squaredNorm();
     const double beta = work.col(q).squaredNorm();
     const double gamma = work.col(p).dot(work.col(q));
-    const double tolerance =
-        std::numeric_limits<double>::epsilon() * std::sqrt(static_cast<double>(work.rows()));
-    if (std::abs(gamma) <= tolerance * std::sqrt(alpha) * std::sqrt(beta)) return false;
+    const double lengths = std::sqrt(alpha) * std::sqrt(beta);
+    const double tolerance = kEpsilon * std::sqrt(static_cast<double>(work.rows()));
+    if (std::abs(gamma) <= tolerance * lengths || lengths <= negligible * negligible) return false;
     const double zeta = (beta - alpha) / (2.0 * gamma);
     const double t = std::copysign(1.0, zeta) / (std::abs(zeta) + std::hypot(1.0, zeta));
     const double c = 1.0 / std::hypot(1.0, t);
     const double s = c * t;
-    for (MatrixXd* m : {&work, &v}) {
-        for (Index row = 0; row < m->rows(); ++row) {
-            const double a = (*m)(row, p);
-            const double b = (*m)(row, q);
-            (*m)(row, p) = c * a - s * b;
-            (*m)(row, q) = s * a + c * b;
-        }
+    double* a = work.col(p).data();
+    double* b = work.col(q).data();
+    for (Index row = 0; row < work.rows(); ++row) {
+        const double turned = c * a[row] - s * b[row];
+        b[row] = s * a[row] + c * b[row];
+        a[row] = turned;
     }
     return true;
+}
+
+// Swaps the longest of the columns from p on to place p (de Rijk's pivoting).
+void bring_longest_to(MatrixXd& work, Index p) {
+    Index longest = 0;
+    work.rightCols(work.cols() - p).colwise().squaredNorm().maxCoeff(&longest);
+    if (longest != 0) work.col(p).swap(work.col(p + longest));
 }
 
 }  // namespace
 
 SmallSvd jacobi_svd(const MatrixXd& matrix) {
-    PAIM_CHECK_EQ(matrix.rows(), matrix.cols());
+    PAIM_CHECK_LE(matrix.rows(), matrix.cols());
     PAIM_CHECK(matrix.allFinite());
-    constexpr int kMaxSweeps = 60;  // convergence is quadratic; ten is usual
-    const Index n = matrix.cols();
-    // Scaled so that squares of the entries neither overflow nor vanish.
-    const double scale = n > 0 ? matrix.cwiseAbs().maxCoeff() : 0.0;
-    MatrixXd work = scale > 0.0 ? MatrixXd(matrix / scale) : matrix;
-    MatrixXd v = MatrixXd::Identity(n, n);
-    bool turned = true;
+    // Convergence is quadratic, ten sweeps are usual; what sixty leave is rounding.
+    constexpr int kMaxSweeps = 60;
+    const Index m = matrix.rows();
+    // The transpose is V S Uᵀ: once its columns are orthogonal, they are those of V S, and no rotation
+    // needs to be remembered. Scaled so that squares of the entries neither overflow nor vanish.
+    const double scale = m > 0 ? matrix.cwiseAbs().maxCoeff() : 0.0;
+    MatrixXd work = scale > 0.0 ? MatrixXd(matrix.transpose() / scale) : matrix.transpose();
+    bool turned = scale > 0.0;
     for (int sweep = 0; turned && sweep < kMaxSweeps; ++sweep) {
         turned = false;
-        for (Index p = 0; p + 1 < n; ++p) {
-            // De Rijk's pivoting: the largest remaining column first.
-            Index largest = p;
-            work.rightCols(n - p).colwise().squaredNorm().maxCoeff(&largest);
-            largest += p;
-            if (largest != p && largest < n) {
-                work.col(p).swap(work.col(largest));
-                v.col(p).swap(v.col(largest));
-            }
-            for (Index q = p + 1; q < n; ++q) turned |= orthogonalise(work, v, p, q);
+        for (Index p = 0; p + 1 < m; ++p) {
+            bring_longest_to(work, p);
+            const double negligible = kEpsilon * work.col(0).norm();
+            for (Index q = p + 1; q < m; ++q) turned |= orthogonalise(work, p, q, negligible);
         }
     }
-    const Eigen::VectorXd norms = work.colwise().norm().transpose();
-    std::vector<Index> order(static_cast<size_t>(n));
+    const Eigen::VectorXd lengths = work.colwise().norm().transpose();
+    std::vector<Index> order(static_cast<size_t>(m));
     std::iota(order.begin(), order.end(), Index{0});
     std::stable_sort(order.begin(), order.end(),
-                     [&](Index a, Index b) { return norms[a] > norms[b]; });
-    SmallSvd svd{Eigen::VectorXd(n), MatrixXd(n, n)};
-    for (Index k = 0; k < n; ++k) {
+                     [&](Index a, Index b) { return lengths[a] > lengths[b]; });
+    SmallSvd svd{Eigen::VectorXd(m), MatrixXd::Zero(matrix.cols(), m)};
+    for (Index k = 0; k < m; ++k) {
         const Index from = order[static_cast<size_t>(k)];
-        svd.singular_values[k] = scale * norms[from];
+        svd.singular_values[k] = scale * lengths[from];
+        if (lengths[from] == 0.0) continue;
         Index largest = 0;
-        v.col(from).cwiseAbs().maxCoeff(&largest);
-        svd.v.col(k) = v(largest, from) < 0.0 ? Eigen::VectorXd(-v.col(from)) : v.col(from);
+        work.col(from).cwiseAbs().maxCoeff(&largest);
+        svd.v.col(k) = work.col(from) / std::copysign(lengths[from], work(largest, from));
     }
     return svd;
 }

@@ -47,19 +47,20 @@ EncodedRows encode_block(const RowSource& rows, uint64_t first, uint64_t count,
 
 uint32_t PrincipalComponents::rank() const {
     if (singular_values.empty()) return 0;
-    const double floor =
-        singular_values[0] * static_cast<double>(v.cols()) * std::numeric_limits<double>::epsilon();
+    const auto num_poses = v.rows();
+    const double floor = singular_values[0] * static_cast<double>(num_poses) *
+                         std::numeric_limits<double>::epsilon();
     const auto above = std::count_if(singular_values.begin(), singular_values.end(),
                                      [&](double s) { return s > floor; });
-    return static_cast<uint32_t>(std::min<Index>(above, v.cols() - 1));
+    return static_cast<uint32_t>(std::min<Index>(above, num_poses - 1));
 }
 
 PrincipalComponents principal_components(const RowSource& rows) {
-    SmallSvd svd = jacobi_svd(centred_triangular_factor(rows));
-    const size_t count = std::min<uint64_t>(rows.num_rows(), rows.num_columns());
+    // With fewer rows than columns the factor has that many rows; the others are zero.
+    const auto count = static_cast<Index>(std::min<uint64_t>(rows.num_rows(), rows.num_columns()));
+    SmallSvd svd = jacobi_svd(centred_triangular_factor(rows).topRows(count));
     PrincipalComponents components;
-    components.singular_values.assign(svd.singular_values.data(),
-                                      svd.singular_values.data() + count);
+    components.singular_values.assign(svd.singular_values.begin(), svd.singular_values.end());
     components.v = std::move(svd.v);
     return components;
 }

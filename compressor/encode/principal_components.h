@@ -14,7 +14,7 @@ namespace paim {
 // Singular values and right singular vectors of the centred matrix.
 struct PrincipalComponents {
     std::vector<double> singular_values;  // [min(rows, P)], descending
-    Eigen::MatrixXd v;                    // [P][P]
+    Eigen::MatrixXd v;                    // [P][min(rows, P)]
 
     // How many singular values are more than rounding: above P · 2⁻⁵² of the largest, and at most
     // P − 1, since centring takes one.

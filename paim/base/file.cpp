@@ -134,12 +134,13 @@ void AtomicFile::commit() {
     ::close(std::exchange(descriptor_, -1));
 }
 
-void remove_abandoned_files(const std::filesystem::path& directory) {
+void remove_abandoned_files(const std::filesystem::path& directory, std::string_view prefix) {
     std::error_code failure;
     for (std::filesystem::directory_iterator entry(directory, failure), end;
          !failure && entry != end; entry.increment(failure)) {
         const std::filesystem::path& path = entry->path();
-        if (!is_temporary_name(path.filename().string())) continue;
+        const std::string name = path.filename().string();
+        if (!name.starts_with(prefix) || !is_temporary_name(name)) continue;
         const Descriptor file{::open(path.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC)};
         if (file.fd >= 0 && ::flock(file.fd, LOCK_EX | LOCK_NB) == 0) ::unlink(path.c_str());
     }

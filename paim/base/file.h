@@ -42,7 +42,7 @@ bool is_temporary_name(const std::string& name);
 
 // Removes what AtomicFile left in this directory where a process was killed; files that are being
 // written, by whichever process, stay.
-void remove_abandoned_files(const std::filesystem::path& directory);
+void remove_abandoned_files(const std::filesystem::path& directory, std::string_view prefix = {});
 
 // Writes the text as a whole, through AtomicFile.
 void write_file(const std::filesystem::path& path, std::string_view contents);

@@ -87,15 +87,15 @@ BakeIdentity read_manifest(const std::filesystem::path& path) {
     identity.num_vertices = metadata.integer("num_vertices", 1, kMaxCount);
     identity.num_triangles = metadata.integer("num_triangles", 1, kMaxCount);
     identity.mesh_xxh3 = parse_hex(metadata.text("mesh_xxh3"), file, "mesh_xxh3");
-    const auto poses = metadata.json().find("poses");
-    if (poses == metadata.json().end() || !poses->is_array() || poses->empty()) {
+    const auto poses = metadata.root().find("poses");
+    if (poses == metadata.root().end() || !poses->is_array() || poses->empty()) {
         throw_bad_input("{}: 'poses': expected a list of at least one pose", file);
     }
     if (poses->size() > kMaxPoses) {
         throw_unsupported("{}: {} poses, expected at most {}", file, poses->size(), kMaxPoses);
     }
     for (const nlohmann::json& entry : *poses) {
-        const Metadata pose(entry, file);
+        const Metadata pose = Metadata::part(entry, file);
         identity.poses.push_back({pose.text("name"), parse_hex(pose.text("xxh3"), file, "xxh3")});
     }
     return identity;

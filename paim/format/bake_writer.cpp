@@ -16,8 +16,7 @@ namespace paim {
 
 namespace {
 
-std::string pose_metadata(uint64_t bake, uint32_t p,
-                          const PoseStatistics& statistics) {
+std::string pose_metadata(uint64_t bake, uint32_t p, const PoseStatistics& statistics) {
     nlohmann::ordered_json json;
     json["pose"] = p;
     json["bake"] = fmt::format("{:016x}", bake);

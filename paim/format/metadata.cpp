@@ -39,8 +39,12 @@ Metadata::Metadata(std::string_view text, std::string file) : file_(std::move(fi
     if (!json_.is_object()) throw_bad_input("{}: the metadata is not a JSON object", file_);
 }
 
-Metadata::Metadata(json part, std::string file) : json_(std::move(part)), file_(std::move(file)) {
-    if (!json_.is_object()) throw_bad_input("{}: the metadata is not a JSON object", file_);
+Metadata Metadata::part(const json& part, const std::string& file) {
+    if (!part.is_object()) throw_bad_input("{}: the metadata is not a JSON object", file);
+    Metadata metadata;
+    metadata.json_ = part;
+    metadata.file_ = file;
+    return metadata;
 }
 
 const json& Metadata::member(const char* key) const {

@@ -15,16 +15,17 @@ class Metadata {
     // Parses the text: an object of at most 64 MiB, nested at most 16 deep.
     Metadata(std::string_view text, std::string file);
 
-    // A part of what another one has parsed.
-    Metadata(nlohmann::json part, std::string file);
+    // An object within one that was parsed.
+    static Metadata part(const nlohmann::json& part, const std::string& file);
 
     uint32_t integer(const char* key, uint32_t lowest, uint32_t highest) const;
     double number(const char* key, double lowest, double highest) const;
     std::string text(const char* key) const;
     std::string object_text(const char* key) const;  // "{}" if absent
-    const nlohmann::json& json() const { return json_; }
+    const nlohmann::json& root() const { return json_; }
 
   private:
+    Metadata() = default;
     const nlohmann::json& member(const char* key) const;
 
     nlohmann::json json_;

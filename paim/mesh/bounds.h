@@ -22,7 +22,7 @@ struct Bounds {
     }
     Vec3f center() const { return 0.5f * lower + 0.5f * upper; }
     // Length of the diagonal, scene units; 0 when empty.
-    float diagonal() const { return empty() ? 0.0f : (upper - lower).norm(); }
+    float diagonal() const { return empty() ? 0.0f : (upper - lower).stableNorm(); }
 };
 
 }  // namespace paim

@@ -6,12 +6,21 @@
 
 namespace paim {
 
-Eigen::Matrix3f Camera::axes() const {
-    const Vec3f backward = (eye - target).normalized();
+namespace {
+
+// Right, up, backward of a camera that lies in this direction from its target.
+Eigen::Matrix3f axes_of(const Vec3f& direction, const Vec3f& up) {
+    const Vec3f backward = direction.stableNormalized();
     const Vec3f right = up.cross(backward).normalized();
     Eigen::Matrix3f axes;
     axes << right, backward.cross(right), backward;
     return axes;
+}
+
+}  // namespace
+
+Eigen::Matrix3f Camera::axes() const {
+    return axes_of(eye - target, up);
 }
 
 Eigen::Matrix4f Camera::view() const {
@@ -47,10 +56,12 @@ Camera frame_bounds(const Bounds& bounds, float aspect, float azimuth_rad, float
     const Vec3f direction(std::sin(azimuth_rad) * std::cos(elevation_rad), std::sin(elevation_rad),
                           std::cos(azimuth_rad) * std::cos(elevation_rad));
     camera.target = bounds.empty() ? Vec3f(Vec3f::Zero()) : bounds.center();
-    camera.eye = camera.target + direction;
-    if (bounds.diagonal() == 0.0f) return camera;
+    if (bounds.diagonal() == 0.0f) {
+        camera.eye = camera.target + direction;
+        return camera;
+    }
     // The nearest distance at which every corner of the box is inside the image.
-    const Eigen::Matrix3f to_camera = camera.axes().transpose();
+    const Eigen::Matrix3f to_camera = axes_of(direction, camera.up).transpose();
     const Vec3f half = 0.5f * bounds.upper - 0.5f * bounds.lower;
     const float half_height = std::tan(0.5f * camera.vertical_fov_rad);
     float distance = 0.0f;

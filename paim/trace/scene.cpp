@@ -4,10 +4,12 @@
 #include "paim/trace/scene.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <mutex>
 #include <string>
+#include <vector>
 
 #include "paim/base/check.h"
 #include "paim/base/error.h"
@@ -77,11 +79,22 @@ RTCRay make_ray(const Vec3f& origin, const Vec3f& direction) {
     return ray;
 }
 
+// A power of two that brings the largest coordinate to 1/2 … 1, where Embree's arithmetic is at home: it
+// loses hits beyond about 1e±18. Multiplying by it is exact, so that nothing else changes.
+float unit_scale(std::span<const Vec3f> positions) {
+    float largest = 0.0f;
+    for (const Vec3f& x : positions) largest = std::max(largest, x.cwiseAbs().maxCoeff());
+    int exponent = 0;
+    std::frexp(largest, &exponent);
+    return largest > 0.0f ? std::ldexp(1.0f, std::clamp(-exponent, -126, 126)) : 1.0f;
+}
+
 }  // namespace
 
 struct Scene::Impl {
     Device device;
     RTCScene scene = nullptr;
+    float scale = 1.0f;  // of what Embree sees
 
     ~Impl() {
         if (scene != nullptr) rtcReleaseScene(scene);
@@ -95,10 +108,13 @@ Scene::Scene(const Topology& topology, std::span<const Vec3f> positions)
     impl_->scene = rtcNewScene(device);
     rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(impl_->scene, RTC_BUILD_QUALITY_HIGH);
+    impl_->scale = unit_scale(positions);
     if (!topology.triangles.empty()) {
+        std::vector<Vec3f> scaled(positions.begin(), positions.end());
+        for (Vec3f& x : scaled) x *= impl_->scale;
         const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-        set_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, positions.data(),
-                   positions.size());
+        set_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, scaled.data(),
+                   scaled.size());
         set_buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, topology.triangles.data(),
                    topology.triangles.size());
         rtcCommitGeometry(geometry);
@@ -116,9 +132,10 @@ uint32_t Scene::blocked(const Vec3f& origin, const float* x, const float* y, con
     constexpr uint32_t kPacket = 16;
     embree::Context context;
     RTCRay16 rays{};
-    std::fill_n(rays.org_x, kPacket, origin.x());
-    std::fill_n(rays.org_y, kPacket, origin.y());
-    std::fill_n(rays.org_z, kPacket, origin.z());
+    const Vec3f start = impl_->scale * origin;
+    std::fill_n(rays.org_x, kPacket, start.x());
+    std::fill_n(rays.org_y, kPacket, start.y());
+    std::fill_n(rays.org_z, kPacket, start.z());
     std::fill_n(rays.mask, kPacket, 0xffffffffu);
     alignas(64) int valid[kPacket];
     uint32_t num_blocked = 0;
@@ -142,12 +159,12 @@ uint32_t Scene::blocked(const Vec3f& origin, const float* x, const float* y, con
 std::optional<Hit> Scene::first_hit(const Vec3f& origin, const Vec3f& direction) const {
     embree::Context context;
     RTCRayHit query;
-    query.ray = make_ray(origin, direction);
+    query.ray = make_ray(impl_->scale * origin, direction);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     context.intersect(impl_->scene, query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-    return Hit{query.ray.tfar, query.hit.primID, query.hit.u, query.hit.v};
+    return Hit{query.ray.tfar / impl_->scale, query.hit.primID, query.hit.u, query.hit.v};
 }
 
 }  // namespace paim

@@ -29,7 +29,7 @@ class PlayTest : public testing::Test {
         // No test depends on the display of whoever runs it.
         ::unsetenv("DISPLAY");
         ::unsetenv("WAYLAND_DISPLAY");
-        TestModelOptions options;  // 5 bands, 3 + 5 components, 4 poses
+        TestModelOptions options;  // 5 bands, 3 + 5 components, 6 poses
         model_ = make_test_model(options);
         write_paim(file_, model_);
     }
@@ -129,7 +129,7 @@ TEST_F(PlayTest, LimitsBeyondTheFileAreLoweredWithANote) {
 
 TEST_F(PlayTest, RefusesCommandLinesThatMakeNoSense) {
     const std::string png = out("a.png");
-    expect_failure({"--snapshot", png, "--pose", "3.01"}, 1, "--pose: expected 0 to 3");
+    expect_failure({"--snapshot", png, "--pose", "5.01"}, 1, "--pose: expected 0 to 5");
     expect_failure({"--snapshot", png, "--pose", "-1"}, 1, "--pose: expected a number from 0");
     expect_failure({"--snapshot", png, "--pose", "nan"}, 1, "--pose");
     expect_failure({"--geometry-components", "-1"}, 1, "--geometry-components: expected a whole");

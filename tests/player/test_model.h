@@ -12,7 +12,7 @@ namespace paim::player {
 struct TestModelOptions {
     uint32_t bands = 5;
     uint32_t channels = 1;
-    uint32_t num_poses = 4;
+    uint32_t num_poses = 6;
     uint32_t geometry_components = 3;
     uint32_t transfer_components = 5;
     Precision precision = Precision::f32;

@@ -230,17 +230,17 @@ TEST(FrameCost, CountsWhatTheShaderDoes) {
     TestModelOptions options;
     options.channels = 3;
     options.precision = Precision::f16;
-    const Model model = make_test_model(options);  // 5 bands, 3 + 5 components, 4 poses
+    const Model model = make_test_model(options);  // 5 bands, 3 + 5 components, 6 poses
     const uint64_t num_vertices = model.topology.num_vertices;
     const Cost all = frame_cost(model, {});
     EXPECT_EQ(all.multiply_adds, 3u * 3 + 75u * 5 + 3u * 25);
-    EXPECT_EQ(all.bytes, 4 * 3 * num_vertices + 3 * (2 * 3 * num_vertices + 4 * 4) +
-                             4 * 75 * num_vertices + 5 * (2 * 75 * num_vertices + 4 * 4));
+    EXPECT_EQ(all.bytes, 4 * 3 * num_vertices + 3 * (2 * 3 * num_vertices + 4 * 6) +
+                             4 * 75 * num_vertices + 5 * (2 * 75 * num_vertices + 4 * 6));
     const Cost some = frame_cost(model, {1, 2, 3});
     EXPECT_EQ(some.multiply_adds, 3u * 1 + 27u * 2 + 3u * 9);
     EXPECT_EQ(some.bands, 3u);
-    EXPECT_EQ(some.bytes, 4 * 3 * num_vertices + 1 * (2 * 3 * num_vertices + 4 * 4) +
-                              4 * 27 * num_vertices + 2 * (2 * 27 * num_vertices + 4 * 4));
+    EXPECT_EQ(some.bytes, 4 * 3 * num_vertices + 1 * (2 * 3 * num_vertices + 4 * 6) +
+                              4 * 27 * num_vertices + 2 * (2 * 27 * num_vertices + 4 * 6));
 }
 
 }  // namespace

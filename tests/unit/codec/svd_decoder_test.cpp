@@ -48,6 +48,14 @@ TEST(SvdDecoder, ObeysLimits) {
                 1e-6f);
 }
 
+TEST(SvdDecoder, KeepsAtLeastOneBand) {
+    const Model model = make_example_model(3, 1);
+    DecodedPose pose;
+    SvdDecoder(model).decode(0.0, {.bands = 0}, pose);
+    EXPECT_EQ(pose.layout.bands, 1u);
+    EXPECT_EQ(pose.transfer.size(), 4u);
+}
+
 TEST(SvdDecoder, InterpolatesWeightsAndClampsTime) {
     const Model model = make_example_model();
     std::vector<float> weights;

@@ -245,8 +245,12 @@ TEST_F(BakeDirectory, RefusesHostileManifests) {
     refuse("\"poses\": [", "\"poses\": 7, \"more\": [", "expected a list of at least one pose");
     refuse("paim-bake", "paim-cake", "not a bake's manifest");
     refuse("{", "[[[[", "not a JSON object");
-    write_file(bake_ / "manifest.json", std::string(100'000, '['));
-    expect_contains(reading_complaint(), "not a JSON object");
+    for (const std::string& deep :
+         {std::string(100'000, '['),
+          "{\"poses\": " + std::string(100'000, '[') + std::string(100'000, ']') + "}"}) {
+        write_file(bake_ / "manifest.json", deep);
+        expect_contains(reading_complaint(), "nested more than 16 deep");
+    }
 
     // What a later version wrote is not damaged.
     write_file(bake_ / "manifest.json", whole);

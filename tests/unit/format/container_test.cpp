@@ -1,5 +1,6 @@
 // The section container: round trip, every truncation, every damaged byte, hostile sizes.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cstring>
 
@@ -100,6 +101,12 @@ TEST(Container, NoticesEveryDamagedByteThatMeansSomething) {
         write_file(directory / "damaged", damaged);
         EXPECT_EQ(complaint(directory / "damaged").empty(), is_padding[j]) << j;
     }
+}
+
+TEST(Container, RefusesPipesWithoutWaiting) {
+    const TemporaryDirectory directory;
+    ASSERT_EQ(::mkfifo((directory / "pipe").c_str(), 0600), 0);
+    EXPECT_NE(complaint(directory / "pipe").find("expected a regular file"), std::string::npos);
 }
 
 TEST(Container, RefusesAnotherKind) {

@@ -128,6 +128,15 @@ TEST(PaimFile, RefusesContentsThatCannotBePlayed) {
     EXPECT_NE(complaint(model).find("expected 1 or 4 colours"), std::string::npos);
 
     model = make_example_model();
+    model.provenance_json = std::string(100, '[') + std::string(100, ']');
+    model.provenance_json = "{\"a\": " + model.provenance_json + "}";
+    EXPECT_NE(complaint(model).find("nested more than 16 deep"), std::string::npos);
+
+    model = make_example_model(2, 1, 2, 3);  // three components of two poses
+    EXPECT_NE(complaint(model).find("'geometry_components': expected 0 to 2, got 3"),
+              std::string::npos);
+
+    model = make_example_model();
     model.layout.bands = 3;  // says 9 planes, holds 4
     EXPECT_NE(complaint(model).find("expected 9 x 4"), std::string::npos) << complaint(model);
 }

@@ -46,12 +46,19 @@ TEST(Camera, RaysAndProjectionAgree) {
 }
 
 TEST(Camera, FramesAllCornersOfTheBounds) {
-    Bounds bounds;
-    bounds.extend(Vec3f(-10, 0, 2));
-    bounds.extend(Vec3f(4, 2, 7));
-    for (const float aspect : {0.5f, 1.0f, 2.0f}) {
+    // Of any size, and as far from the origin as they are large.
+    for (const auto& [scale, aspect] : {std::pair{1.0f, 0.5f},
+                                        {1.0f, 1.0f},
+                                        {1.0f, 2.0f},
+                                        {1e-12f, 1.5f},
+                                        {1e7f, 1.5f},
+                                        {1e12f, 1.5f}}) {
+        Bounds bounds;
+        bounds.extend(scale * Vec3f(-10, 0, 2));
+        bounds.extend(scale * Vec3f(4, 2, 7));
         const Camera camera = frame_bounds(bounds, aspect, 1.0f, 0.4f);
-        const Eigen::Matrix4f to_clip = camera.projection(aspect, 0.1f, 1000.0f) * camera.view();
+        const Eigen::Matrix4f to_clip =
+            camera.projection(aspect, 0.1f * scale, 1000.0f * scale) * camera.view();
         for (int corner = 0; corner < 8; ++corner) {
             const Vec3f point(corner & 1 ? bounds.upper.x() : bounds.lower.x(),
                               corner & 2 ? bounds.upper.y() : bounds.lower.y(),

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "paim/base/seed.h"
 #include "poses/shapes.h"
 
@@ -67,6 +69,23 @@ TEST(Scene, PacketsAnswerAsSingleRays) {
     }
     EXPECT_GT(total, 500u);   // of 4950: the bowl is in the way of some,
     EXPECT_LT(total, 4500u);  // not of all
+}
+
+TEST(Scene, HitsTheSameAtAnyScale) {
+    // Powers of two, so that the scaled mesh is exactly the same.
+    for (const int exponent : {-120, -60, 0, 60, 120}) {
+        const float scale = std::ldexp(1.0f, exponent);
+        std::vector<Vec3f> corners = kCorners;
+        for (Vec3f& x : corners) x *= scale;
+        const Scene scene(kTriangle, corners);
+        const auto hit = scene.first_hit(scale * Vec3f(0.25f, 0.5f, 2.0f), {0, 0, -1});
+        ASSERT_TRUE(hit) << exponent;
+        EXPECT_NEAR(hit->distance / scale, 2.0f, 1e-6f);
+        const float zero[] = {0}, down[] = {-1};
+        float blocked[1];
+        EXPECT_EQ(scene.blocked(scale * Vec3f(0.25f, 0.5f, 2.0f), zero, zero, down, 1, blocked),
+                  1u);
+    }
 }
 
 TEST(Scene, HoldsNothingWithoutTriangles) {
