@@ -5,9 +5,10 @@
 
 #include "analysis/csv.h"
 #include "analysis/curves.h"
+#include "analysis/measure.h"
 #include "analysis/plots.h"
-#include "analysis/reference.h"
 #include "analysis/report.h"
+#include "analysis/stage.h"
 #include "compressor/encode/encode.h"
 #include "paim/base/error.h"
 #include "paim/base/file.h"
@@ -37,6 +38,19 @@ Model encode_everything(const BakeReader& bake, const std::filesystem::path& dir
     return read_paim(file.path);
 }
 
+// The images that the report shows are kept until it is written.
+void check_memory(const AnalyzeOptions& options, size_t num_images) {
+    constexpr double kMaxGigabytes = 4.0;
+    const double size = options.size_pixels;
+    const double gigabytes = 1e-9 * sizeof(Vec3f) * size * size * static_cast<double>(num_images);
+    if (gigabytes > kMaxGigabytes) {
+        throw_usage(
+            "--size {}: {} images would take {:.1f} GB, expected at most {:g}; measure fewer "
+            "settings or lights, or smaller images",
+            options.size_pixels, num_images, gigabytes, kMaxGigabytes);
+    }
+}
+
 nlohmann::ordered_json curve_json(const Curve& curve, const std::vector<NamedLight>& lights) {
     auto points = nlohmann::ordered_json::array();
     for (const CurvePoint& point : curve.points) {
@@ -48,6 +62,11 @@ nlohmann::ordered_json curve_json(const Curve& curve, const std::vector<NamedLig
         for (size_t light = 0; light < lights.size(); ++light) {
             json["visual_error"][lights[light].name] = point.visual_error[light];
         }
+        json["position_rms"] = point.distance.rms();
+        json["position_worst"] = {{"distance", point.distance.worst},
+                                  {"vertex", point.distance.worst_vertex},
+                                  {"pose", point.distance.worst_pose}};
+        json["transfer_error"] = point.transfer.relative();
         json["size_bytes"] = point.size_bytes;
         json["decode_ms"] = point.decode_ms;
         points.push_back(std::move(json));
@@ -63,6 +82,8 @@ void analyze(const AnalyzeOptions& options) {
     const BakeReader bake(options.bake_directory);
     const std::vector<NamedLight> lights =
         load_lights(options.environments, bake.identity().layout.bands);
+    const size_t most_settings = 2 * (options.components.size() + 1) + options.bands.size() + 1;
+    check_memory(options, most_settings * lights.size());
     const bool with_plots = have_gnuplot();
     if (!with_plots) fmt::print(stderr, "warning: gnuplot is not installed: no SVG curves\n");
     bake.verify_all();  // before anything is written
@@ -71,10 +92,10 @@ void analyze(const AnalyzeOptions& options) {
     const Model model = encode_everything(bake, options.output);
     const Stage stage(bake, lights, stage_camera(bake, options.azimuth_rad, options.elevation_rad),
                       options.size_pixels, options.num_poses);
-    cli::Progress progress("measuring", "settings",
-                           num_curve_points(model, options.components, options.bands), quiet);
-    const std::vector<Curve> curves = measure_curves(bake, model, stage, options.components,
-                                                     options.bands, [&] { progress.advance(); });
+    std::vector<Curve> curves = plan_curves(bake, model, options.components, options.bands);
+    cli::Progress progress("measuring", "images", num_points(curves) * stage.poses().size(), quiet);
+    const std::vector<Image> references =
+        measure_curves(bake, model, stage, curves, [&] { progress.advance(); });
     progress.finish();
 
     nlohmann::ordered_json json;
@@ -91,7 +112,7 @@ void analyze(const AnalyzeOptions& options) {
         bake.identity().num_vertices, bake.identity().num_triangles, bake.num_poses(),
         stage.poses().size(), model.layout.bands);
     write_report(options.output, "Error analysis of " + model.name, summary, curves, stage,
-                 with_plots);
+                 references, with_plots);
     if (options.json) {
         fmt::print("{}\n", json.dump(2, ' ', false, decltype(json)::error_handler_t::replace));
     } else {

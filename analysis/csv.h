@@ -4,6 +4,7 @@
 #include <string>
 
 #include "analysis/curves.h"
+#include "analysis/stage.h"
 
 namespace paim {
 

@@ -3,14 +3,11 @@
 #include "analysis/curves.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <set>
 #include <span>
 
-#include "paim/codec/svd_decoder.h"
 #include "paim/format/paim_file.h"
-#include "paim/metrics/image_error.h"
 #include "paim/metrics/spectrum.h"
 
 namespace paim {
@@ -53,30 +50,29 @@ uint64_t limited_size_bytes(const Model& model, const DecodeLimits& limits) {
     return paim_size_bytes(limited);
 }
 
-// Renders and times all measured poses at this setting.
-CurvePoint measure(const Model& model, const Stage& stage, const DecodeLimits& limits) {
-    using Clock = std::chrono::steady_clock;
-    const SvdDecoder decoder(model);
-    CurvePoint point;
-    std::vector<ImageError> errors(stage.lights().size());
-    std::vector<double> times_ms;
-    DecodedPose pose;
-    decoder.decode(0.0, limits, pose);  // takes the memory, so that the clock measures the work
-    for (size_t j = 0; j < stage.poses().size(); ++j) {
-        const auto start = Clock::now();
-        decoder.decode(stage.poses()[j], limits, pose);
-        times_ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
-        const std::vector<Image> images = stage.render_pose(pose);
-        for (size_t light = 0; light < images.size(); ++light) {
-            errors[light].add(compare_images(images[light], stage.reference(j)[light]));
-        }
-        if (j == 0) point.images = images;
+// all        how many there are
+// spectrum   singular values, or what plays their part; size(value) of them are kept
+// limit      the limit that a setting is
+template <typename Size>
+Curve plan_curve(const Model& model, const char* name, const char* title, uint32_t all,
+                 const std::vector<uint32_t>& others, std::span<const double> spectrum,
+                 const Size& size, uint32_t DecodeLimits::*limit) {
+    Curve curve{name, title, {}, {}, {}};
+    for (uint32_t value = 0; value <= all; ++value) {
+        curve.theory_errors.push_back(theory_error(spectrum, size(value)));
+        curve.energy_errors.push_back(energy_error(spectrum, size(value)));
     }
-    for (const ImageError& error : errors) point.visual_error.push_back(error.visual_error());
-    std::nth_element(times_ms.begin(), times_ms.begin() + times_ms.size() / 2, times_ms.end());
-    point.decode_ms = times_ms[times_ms.size() / 2];
-    point.size_bytes = limited_size_bytes(model, limits);
-    return point;
+    for (const uint32_t value : settings(all, others)) {
+        CurvePoint point;
+        point.value = value;
+        point.all = value == all;
+        point.limits.*limit = value;
+        point.theory_error = curve.theory_errors[value];
+        point.energy_error = curve.energy_errors[value];
+        point.size_bytes = limited_size_bytes(model, point.limits);
+        curve.points.push_back(std::move(point));
+    }
+    return curve;
 }
 
 }  // namespace
@@ -98,56 +94,29 @@ std::vector<double> coefficient_norms(const BakeReader& bake) {
     return energies;
 }
 
-std::vector<Curve> measure_curves(const BakeReader& bake, const Model& model, const Stage& stage,
-                                  const std::vector<uint32_t>& components,
-                                  const std::vector<uint32_t>& bands,
-                                  const std::function<void()>& on_point) {
-    // all        how many there are
-    // spectrum   singular values, or what plays their part; `size(value)` of them are kept
-    // limit      the limit that a setting is
-    const auto measure_curve = [&](const char* name, const char* title, uint32_t all,
-                                   const std::vector<uint32_t>& others,
-                                   std::span<const double> spectrum, auto size, auto limit) {
-        Curve curve{name, title, {}, {}, {}};
-        for (uint32_t value = 0; value <= all; ++value) {
-            curve.theory_errors.push_back(theory_error(spectrum, size(value)));
-            curve.energy_errors.push_back(energy_error(spectrum, size(value)));
-        }
-        for (const uint32_t value : settings(all, others)) {
-            DecodeLimits limits;
-            limits.*limit = value;
-            CurvePoint point = measure(model, stage, limits);
-            point.value = value;
-            point.all = value == all;
-            point.theory_error = curve.theory_errors[value];
-            point.energy_error = curve.energy_errors[value];
-            curve.points.push_back(std::move(point));
-            on_point();
-        }
-        return curve;
-    };
+std::vector<Curve> plan_curves(const BakeReader& bake, const Model& model,
+                               const std::vector<uint32_t>& components,
+                               const std::vector<uint32_t>& bands) {
     const auto as_it_is = [](uint32_t value) { return value; };
     const auto squared = [](uint32_t value) { return value * value; };
-    const std::vector<double> norms = coefficient_norms(bake);
     std::vector<Curve> curves;
     curves.push_back(
-        measure_curve("geometry_components", "Geometry components (all of the transfer)",
-                      model.geometry.num_components, components, model.geometry.singular_values,
-                      as_it_is, &DecodeLimits::geometry_components));
+        plan_curve(model, "geometry_components", "Geometry components (all of the transfer)",
+                   model.geometry.num_components, components, model.geometry.singular_values,
+                   as_it_is, &DecodeLimits::geometry_components));
     curves.push_back(
-        measure_curve("transfer_components", "Transfer components (all of the geometry)",
-                      model.transfer.num_components, components, model.transfer.singular_values,
-                      as_it_is, &DecodeLimits::transfer_components));
-    curves.push_back(measure_curve("bands", "Bands (all components)", model.layout.bands, bands,
-                                   norms, squared, &DecodeLimits::bands));
+        plan_curve(model, "transfer_components", "Transfer components (all of the geometry)",
+                   model.transfer.num_components, components, model.transfer.singular_values,
+                   as_it_is, &DecodeLimits::transfer_components));
+    curves.push_back(plan_curve(model, "bands", "Bands (all components)", model.layout.bands, bands,
+                                coefficient_norms(bake), squared, &DecodeLimits::bands));
     return curves;
 }
 
-size_t num_curve_points(const Model& model, const std::vector<uint32_t>& components,
-                        const std::vector<uint32_t>& bands) {
-    return settings(model.geometry.num_components, components).size() +
-           settings(model.transfer.num_components, components).size() +
-           settings(model.layout.bands, bands).size();
+size_t num_points(const std::vector<Curve>& curves) {
+    size_t count = 0;
+    for (const Curve& curve : curves) count += curve.points.size();
+    return count;
 }
 
 }  // namespace paim

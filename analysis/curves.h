@@ -3,22 +3,29 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
-#include "analysis/reference.h"
+#include "paim/codec/decoder.h"
+#include "paim/codec/model.h"
+#include "paim/format/bake_directory.h"
+#include "paim/image/image.h"
+#include "paim/metrics/array_error.h"
 
 namespace paim {
 
-// One setting of one table.
+// One setting of one curve: what is known beforehand, and what is measured (measure.h).
 struct CurvePoint {
-    uint32_t value = 0;         // components or bands kept
-    bool all = false;           // whether that is all there are
+    uint32_t value = 0;  // components or bands kept
+    bool all = false;    // whether that is all there are
+    DecodeLimits limits;
     double theory_error = 0.0;  // E5
     double energy_error = 0.0;
+    uint64_t size_bytes = 0;  // of the .paim with this setting, all else kept
+
     std::vector<double> visual_error;  // [lights] E6 over all measured poses
-    uint64_t size_bytes = 0;           // of the .paim with this setting, all else kept
+    DistanceError distance;            // of positions from the bake's
+    ArrayError transfer;               // from the bake's; what is dropped counts as zero
     double decode_ms = 0.0;            // to rebuild one pose on the CPU, median over measured poses
     std::vector<Image> images;         // [lights] of the first measured pose
 };
@@ -36,15 +43,12 @@ struct Curve {
 // values where bands are dropped (docs/metrics.md).
 std::vector<double> coefficient_norms(const BakeReader& bake);
 
-// The three curves of the paper. The model holds all components in f32.
-// on_point  called after each point
-std::vector<Curve> measure_curves(const BakeReader& bake, const Model& model, const Stage& stage,
-                                  const std::vector<uint32_t>& components,
-                                  const std::vector<uint32_t>& bands,
-                                  const std::function<void()>& on_point);
+// The three curves of the paper, not measured yet: all there is, then those of the asked-for components
+// and bands that are less. The model holds all components in f32.
+std::vector<Curve> plan_curves(const BakeReader& bake, const Model& model,
+                               const std::vector<uint32_t>& components,
+                               const std::vector<uint32_t>& bands);
 
-// How many points that measures.
-size_t num_curve_points(const Model& model, const std::vector<uint32_t>& components,
-                        const std::vector<uint32_t>& bands);
+size_t num_points(const std::vector<Curve>& curves);
 
 }  // namespace paim

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/curves.h"
+#include "analysis/stage.h"
 
 namespace paim {
 

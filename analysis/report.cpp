@@ -66,12 +66,13 @@ std::string figure(const std::filesystem::path& directory, const std::string& fi
                        escape(file), escape(caption));
 }
 
-std::string strips(const std::filesystem::path& directory, const Curve& curve, const Stage& stage) {
+std::string strips(const std::filesystem::path& directory, const Curve& curve, const Stage& stage,
+                   const std::vector<Image>& references) {
     std::string html;
     for (size_t light = 0; light < stage.lights().size(); ++light) {
         html += fmt::format("<p>Light: {}</p>\n<div class=\"strip\">",
                             escape(stage.lights()[light].name));
-        const Image& reference = stage.reference(0)[light];
+        const Image& reference = references[light];
         html += figure(directory, fmt::format("images/baked_{}.png", light), "as baked", reference);
         std::string differences;
         for (const CurvePoint& point : curve.points) {
@@ -95,7 +96,9 @@ std::string table(const Curve& curve, const Stage& stage) {
     for (const NamedLight& light : stage.lights()) {
         html += fmt::format("<th>seen (E6), {}</th>", escape(light.name));
     }
-    html += "<th>bytes</th><th>decode, ms</th></tr>\n";
+    html +=
+        "<th>positions, RMS</th><th>worst (vertex, "
+        "pose)</th><th>transfer</th><th>bytes</th><th>decode, ms</th></tr>\n";
     for (const CurvePoint& point : curve.points) {
         html +=
             fmt::format("<tr><td>{}</td><td>{:.3g} %</td><td>{:.3g} %</td>", label(curve, point),
@@ -103,7 +106,12 @@ std::string table(const Curve& curve, const Stage& stage) {
         for (const double error : point.visual_error) {
             html += fmt::format("<td>{:.3g} %</td>", 100.0 * error);
         }
-        html += fmt::format("<td>{}</td><td>{:.3g}</td></tr>\n", point.size_bytes, point.decode_ms);
+        html += fmt::format(
+            "<td>{:.3g}</td><td>{:.3g} ({}, {})</td><td>{:.3g} "
+            "%</td><td>{}</td><td>{:.3g}</td></tr>\n",
+            point.distance.rms(), point.distance.worst, point.distance.worst_vertex,
+            point.distance.worst_pose, 100.0 * point.transfer.relative(), point.size_bytes,
+            point.decode_ms);
     }
     return html + "</table>\n";
 }
@@ -112,7 +120,7 @@ std::string table(const Curve& curve, const Stage& stage) {
 
 void write_report(const std::filesystem::path& directory, const std::string& title,
                   const std::string& summary, const std::vector<Curve>& curves, const Stage& stage,
-                  bool with_plots) {
+                  const std::vector<Image>& references, bool with_plots) {
     ensure_directory(directory / "images");
     std::string html = fmt::format(
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{0}</title>"
@@ -127,7 +135,7 @@ void write_report(const std::filesystem::path& directory, const std::string& tit
             }
             html += "</div>\n";
         }
-        html += table(curve, stage) + strips(directory, curve, stage) +
+        html += table(curve, stage) + strips(directory, curve, stage, references) +
                 fmt::format("<p><a href=\"{0}.csv\">{0}.csv</a></p>\n", curve.name);
     }
     html += "</body></html>\n";

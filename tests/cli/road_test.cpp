@@ -112,18 +112,22 @@ TEST_F(Road, AnalysisHoldsTogether) {
         ASSERT_GE(rows.size(), 2u);
         EXPECT_EQ(rows[0], (Arguments{"light", curve, "all", "theory_error [fraction]",
                                       "energy_error [fraction]", "visual_error [fraction]",
+                                      "position_rms [scene units]", "position_worst [scene units]",
+                                      "worst_vertex", "worst_pose", "transfer_error [fraction]",
                                       "size [bytes]", "decode [ms per pose]"}));
         ASSERT_EQ(rows.size() - 1, json[curve].size());  // one light
         for (size_t j = 1; j < rows.size(); ++j) {
-            ASSERT_EQ(rows[j].size(), 8u);
+            ASSERT_EQ(rows[j].size(), 13u);
             const auto& point = json[curve][j - 1];
             EXPECT_EQ(rows[j][0], "sky");
             EXPECT_EQ(rows[j][1], std::to_string(point["kept"].get<int>()));
             EXPECT_EQ(rows[j][2], j == 1 ? "yes" : "no");
-            EXPECT_EQ(rows[j][6], std::to_string(point["size_bytes"].get<uint64_t>()));
+            EXPECT_EQ(rows[j][11], std::to_string(point["size_bytes"].get<uint64_t>()));
         }
         // Everything kept loses nothing but rounding; less loses more, and saves bytes.
         EXPECT_LT(json[curve][0]["visual_error"]["sky"], 1e-5);
+        EXPECT_LT(json[curve][0]["transfer_error"], 1e-6);
+        EXPECT_LT(json[curve][0]["position_worst"]["distance"], 1e-6);
         for (size_t j = 1; j < json[curve].size(); ++j) {
             EXPECT_GT(json[curve][j]["energy_error"], json[curve][j - 1]["energy_error"]);
             EXPECT_LT(json[curve][j]["size_bytes"], json[curve][j - 1]["size_bytes"]);

@@ -1,4 +1,4 @@
-// The scene that is measured: light, camera and poses, and the images of the bake itself.
+// The scene that is measured: lights, camera and poses.
 #pragma once
 
 #include <filesystem>
@@ -34,11 +34,8 @@ class Stage {
     const std::vector<NamedLight>& lights() const { return lights_; }
     const std::vector<uint32_t>& poses() const { return poses_; }
 
-    // Image of a pose (an index into poses()) under each light; the model's colours.
+    // Image of a pose under each light, with the model's colours. [lights]
     std::vector<Image> render_pose(const DecodedPose& pose) const;
-
-    // The bake's own images, rendered once.
-    const std::vector<Image>& reference(size_t pose_index) const { return references_[pose_index]; }
 
   private:
     const BakeReader& bake_;
@@ -46,7 +43,6 @@ class Stage {
     Camera camera_;
     int size_pixels_;
     std::vector<uint32_t> poses_;
-    std::vector<std::vector<Image>> references_;  // [pose index][light]
 };
 
 // Camera that sees the whole sequence.

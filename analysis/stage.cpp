@@ -1,5 +1,5 @@
 // The scene that is measured.
-#include "analysis/reference.h"
+#include "analysis/stage.h"
 
 #include <fmt/format.h>
 
@@ -52,11 +52,6 @@ Stage::Stage(const BakeReader& bake, std::vector<NamedLight> lights, const Camer
     const uint32_t count = std::min(num_poses, bake.num_poses());
     for (uint32_t j = 0; j < count; ++j) {
         poses_.push_back(static_cast<uint32_t>(uint64_t{j} * bake.num_poses() / count));
-    }
-    for (const uint32_t p : poses_) {
-        BakedPose baked = bake.read_pose(p);
-        references_.push_back(render_pose(
-            {bake.identity().layout, std::move(baked.positions), std::move(baked.transfer)}));
     }
 }
 
