@@ -7,6 +7,7 @@
 #include "paim/base/vector.h"
 #include "paim/cli/parse.h"
 #include "paim/sh/index.h"
+#include "paim/shade/camera.h"
 
 namespace paim {
 
@@ -38,8 +39,8 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
     AnalyzeOptions options;
     std::string components = "20,7,4,2";
     std::string bands = "7,4,2";
-    double azimuth_deg = 28.6;
-    double elevation_deg = 17.2;
+    double azimuth_deg = kDefaultAzimuth_rad * 180.0 / kPi;
+    double elevation_deg = kDefaultElevation_rad * 180.0 / kPi;
     CLI::App app(
         "Measures what components and bands cost in accuracy, bytes and time, and what they save.\n"
         "Writes CSV tables, SVG curves, images and an index.html that shows them together.",

@@ -16,8 +16,8 @@ struct AnalyzeOptions {
     std::vector<uint32_t> bands{7, 4, 2};             // besides all
     int size_pixels = 256;
     uint32_t num_poses = 4;
-    double azimuth_rad = 0.5;
-    double elevation_rad = 0.3;
+    double azimuth_rad = 0.0;
+    double elevation_rad = 0.0;
     int num_threads = 0;
     bool json = false;
     bool quiet = false;

@@ -17,6 +17,7 @@ struct RawOptions {
     std::string geometry_components = "auto";
     std::string transfer_components = "auto";
     std::string precision = "f32";
+    std::string auto_energy_error = "1%";
     uint32_t encode_bands = 0;
 };
 
@@ -47,13 +48,15 @@ void add_bake_options(CLI::App& app, CompressOptions& options, RawOptions& raw) 
 }
 
 void add_encode_options(CLI::App& app, CompressOptions& options, RawOptions& raw) {
-    app.add_option(
-           "--geometry-components", raw.geometry_components,
-           "Components of the geometry: a number, 'all', or 'auto' (energy error below 1 %)")
+    app.add_option("--geometry-components", raw.geometry_components,
+                   "Components of the geometry: a number, 'all', or 'auto'")
         ->capture_default_str();
-    app.add_option(
-           "--transfer-components", raw.transfer_components,
-           "Components of the transfer: a number, 'all', or 'auto' (energy error below 1 %)")
+    app.add_option("--transfer-components", raw.transfer_components,
+                   "Components of the transfer: a number, 'all', or 'auto'")
+        ->capture_default_str();
+    app.add_option("--auto-energy-error", raw.auto_energy_error,
+                   "What 'auto' keeps the energy error below, a fraction or percentage; bake noise "
+                   "counts, so far below it nearly all components are kept")
         ->capture_default_str();
     app.add_option("--precision", raw.precision,
                    "How components are stored: f32 or f16 (half the size, relative rounding "
@@ -96,6 +99,8 @@ void apply(const RawOptions& raw, CompressOptions& options) {
     }
     options.encode.geometry = parse_components(raw.geometry_components, "--geometry-components");
     options.encode.transfer = parse_components(raw.transfer_components, "--transfer-components");
+    options.encode.automatic_energy_error =
+        cli::parse_fraction(raw.auto_energy_error, "--auto-energy-error");
     options.encode.precision = raw.precision == "f16" ? Precision::f16 : Precision::f32;
     if (raw.encode_bands > 0) options.encode.bands = raw.encode_bands;
 }

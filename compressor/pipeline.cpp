@@ -105,7 +105,12 @@ ordered_json encode_to(const CompressOptions& options, const std::filesystem::pa
     const BakeReader reader(directory);
     EncodeOptions encode_options = options.encode;
     encode_options.name = options.output.stem().string();
-    const EncodeSummary summary = encode(reader, encode_options, options.output);
+    reader.verify_all();
+    cli::Progress encoding("encoding", "rows", num_rows_to_read(reader, encode_options),
+                           options.quiet || options.json);
+    const EncodeSummary summary = encode(reader, encode_options, options.output,
+                                         [&](uint64_t rows) { encoding.advance(rows); });
+    encoding.finish();
     const auto part_json = [](uint32_t components, uint32_t rank, double theory, double energy) {
         ordered_json json;
         json["components"] = components;

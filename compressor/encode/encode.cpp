@@ -79,9 +79,14 @@ uint32_t choose_components(const ComponentChoice& choice, std::span<const double
     return k;
 }
 
+uint64_t num_rows_to_read(const BakeReader& bake, const EncodeOptions& options) {
+    const uint32_t bands = std::min(options.bands, bake.identity().layout.bands);
+    return 2 * (GeometryRows(bake).num_rows() + TransferRows(bake, bands).num_rows());
+}
+
 EncodeSummary encode(const BakeReader& bake, const EncodeOptions& options,
-                     const std::filesystem::path& output) {
-    bake.verify_all();
+                     const std::filesystem::path& output,
+                     const std::function<void(uint64_t)>& on_rows) {
     remove_abandoned_files(std::filesystem::absolute(output).parent_path(),
                            output.filename().string() + ".");
     Model model;
@@ -93,8 +98,10 @@ EncodeSummary encode(const BakeReader& bake, const EncodeOptions& options,
     model.name = options.name;
     model.provenance_json = provenance(bake);
 
-    const GeometryRows geometry_rows(bake);
-    const TransferRows transfer_rows(bake, model.layout.bands);
+    const GeometryRows baked_geometry(bake);
+    const TransferRows baked_transfer(bake, model.layout.bands);
+    const ReportingRows geometry_rows(baked_geometry, on_rows);
+    const ReportingRows transfer_rows(baked_transfer, on_rows);
     const PrincipalComponents geometry = principal_components(geometry_rows);
     const PrincipalComponents transfer = principal_components(transfer_rows);
     model.geometry = start_matrix(bake, geometry_rows, geometry, options.geometry, options);

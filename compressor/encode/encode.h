@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <span>
 #include <string>
@@ -47,9 +48,15 @@ struct EncodeSummary {
 uint32_t choose_components(const ComponentChoice& choice, std::span<const double> singular_values,
                            uint32_t rank, double automatic_energy_error);
 
-// Encodes and writes, all or nothing. Memory does not grow with V beyond the topology.
-// Errors: bad input for a damaged bake, output failed.
+// Rows that encode() reads: every one twice.
+uint64_t num_rows_to_read(const BakeReader& bake, const EncodeOptions& options);
+
+// Encodes and writes, all or nothing. Memory grows with P² and the topology, not with V · P.
+// bake     verified (BakeReader::verify_all)
+// on_rows  called with a number of rows whenever they have been read, from any thread
+// Errors: bad input for a bake that changes meanwhile, output failed.
 EncodeSummary encode(const BakeReader& bake, const EncodeOptions& options,
-                     const std::filesystem::path& output);
+                     const std::filesystem::path& output,
+                     const std::function<void(uint64_t)>& on_rows = {});
 
 }  // namespace paim

@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 
 #include <cstdint>
+#include <functional>
+#include <utility>
 
 namespace paim {
 
@@ -16,6 +18,24 @@ class RowSource {
 
     // Rows [first, first + block.rows()) into block, which has num_columns() columns. Thread-safe.
     virtual void read(uint64_t first, Eigen::MatrixXf& block) const = 0;
+};
+
+// Another source, with a word to the caller after each block that is read (from any thread).
+class ReportingRows : public RowSource {
+  public:
+    ReportingRows(const RowSource& rows, std::function<void(uint64_t)> on_rows)
+        : rows_(rows), on_rows_(std::move(on_rows)) {}
+
+    uint64_t num_rows() const override { return rows_.num_rows(); }
+    uint32_t num_columns() const override { return rows_.num_columns(); }
+    void read(uint64_t first, Eigen::MatrixXf& block) const override {
+        rows_.read(first, block);
+        if (on_rows_) on_rows_(static_cast<uint64_t>(block.rows()));
+    }
+
+  private:
+    const RowSource& rows_;
+    std::function<void(uint64_t)> on_rows_;
 };
 
 // A matrix in memory.

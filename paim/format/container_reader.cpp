@@ -147,12 +147,6 @@ ContainerReader::~ContainerReader() {
     if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-ContainerReader::ContainerReader(ContainerReader&& other) noexcept
-    : path_(std::move(other.path_)),
-      descriptor_(std::exchange(other.descriptor_, -1)),
-      file_size_bytes_(other.file_size_bytes_),
-      sections_(std::move(other.sections_)) {}
-
 const Section* ContainerReader::find(Tag tag, uint32_t index) const {
     const auto found = std::find_if(sections_.begin(), sections_.end(), [&](const Section& s) {
         return s.spec.tag == tag && s.spec.index == index;

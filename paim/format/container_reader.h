@@ -3,7 +3,6 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -17,7 +16,8 @@ class ContainerReader {
     // version or an unknown codec) name the file, what was expected and what was got.
     ContainerReader(const std::filesystem::path& path, Tag kind);
     ~ContainerReader();
-    ContainerReader(ContainerReader&&) noexcept;
+    ContainerReader(const ContainerReader&) = delete;
+    ContainerReader& operator=(const ContainerReader&) = delete;
 
     const std::vector<Section>& sections() const { return sections_; }
     uint64_t file_size_bytes() const { return file_size_bytes_; }

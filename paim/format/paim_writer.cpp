@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include "paim/base/check.h"
@@ -119,7 +118,6 @@ struct PaimWriter::Index {
 };
 
 uint64_t paim_size_bytes(const Model& model) {
-    // The metadata of a copy without the large parts is the same.
     return container_size_bytes(PaimWriter::section_specs(model));
 }
 

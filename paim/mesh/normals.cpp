@@ -46,9 +46,4 @@ std::vector<Vec3f> vertex_normals(const Topology& topology, std::span<const Vec3
     return normals;
 }
 
-uint32_t count_zero_normals(std::span<const Vec3f> normals) {
-    return static_cast<uint32_t>(std::count_if(normals.begin(), normals.end(),
-                                               [](const Vec3f& n) { return n.isZero(0.0f); }));
-}
-
 }  // namespace paim

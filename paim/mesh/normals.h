@@ -16,7 +16,4 @@ namespace paim {
 // note       zero-area faces have no normal and do not count
 std::vector<Vec3f> vertex_normals(const Topology& topology, std::span<const Vec3f> positions);
 
-// Vertices whose normal is zero: no face round them has any area.
-uint32_t count_zero_normals(std::span<const Vec3f> normals);
-
 }  // namespace paim

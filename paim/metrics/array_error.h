@@ -22,8 +22,7 @@ struct ArrayError {
     void add(std::span<const float> values, std::span<const float> reference, uint32_t pose);
 };
 
-// The same for distances between points: planes x, y, z of V values each; worst_index is a vertex and
-// num_values counts vertices.
+// The same for distances between points: planes x, y, z of V values each.
 struct DistanceError {
     double squared_sum = 0.0;  // Σ |p − p'|²
     uint64_t num_vertices = 0;

@@ -26,9 +26,13 @@ struct Camera {
     Vec3f ray_direction(float u, float v, float aspect) const;
 };
 
-// A camera that sees all of the bounds, from slightly above; azimuth_rad about +Y (0 looks along
+// Where the tools look from if they are not told.
+constexpr float kDefaultAzimuth_rad = 0.5f;
+constexpr float kDefaultElevation_rad = 0.3f;
+
+// A camera that just sees all of the bounds, from slightly above; azimuth_rad about +Y (0 looks along
 // −Z, from +Z), elevation_rad above the horizon.
-Camera frame_bounds(const Bounds& bounds, float aspect, float azimuth_rad = 0.5f,
-                    float elevation_rad = 0.3f);
+Camera frame_bounds(const Bounds& bounds, float aspect, float azimuth_rad = kDefaultAzimuth_rad,
+                    float elevation_rad = kDefaultElevation_rad);
 
 }  // namespace paim
