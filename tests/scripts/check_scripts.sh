@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Checks the project's shell scripts: syntax, shellcheck where it is installed, and how ./demo answers
+# Checks that every test is built, and the shell scripts: syntax, shellcheck where it is installed, and how ./demo answers
 # what it is asked before it does anything.
 #   check_scripts.sh SOURCE_DIR
 set -euo pipefail
@@ -28,3 +28,9 @@ code=0
 message=$("$root/demo" --ful 2>&1) || code=$?
 [ "$code" = 1 ] || fail "demo --ful: expected exit code 1, got $code"
 [[ $message == "Usage: ./demo"* ]] || fail "demo --ful: expected the usage, got: $message"
+
+# A test that no CMakeLists.txt names never runs.
+while IFS= read -r -d '' test; do
+    grep -rqF --include=CMakeLists.txt "$(basename "$test")" "$root/tests" ||
+        fail "${test#"$root"/}: is in no CMakeLists.txt"
+done < <(find "$root/tests" -name '*_test.cpp' -print0)
