@@ -23,26 +23,6 @@ Eigen::Matrix3f Camera::axes() const {
     return axes_of(eye - target, up);
 }
 
-Eigen::Matrix4f Camera::view() const {
-    const Eigen::Matrix3f to_camera = axes().transpose();
-    Eigen::Matrix4f view = Eigen::Matrix4f::Identity();
-    view.topLeftCorner<3, 3>() = to_camera;
-    view.topRightCorner<3, 1>() = -to_camera * eye;
-    return view;
-}
-
-Eigen::Matrix4f Camera::projection(float aspect, float near_distance, float far_distance) const {
-    const float scale = 1.0f / std::tan(0.5f * vertical_fov_rad);
-    const float depth = near_distance - far_distance;
-    Eigen::Matrix4f projection = Eigen::Matrix4f::Zero();
-    projection(0, 0) = scale / aspect;
-    projection(1, 1) = scale;
-    projection(2, 2) = (far_distance + near_distance) / depth;
-    projection(2, 3) = 2.0f * far_distance * near_distance / depth;
-    projection(3, 2) = -1.0f;
-    return projection;
-}
-
 Vec3f Camera::ray_direction(float u, float v, float aspect) const {
     const float half_height = std::tan(0.5f * vertical_fov_rad);
     const Vec3f local((2.0f * u - 1.0f) * half_height * aspect, (1.0f - 2.0f * v) * half_height,

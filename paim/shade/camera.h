@@ -15,12 +15,6 @@ struct Camera {
     // Orthonormal right, up, backward (right-handed; the camera looks along −backward).
     Eigen::Matrix3f axes() const;
 
-    // World to camera, row by row orthonormal, 4×4 for OpenGL (column-major Eigen).
-    Eigen::Matrix4f view() const;
-
-    // OpenGL clip-space projection (z to −1 … 1). 0 < near < far, scene units.
-    Eigen::Matrix4f projection(float aspect, float near_distance, float far_distance) const;
-
     // Unit direction of the ray through image coordinates u, v in [0, 1], (0, 0) the upper left
     // corner.
     Vec3f ray_direction(float u, float v, float aspect) const;

@@ -1,6 +1,8 @@
 // Compiling, linking, uniforms.
 #include "player/gl/program.h"
 
+#include <glm/gtc/type_ptr.hpp>
+
 #include <array>
 
 #include "paim/base/error.h"
@@ -81,8 +83,8 @@ void Program::set(const char* uniform, const Eigen::Matrix3f& value) const {
     glUniformMatrix3fv(location(uniform), 1, GL_FALSE, value.data());
 }
 
-void Program::set(const char* uniform, const Eigen::Matrix4f& value) const {
-    glUniformMatrix4fv(location(uniform), 1, GL_FALSE, value.data());
+void Program::set(const char* uniform, const glm::mat4& value) const {
+    glUniformMatrix4fv(location(uniform), 1, GL_FALSE, glm::value_ptr(value));
 }
 
 void Program::set_texture(const char* sampler, int unit, const TextureHandle& texture) const {

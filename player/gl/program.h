@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include <glm/mat4x4.hpp>
 #include <string>
 #include <string_view>
 
@@ -24,7 +25,7 @@ class Program {
     void set(const char* uniform, float value) const;
     void set(const char* uniform, const Eigen::Vector2f& value) const;
     void set(const char* uniform, const Eigen::Matrix3f& value) const;
-    void set(const char* uniform, const Eigen::Matrix4f& value) const;
+    void set(const char* uniform, const glm::mat4& value) const;
 
     // Binds a 2D texture to the unit and hands the unit to the sampler.
     void set_texture(const char* sampler, int unit, const TextureHandle& texture) const;

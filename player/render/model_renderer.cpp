@@ -7,6 +7,7 @@
 #include "paim/base/error.h"
 #include "paim/codec/svd_decoder.h"
 #include "player/gl/check.h"
+#include "player/render/clip_from_world.h"
 #include "player/render/depth_range.h"
 #include "player/render/group_gather.h"
 #include "player/shaders/sources.h"
@@ -174,10 +175,7 @@ void ModelRenderer::draw(const Frame& frame, const LightCoefficients& light, flo
     integer("groups_in_use", (bands * bands + kGroupSize - 1) / kGroupSize);
     integer("albedo_stride", model_.albedo.values.size() == 1 ? 0 : 1);
     const DepthRange depth = depth_range(frame.camera, frame.bounds);
-    const Eigen::Matrix4f clip_from_world =
-        frame.camera.projection(aspect, depth.near_distance, depth.far_distance) *
-        frame.camera.view();
-    program_.set("clip_from_world", clip_from_world);
+    program_.set("clip_from_world", clip_from_world(frame.camera, aspect, depth));
 
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);

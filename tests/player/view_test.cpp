@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "player/render/clip_from_world.h"
 #include "player/render/cost.h"
 #include "player/render/depth_range.h"
 #include "player/ui/keys.h"
@@ -187,18 +188,29 @@ TEST(OrbitCamera, MovesWithTheMouse) {
     EXPECT_TRUE(orbit.camera().eye.allFinite());
 }
 
+TEST(ClipFromWorld, SeesWhatTheRaysOfTheCameraSee) {
+    const float aspect = 1.5f;
+    const Camera camera = frame_bounds(unit_bounds(), aspect);
+    const glm::mat4 to_clip = clip_from_world(camera, aspect, {0.1f, 100.0f});
+    for (const auto& [u, v] : {std::pair{0.5f, 0.5f}, {0.1f, 0.9f}, {0.99f, 0.3f}}) {
+        const Vec3f point = camera.eye + 5.0f * camera.ray_direction(u, v, aspect);
+        const glm::vec4 clip = to_clip * glm::vec4(point.x(), point.y(), point.z(), 1.0f);
+        EXPECT_NEAR(clip.x / clip.w, 2.0f * u - 1.0f, 1e-5f);
+        EXPECT_NEAR(clip.y / clip.w, 1.0f - 2.0f * v, 1e-5f);
+    }
+}
+
 TEST(DepthRange, HoldsTheBounds) {
     const Camera camera = frame_bounds(unit_bounds(), 1.0f, 0.5f, 0.3f);
     const DepthRange range = depth_range(camera, unit_bounds());
-    const Eigen::Matrix4f clip_from_world =
-        camera.projection(1.0f, range.near_distance, range.far_distance) * camera.view();
+    const glm::mat4 to_clip = clip_from_world(camera, 1.0f, range);
     for (int corner = 0; corner < 8; ++corner) {
         const Bounds bounds = unit_bounds();
-        const Eigen::Vector4f world((corner & 1) ? bounds.lower.x() : bounds.upper.x(),
-                                    (corner & 2) ? bounds.lower.y() : bounds.upper.y(),
-                                    (corner & 4) ? bounds.lower.z() : bounds.upper.z(), 1.0f);
-        const Eigen::Vector4f clip = clip_from_world * world;
-        EXPECT_LT(std::abs(clip.z()), clip.w());
+        const glm::vec4 world((corner & 1) ? bounds.lower.x() : bounds.upper.x(),
+                              (corner & 2) ? bounds.lower.y() : bounds.upper.y(),
+                              (corner & 4) ? bounds.lower.z() : bounds.upper.z(), 1.0f);
+        const glm::vec4 clip = to_clip * world;
+        EXPECT_LT(std::abs(clip.z), clip.w);
     }
     // Tight: what is in front of the bounds gets no depths.
     EXPECT_GT(range.near_distance, 0.3f * range.far_distance);

@@ -1,0 +1,15 @@
+// The shared camera as OpenGL wants it.
+#pragma once
+
+#include <glm/mat4x4.hpp>
+
+#include "paim/shade/camera.h"
+#include "player/render/depth_range.h"
+
+namespace paim::player {
+
+// World to OpenGL's clip space (z from −1 to 1): the same picture as Camera::ray_direction() sees.
+// aspect  width / height
+glm::mat4 clip_from_world(const Camera& camera, float aspect, const DepthRange& depth);
+
+}  // namespace paim::player
