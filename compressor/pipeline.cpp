@@ -64,9 +64,7 @@ ordered_json bake(const CompressOptions& options, const std::filesystem::path& d
                                               first, last, [&](uint32_t) { baking.advance(); });
     baking.finish();
 
-    const double noise = summary.total.transfer_rms > 0.0
-                             ? summary.total.noise_rms / summary.total.transfer_rms
-                             : 0.0;
+    const double noise = summary.total.relative_noise();
     ordered_json json;
     json["bake"] = directory.string();
     json["num_vertices"] = num_vertices;

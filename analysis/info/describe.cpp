@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "paim/format/bake_directory.h"
 #include "paim/format/paim_file.h"
@@ -70,23 +69,16 @@ ordered_json describe_bake(const std::filesystem::path& path) {
     json["rays"] = identity.rays;
     json["seed"] = fmt::format("{:016x}", identity.seed);
     json["normals"] = identity.normals;
-    uint64_t rays = 0, blocked = 0, size_bytes = 0, zero_normals = 0;
-    double transfer_energy = 0.0, noise_energy = 0.0;
+    uint64_t size_bytes = 0;
     for (uint32_t p = 0; p < bake.num_poses(); ++p) {
-        const PoseStatistics statistics = bake.read_statistics(p);
-        rays += statistics.rays;
-        blocked += statistics.blocked;
-        zero_normals += statistics.zero_normals;
-        transfer_energy += statistics.transfer_rms * statistics.transfer_rms;
-        noise_energy += statistics.noise_rms * statistics.noise_rms;
         size_bytes += std::filesystem::file_size(bake_pose_file(path, p));
     }
+    const PoseStatistics total = bake.total_statistics();
     json["size_bytes"] = size_bytes;
-    json["rays_traced"] = rays;
-    json["rays_blocked"] = blocked;
-    json["vertices_without_normal"] = zero_normals;
-    json["relative_noise"] =
-        transfer_energy > 0.0 ? std::sqrt(noise_energy / transfer_energy) : 0.0;
+    json["rays_traced"] = total.rays;
+    json["rays_blocked"] = total.blocked;
+    json["vertices_without_normal"] = total.zero_normals;
+    json["relative_noise"] = total.relative_noise();
     return json;
 }
 
@@ -103,7 +95,8 @@ void append_lines(const ordered_json& json, int indent, std::string& text) {
         } else if (value.is_array()) {
             for (const auto& entry : value) {
                 text += ' ';
-                text += entry.is_number() ? fmt::format("{:.5g}", entry.get<double>()) : entry.dump();
+                text +=
+                    entry.is_number() ? fmt::format("{:.5g}", entry.get<double>()) : entry.dump();
             }
             text += '\n';
         } else {

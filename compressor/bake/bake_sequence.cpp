@@ -66,8 +66,7 @@ BakeSummary bake_sequence(const PoseSource& source, const BakeOptions& options,
     const TransferBaker baker(options);
     ReadAhead ahead(source);
     BakeSummary summary;
-    double transfer_energy = 0.0;
-    double noise_energy = 0.0;
+    std::vector<PoseStatistics> poses;
     for (uint32_t p = first; p <= last; ++p) {
         PoseStatistics statistics;
         if (writer.has_pose(p)) {
@@ -81,16 +80,10 @@ BakeSummary bake_sequence(const PoseSource& source, const BakeOptions& options,
             statistics = baked.statistics;
             ++summary.baked;
         }
-        summary.total.rays += statistics.rays;
-        summary.total.blocked += statistics.blocked;
-        summary.total.zero_normals += statistics.zero_normals;
-        transfer_energy += statistics.transfer_rms * statistics.transfer_rms;
-        noise_energy += statistics.noise_rms * statistics.noise_rms;
+        poses.push_back(statistics);
         on_pose(p);
     }
-    const double num_poses = last - first + 1.0;
-    summary.total.transfer_rms = std::sqrt(transfer_energy / num_poses);
-    summary.total.noise_rms = std::sqrt(noise_energy / num_poses);
+    summary.total = combine(poses);
     return summary;
 }
 

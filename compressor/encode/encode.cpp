@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 #include "compressor/encode/bake_rows.h"
 #include "compressor/encode/principal_components.h"
@@ -46,19 +45,12 @@ void stream(PaimWriter& writer, Part part, const RowSource& rows,
 
 std::string provenance(const BakeReader& bake) {
     const BakeIdentity& identity = bake.identity();
-    double transfer_energy = 0.0;
-    double noise_energy = 0.0;
-    for (uint32_t p = 0; p < bake.num_poses(); ++p) {
-        const PoseStatistics statistics = bake.read_statistics(p);
-        transfer_energy += statistics.transfer_rms * statistics.transfer_rms;
-        noise_energy += statistics.noise_rms * statistics.noise_rms;
-    }
     nlohmann::ordered_json json;
     json["bake_bands"] = identity.layout.bands;
     json["rays"] = identity.rays;
     json["seed"] = fmt::format("{:016x}", identity.seed);
     json["normals"] = identity.normals;
-    json["bake_noise"] = transfer_energy > 0.0 ? std::sqrt(noise_energy / transfer_energy) : 0.0;
+    json["bake_noise"] = bake.total_statistics().relative_noise();
     return json.dump();
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "paim/format/container_reader.h"
+#include "paim/format/pose_statistics.h"
 #include "paim/mesh/pose_source.h"
 #include "paim/transfer/layout.h"
 
@@ -37,15 +38,6 @@ struct BakeIdentity {
 
 // Checksum of what all poses share.
 uint64_t mesh_checksum(const Topology& topology, const Albedo& albedo);
-
-// What the bake of one pose found out about itself.
-struct PoseStatistics {
-    uint64_t rays = 0;          // traced
-    uint64_t blocked = 0;       // of these
-    uint32_t zero_normals = 0;  // vertices without a normal: their transfer is 0
-    double transfer_rms = 0.0;  // over vertices and coefficients
-    double noise_rms = 0.0;     // its estimated standard error, from two independent halves
-};
 
 // One baked pose. Planes as in transfer/layout.h.
 struct BakedPose {
@@ -102,6 +94,9 @@ class BakeReader {
     PoseStatistics read_statistics(uint32_t p) const {
         return read_bake_statistics(directory_, identity_checksum_, p);
     }
+
+    // Of all poses together.
+    PoseStatistics total_statistics() const;
 
     // Checks the checksums of all poses, once, before rows are streamed.
     void verify_all() const;

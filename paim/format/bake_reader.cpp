@@ -108,6 +108,12 @@ PoseStatistics read_bake_statistics(const std::filesystem::path& directory,
     return read_statistics_of(reader, identity_checksum, p);
 }
 
+PoseStatistics BakeReader::total_statistics() const {
+    std::vector<PoseStatistics> poses(num_poses());
+    for (uint32_t p = 0; p < num_poses(); ++p) poses[p] = read_statistics(p);
+    return combine(poses);
+}
+
 void BakeReader::verify_all() const {
     parallel_for(num_poses(), 1, [&](size_t p, size_t) { read_pose(static_cast<uint32_t>(p)); });
 }

@@ -6,6 +6,7 @@
 #include "paim/base/error.h"
 #include "paim/codec/sequence_bounds.h"
 #include "paim/codec/svd_decoder.h"
+#include "paim/mesh/planes.h"
 #include "player/gl/check.h"
 #include "player/gl/headless_context.h"
 #include "player/gl/target.h"
@@ -42,13 +43,7 @@ Image draw(ModelRenderer& renderer, const Frame& frame, const LightCoefficients&
 Image reference(const Model& model, const Frame& frame, const LightCoefficients& light) {
     DecodedPose pose;
     SvdDecoder(model).decode(frame.time, frame.limits, pose);
-    const size_t num_vertices = model.topology.num_vertices;
-    std::vector<Vec3f> positions(num_vertices);
-    for (size_t v = 0; v < num_vertices; ++v) {
-        positions[v] = Vec3f(pose.positions[v], pose.positions[num_vertices + v],
-                             pose.positions[2 * num_vertices + v]);
-    }
-    return ray_cast(model.topology, positions,
+    return ray_cast(model.topology, from_planes(pose.positions),
                     vertex_radiance(model, frame.time, frame.limits, light), frame.camera, kWidth,
                     kHeight, kBackground);
 }

@@ -14,6 +14,7 @@
 #include "paim/image/exr.h"
 #include "paim/light/environment.h"
 #include "paim/light/sky.h"
+#include "paim/mesh/planes.h"
 #include "tests/cli/run_tool.h"
 #include "tests/player/ray_cast.h"
 #include "tests/player/test_model.h"
@@ -60,19 +61,14 @@ Image expected_picture(const Model& model, double time, double rotation_rad, int
                        const Vec3f& background) {
     DecodedPose pose;
     SvdDecoder(model).decode(time, {}, pose);
-    std::vector<Vec3f> positions(model.topology.num_vertices);
-    for (size_t v = 0; v < positions.size(); ++v) {
-        positions[v] = {pose.positions[v], pose.positions[positions.size() + v],
-                        pose.positions[2 * positions.size() + v]};
-    }
     const LightCoefficients light =
         turn_about_y(EnvironmentLight(make_sky())
                          .coefficients(Vec3f::Zero(), static_cast<int>(model.layout.bands)),
                      rotation_rad);
     const Camera camera = frame_bounds(sequence_bounds(model),
                                        static_cast<float>(width) / static_cast<float>(height));
-    return ray_cast(model.topology, positions, vertex_radiance(model, time, {}, light), camera,
-                    width, height, background);
+    return ray_cast(model.topology, from_planes(pose.positions),
+                    vertex_radiance(model, time, {}, light), camera, width, height, background);
 }
 
 TEST_F(PlayTest, SnapshotIsThePictureOfTheLibrary) {

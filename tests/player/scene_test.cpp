@@ -8,6 +8,7 @@
 #include "paim/codec/sequence_bounds.h"
 #include "paim/codec/svd_decoder.h"
 #include "paim/light/environment.h"
+#include "paim/mesh/planes.h"
 #include "player/gl/check.h"
 #include "player/gl/headless_context.h"
 #include "player/render/fit_image.h"
@@ -104,14 +105,9 @@ TEST_P(SceneTest, LightTurnsWithTheBackground) {
         frame.env_rotation_rad = rotation_rad;
         const LightCoefficients light =
             turn_about_y(environment.coefficients(Vec3f::Zero(), 5), rotation_rad);
-        std::vector<Vec3f> positions(model.topology.num_vertices);
         DecodedPose pose;
         SvdDecoder(model).decode(frame.time, frame.limits, pose);
-        for (size_t v = 0; v < positions.size(); ++v) {
-            positions[v] = {pose.positions[v], pose.positions[positions.size() + v],
-                            pose.positions[2 * positions.size() + v]};
-        }
-        const Image expected = ray_cast(model.topology, positions,
+        const Image expected = ray_cast(model.topology, from_planes(pose.positions),
                                         vertex_radiance(model, frame.time, frame.limits, light),
                                         frame.camera, kWidth, kHeight, frame.background.color);
         const Image image = renderer.render(frame, kWidth, kHeight, 1);
