@@ -57,17 +57,15 @@ std::pair<double, double> x_range(const std::vector<Series>& series) {
 }
 
 std::string plot_script(const std::filesystem::path& output, const std::string& title,
-                        const std::string& x_label, bool log_x, const std::vector<Series>& series) {
+                        const std::string& x_label, const std::vector<Series>& series) {
     const auto [lowest, highest] = x_range(series);
     std::string script = fmt::format(
         "set terminal svg size 640,420 noenhanced font 'sans,13' background 'white'\n"
-        "set output {}\nset title {} noenhanced\nset xlabel {}\nset ylabel 'error (fraction of "
-        "1)'\n"
-        "set logscale y\nset format y '%g'\nset yrange [{:g}:2]\nset xrange [{:.9g}:{:.9g}]\nset "
-        "grid\n"
-        "set key inside left bottom\n{}",
-        quoted(output.string()), quoted(title), quoted(x_label), kFloor, lowest, highest,
-        log_x ? "set logscale x\n" : "");
+        "set output {}\nset title {} noenhanced\nset xlabel {}\n"
+        "set ylabel 'error (fraction of 1)'\nset logscale y\nset format y '%g'\n"
+        "set yrange [{:g}:2]\nset xrange [{:.9g}:{:.9g}]\n"
+        "set grid\nset key inside left bottom\n",
+        quoted(output.string()), quoted(title), quoted(x_label), kFloor, lowest, highest);
     for (size_t j = 0; j < series.size(); ++j) {
         script += fmt::format("$data{} << EOD\n", j);
         for (const auto& [x, y] : series[j].points) {
@@ -115,10 +113,10 @@ bool have_gnuplot() {
 
 void write_plots(const std::filesystem::path& directory, const Curve& curve,
                  const std::vector<NamedLight>& lights) {
-    const auto draw = [&](const std::string& suffix, const std::string& x_label, bool log_x,
+    const auto draw = [&](const std::string& suffix, const std::string& x_label,
                           const std::vector<Series>& series) {
         const auto output = directory / (curve.name + suffix + ".svg");
-        run_gnuplot(plot_script(output, curve.title, x_label, log_x, series), output);
+        run_gnuplot(plot_script(output, curve.title, x_label, series), output);
     };
     std::vector<Series> errors{theory_series("theory", curve.theory_errors),
                                theory_series("energy", curve.energy_errors)};
@@ -127,12 +125,12 @@ void write_plots(const std::filesystem::path& directory, const Curve& curve,
          })) {
         errors.push_back(std::move(series));
     }
-    draw("", curve.name == "bands" ? "bands" : "components", false, errors);
-    draw("_bytes", "megabytes of the whole file", false,
+    draw("", curve.name == "bands" ? "bands" : "components", errors);
+    draw("_bytes", "megabytes of the whole file",
          visual_series(curve, lights, [](const CurvePoint& point) {
              return static_cast<double>(point.size_bytes) / 1e6;
          }));
-    draw("_time", "ms to decode a pose", true,
+    draw("_time", "ms to decode a pose",
          visual_series(curve, lights, [](const CurvePoint& point) { return point.decode_ms; }));
 }
 
