@@ -43,7 +43,7 @@ struct Series {
 };
 
 // The range of x over all series; a little round a single value, which has no extent.
-std::pair<double, double> x_range(const std::vector<Series>& series) {
+std::pair<double, double> x_range(const std::vector<Series>& series, bool from_zero) {
     double lowest = std::numeric_limits<double>::infinity();
     double highest = -lowest;
     for (const Series& one : series) {
@@ -52,13 +52,15 @@ std::pair<double, double> x_range(const std::vector<Series>& series) {
             highest = std::max(highest, x);
         }
     }
+    if (from_zero) lowest = std::min(lowest, 0.0);
     if (lowest < highest) return {lowest, highest};
     return lowest == 0.0 ? std::pair(-1.0, 1.0) : std::pair(0.9 * lowest, 1.1 * highest);
 }
 
 std::string plot_script(const std::filesystem::path& output, const std::string& title,
-                        const std::string& x_label, const std::vector<Series>& series) {
-    const auto [lowest, highest] = x_range(series);
+                        const std::string& x_label, bool from_zero,
+                        const std::vector<Series>& series) {
+    const auto [lowest, highest] = x_range(series, from_zero);
     std::string script = fmt::format(
         "set terminal svg size 640,420 noenhanced font 'sans,13' background 'white'\n"
         "set output {}\nset title {} noenhanced\nset xlabel {}\n"
@@ -114,9 +116,9 @@ bool have_gnuplot() {
 void write_plots(const std::filesystem::path& directory, const Curve& curve,
                  const std::vector<NamedLight>& lights) {
     const auto draw = [&](const std::string& suffix, const std::string& x_label,
-                          const std::vector<Series>& series) {
+                          const std::vector<Series>& series, bool from_zero = false) {
         const auto output = directory / (curve.name + suffix + ".svg");
-        run_gnuplot(plot_script(output, curve.title, x_label, series), output);
+        run_gnuplot(plot_script(output, curve.title, x_label, from_zero, series), output);
     };
     std::vector<Series> errors{theory_series("theory", curve.theory_errors),
                                theory_series("energy", curve.energy_errors)};
@@ -131,7 +133,8 @@ void write_plots(const std::filesystem::path& directory, const Curve& curve,
              return static_cast<double>(point.size_bytes) / 1e6;
          }));
     draw("_time", "ms to decode a pose",
-         visual_series(curve, lights, [](const CurvePoint& point) { return point.decode_ms; }));
+         visual_series(curve, lights, [](const CurvePoint& point) { return point.decode_ms; }),
+         true);
 }
 
 }  // namespace paim

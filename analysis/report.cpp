@@ -60,8 +60,8 @@ std::string label(const Curve& curve, const CurvePoint& point) {
 
 // Writes one image and returns its figure element.
 std::string figure(const std::filesystem::path& directory, const std::string& file,
-                   const std::string& caption, const Image& image) {
-    write_png(directory / file, image);
+                   const std::string& caption, const Image& image, const ToneCurve& curve) {
+    write_png(directory / file, image, curve);
     return fmt::format("<figure><img src=\"{0}\" alt=\"{1}\"><figcaption>{1}</figcaption></figure>",
                        escape(file), escape(caption));
 }
@@ -70,18 +70,20 @@ std::string strips(const std::filesystem::path& directory, const Curve& curve, c
                    const std::vector<Image>& references) {
     std::string html;
     for (size_t light = 0; light < stage.lights().size(); ++light) {
-        html += fmt::format("<p>Light: {}</p>\n<div class=\"strip\">",
-                            escape(stage.lights()[light].name));
         const Image& reference = references[light];
-        html += figure(directory, fmt::format("images/baked_{}.png", light), "as baked", reference);
+        const ToneCurve tone{suggested_exposure_ev(reference), 0.0f};
+        html += fmt::format("<p>Light: {}, shown at {:+.1f} EV</p>\n<div class=\"strip\">",
+                            escape(stage.lights()[light].name), tone.exposure_ev);
+        html += figure(directory, fmt::format("images/baked_{}.png", light), "as baked", reference,
+                       tone);
         std::string differences;
         for (const CurvePoint& point : curve.points) {
             const std::string stem = fmt::format("images/{}_{}_{}", curve.name, light, point.value);
             const Image& image = point.images[light];
-            html += figure(directory, stem + ".png", label(curve, point), image);
+            html += figure(directory, stem + ".png", label(curve, point), image, tone);
             differences += figure(directory, stem + "_difference.png",
                                   fmt::format("seen: {:.3g} %", 100.0 * point.visual_error[light]),
-                                  difference(image, reference));
+                                  difference(image, reference), tone);
         }
         html +=
             "</div>\n<div class=\"strip\"><figure style=\"width:180px\"><figcaption>difference "
@@ -126,6 +128,14 @@ void write_report(const std::filesystem::path& directory, const std::string& tit
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{0}</title>"
         "<style>{1}</style></head><body>\n<h1>{0}</h1>\n<p>{2}</p>\n",
         escape(title), kStyle, escape(summary));
+    html +=
+        "<p><b>theory</b>: share of the singular values that is dropped (E5). <b>energy</b>: its "
+        "root-mean-square form, the relative error of what moves. <b>seen</b>: difference of "
+        "rendered "
+        "images relative to the bake's (E6). <b>positions</b>: distance from the bake's, in scene "
+        "units. <b>transfer</b>: relative error of the transfer itself. <b>decode</b>: median time "
+        "to "
+        "rebuild a pose on this machine, rough. docs/metrics.md defines them.</p>\n";
     for (const Curve& curve : curves) {
         html += fmt::format("<h2>{}</h2>\n", escape(curve.title));
         if (with_plots) {

@@ -17,7 +17,7 @@ struct RawOptions {
     std::string geometry_components = "auto";
     std::string transfer_components = "auto";
     std::string precision = "f32";
-    std::string auto_energy_error = "1%";
+    std::string auto_transfer_error = "1%";
     uint32_t encode_bands = 0;
 };
 
@@ -54,9 +54,10 @@ void add_encode_options(CLI::App& app, CompressOptions& options, RawOptions& raw
     app.add_option("--transfer-components", raw.transfer_components,
                    "Components of the transfer: a number, 'all', or 'auto'")
         ->capture_default_str();
-    app.add_option("--auto-energy-error", raw.auto_energy_error,
-                   "What 'auto' keeps the energy error below, a fraction or percentage; bake noise "
-                   "counts, so far below it nearly all components are kept")
+    app.add_option("--auto-transfer-error", raw.auto_transfer_error,
+                   "What 'auto' keeps the transfer's energy error below, a fraction or percentage; "
+                   "bake noise counts, so far below it nearly all components are kept (the "
+                   "geometry's is always 1 %)")
         ->capture_default_str();
     app.add_option("--precision", raw.precision,
                    "How components are stored: f32 or f16 (half the size, relative rounding "
@@ -99,8 +100,8 @@ void apply(const RawOptions& raw, CompressOptions& options) {
     }
     options.encode.geometry = parse_components(raw.geometry_components, "--geometry-components");
     options.encode.transfer = parse_components(raw.transfer_components, "--transfer-components");
-    options.encode.automatic_energy_error =
-        cli::parse_fraction(raw.auto_energy_error, "--auto-energy-error");
+    options.encode.automatic_transfer_error =
+        cli::parse_fraction(raw.auto_transfer_error, "--auto-transfer-error");
     options.encode.precision = raw.precision == "f16" ? Precision::f16 : Precision::f32;
     if (raw.encode_bands > 0) options.encode.bands = raw.encode_bands;
 }
@@ -171,12 +172,11 @@ std::optional<CompressOptions> parse_options(int argc, const char* const* argv, 
     } else {
         if (options.inputs.empty()) throw_usage("no OBJ files given; see --help");
         if (options.output.empty()) throw_usage("--output is required; see --help");
-        if (options.output.extension() == ".bake") {
-            throw_usage(
-                "--output: expected the .paim file to write, got '{}'; its bake is kept "
-                "beside it under that name",
-                options.output.string());
-        }
+    }
+    if (options.command != CompressOptions::Command::bake &&
+        options.output.extension() != ".paim") {
+        throw_usage("--output: expected a name that ends in .paim, got '{}'",
+                    options.output.string());
     }
     apply(raw, options);
     return options;

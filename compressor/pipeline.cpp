@@ -26,7 +26,8 @@ void check_output(const std::filesystem::path& output) {
     const std::filesystem::path parent = std::filesystem::absolute(output).parent_path();
     std::error_code ignored;
     if (!std::filesystem::is_directory(parent, ignored)) {
-        throw_output_failed("{}: {} is not a directory", output.string(), parent.string());
+        throw_output_failed("{}: the directory {} does not exist", output.string(),
+                            parent.string());
     }
     if (::access(parent.c_str(), W_OK) != 0) {
         throw_output_failed("{}: cannot write to {}: {}", output.string(), parent.string(),
@@ -138,6 +139,16 @@ ordered_json encode_to(const CompressOptions& options, const std::filesystem::pa
             "  transfer: {} of {} components, energy error {:.3g} %, theoretical error {:.3g} %\n",
             summary.transfer_components, summary.transfer_rank,
             100.0 * summary.transfer_energy_error, 100.0 * summary.transfer_theory_error);
+    }
+    const bool keeps_nearly_all = summary.transfer_components > summary.transfer_rank * 4 / 5;
+    if (options.encode.transfer.kind == ComponentChoice::Kind::automatic && keeps_nearly_all &&
+        summary.transfer_rank > 10) {
+        fmt::print(
+            stderr,
+            "note: 'auto' kept nearly all transfer components, mostly for the bake's noise "
+            "({:.1f} % of the transfer); --transfer-components 12 or --auto-transfer-error 10% "
+            "make it small, and paim-analyze shows what that costs\n",
+            100.0 * reader.total_statistics().relative_noise());
     }
     return json;
 }

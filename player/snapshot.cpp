@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "paim/image/exr.h"
 #include "paim/image/png.h"
 #include "player/gl/headless_context.h"
@@ -14,6 +17,20 @@ namespace paim::player {
 namespace {
 
 constexpr int kDefaultSamples = 2;
+
+// A note where a bright light leaves little but white.
+void warn_if_clipped(const Image& image, float exposure_ev) {
+    constexpr double kMuch = 0.25;
+    const float white = std::exp2(-exposure_ev);
+    const auto clipped =
+        std::count_if(image.pixels.begin(), image.pixels.end(),
+                      [&](const Vec3f& pixel) { return pixel.maxCoeff() > white; });
+    const double share = static_cast<double>(clipped) / static_cast<double>(image.pixels.size());
+    if (share <= kMuch) return;
+    fmt::print(stderr,
+               "note: {:.0f} % of the picture is brighter than white; try --exposure {:.1f}\n",
+               100.0 * share, suggested_exposure_ev(image));
+}
 
 }  // namespace
 
@@ -28,6 +45,7 @@ void take_snapshot(const Options& options, const Scene& scene) {
         write_exr(path, image);
     } else {
         write_png(path, image, options.tone_curve);
+        warn_if_clipped(image, options.tone_curve.exposure_ev);
     }
     if (!options.json) return;
     nlohmann::ordered_json json = describe_frame(options, scene, context->description(), samples);

@@ -20,15 +20,15 @@ namespace {
 // Everything about a part but its mean and components, which are streamed later.
 LowRankMatrix start_matrix(const BakeReader& bake, const RowSource& rows,
                            const PrincipalComponents& components, const ComponentChoice& choice,
-                           const EncodeOptions& options) {
+                           double automatic_error, const EncodeOptions& options) {
     LowRankMatrix matrix;
     matrix.num_vertices = bake.identity().num_vertices;
     matrix.num_planes = static_cast<uint32_t>(rows.num_rows() / matrix.num_vertices);
     matrix.num_poses = bake.num_poses();
     matrix.precision = options.precision;
     matrix.singular_values = components.singular_values;
-    matrix.num_components = choose_components(choice, matrix.singular_values, components.rank(),
-                                              options.automatic_energy_error);
+    matrix.num_components =
+        choose_components(choice, matrix.singular_values, components.rank(), automatic_error);
     matrix.weights = component_weights(components, matrix.num_components, rows.num_rows());
     return matrix;
 }
@@ -96,8 +96,10 @@ EncodeSummary encode(const BakeReader& bake, const EncodeOptions& options,
     const ReportingRows transfer_rows(baked_transfer, on_rows);
     const PrincipalComponents geometry = principal_components(geometry_rows);
     const PrincipalComponents transfer = principal_components(transfer_rows);
-    model.geometry = start_matrix(bake, geometry_rows, geometry, options.geometry, options);
-    model.transfer = start_matrix(bake, transfer_rows, transfer, options.transfer, options);
+    model.geometry = start_matrix(bake, geometry_rows, geometry, options.geometry,
+                                  options.automatic_geometry_error, options);
+    model.transfer = start_matrix(bake, transfer_rows, transfer, options.transfer,
+                                  options.automatic_transfer_error, options);
 
     PaimWriter writer(output, model);
     stream(writer, Part::geometry, geometry_rows, geometry, model.geometry.num_components);

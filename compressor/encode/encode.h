@@ -24,7 +24,8 @@ struct EncodeOptions {
     ComponentChoice geometry;
     ComponentChoice transfer;
     // What `automatic` keeps the energy error below.
-    double automatic_energy_error = 0.01;
+    double automatic_geometry_error = 0.01;
+    double automatic_transfer_error = 0.01;
     uint32_t bands = std::numeric_limits<uint32_t>::max();  // more than the bake has means all
     Precision precision = Precision::f32;
     float frames_per_second = 24.0f;

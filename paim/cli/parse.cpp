@@ -1,6 +1,7 @@
 // Parsing of values that several tools take.
 #include "paim/cli/parse.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <system_error>
@@ -26,6 +27,15 @@ int parse(CLI::App& app, int argc, const char* const* argv) {
         app.parse(argc, argv);
     } catch (const CLI::Success& success) {  // --help, --version
         return app.exit(success);
+    } catch (const CLI::ExtrasError&) {
+        // The first of them that looks like an option is the mistake; what follows may be its value.
+        const std::vector<std::string> extras = app.remaining(true);
+        const auto option = std::find_if(extras.begin(), extras.end(), [](const std::string& text) {
+            return text.starts_with('-');
+        });
+        const bool found = option != extras.end();
+        throw_usage("unknown {} '{}'; see --help", found ? "option" : "argument",
+                    found ? *option : extras.front());
     } catch (const CLI::ParseError& error) {
         app.exit(error);
         return static_cast<int>(ExitCode::usage);

@@ -83,6 +83,12 @@ void read_matrix(const ContainerReader& reader, Part part, LowRankMatrix& matrix
 }  // namespace
 
 Model read_paim(const std::filesystem::path& path) {
+    if (std::filesystem::is_directory(path)) {
+        throw_bad_input(
+            "{}: is a directory, expected a .paim file (paim-compress encode makes one of a "
+            ".bake)",
+            path.string());
+    }
     const ContainerReader reader(path, section::kKindAnimation);
     const Metadata metadata(reader.read_text(reader.require(section::kMetadata, ScalarType::u8)),
                             reader.path());

@@ -35,4 +35,16 @@ std::vector<std::array<uint8_t, 3>> tone_map(const Image& image, const ToneCurve
     return display;
 }
 
+float suggested_exposure_ev(const Image& image) {
+    std::vector<float> brightness;
+    for (const Vec3f& pixel : image.pixels) {
+        const float largest = pixel.maxCoeff();
+        if (largest > 0.0f && std::isfinite(largest)) brightness.push_back(largest);
+    }
+    if (brightness.empty()) return 0.0f;
+    const auto at = brightness.begin() + static_cast<ptrdiff_t>(brightness.size() * 49 / 50);
+    std::nth_element(brightness.begin(), at, brightness.end());
+    return -std::log2(*at);
+}
+
 }  // namespace paim

@@ -20,7 +20,7 @@ constexpr double kDegree = kPi / 180.0;
 constexpr double kSunElevation = 28.0 * kDegree;
 constexpr double kSunAzimuth = -50.0 * kDegree;  // from +Z towards +X
 // Brings the average to about a half, so that light surfaces are well exposed at 0 EV.
-constexpr double kBrightness = 0.6;
+constexpr double kBrightness = 0.7;
 // Fully bright to the inner radius, dark from the outer one on; ten times the real sun.
 constexpr double kSunInner = 2.0 * kDegree;
 constexpr double kSunOuter = 4.0 * kDegree;
@@ -45,7 +45,7 @@ Vec3d sky_radiance(const Vec3d& direction, const Vec3d& sun) {
     const Vec3d haze(0.66, 0.76, 0.88);
     const Vec3d glow(0.62, 0.26, 0.02);
     const Vec3d halo(0.95, 0.66, 0.34);
-    const Vec3d disc(560.0, 435.0, 285.0);
+    const Vec3d disc(400.0, 315.0, 215.0);
     const Vec3d ground_near(0.17, 0.145, 0.115);
     const Vec3d ground_far(0.30, 0.27, 0.24);
 

@@ -51,8 +51,9 @@ class BadInput : public ToolTest {
 TEST_F(BadInput, MissingAndEmptySequences) {
     expect_bake_refusal(path("nothing.obj"), {path("nothing.obj") + ": cannot open: No such file"});
     expect_bake_refusal(path("no*.obj"), {path("no*.obj") + ": no OBJ files match this pattern"});
-    std::filesystem::create_directory(directory_ / "folder");
-    expect_bake_refusal(path("folder"), {path("folder") + ": no OBJ files in this directory"});
+    std::filesystem::create_directory(directory_ / "folder.paim");
+    expect_bake_refusal(path("folder.paim"),
+                        {path("folder.paim") + ": no OBJ files in this directory"});
     write("empty.obj", "");
     expect_bake_refusal(path("empty.obj"), {path("empty.obj") + ": no vertices"});
     write("points.obj", "v 0 0 0\nv 1 0 0\n");
@@ -128,10 +129,10 @@ TEST_F(BadInput, NeitherFileNorBake) {
     write("a.paim", std::string(1000, 'x'));
     expect_refusal(PAIM_INFO, {path("a.paim")}, 2, {path("a.paim") + ": not a Paim file"});
     expect_refusal(PAIM_INFO, {path("b.paim")}, 2, {path("b.paim") + ": cannot open"});
-    std::filesystem::create_directory(directory_ / "folder");
+    std::filesystem::create_directory(directory_ / "folder.paim");
     expect_no_reader_takes(
-        path("folder"),
-        {path("folder") + ": expected a .bake directory, got one without manifest"});
+        path("folder.paim"),
+        {path("folder.paim") + ": expected a .bake directory, got one without manifest"});
     expect_refusal(PAIM_COMPRESS, {"encode", path("a.paim"), "-o", path("out.paim")}, 2,
                    {path("a.paim") + ": expected a .bake directory, got a file"});
     expect_refusal(PAIM_COMPRESS, {"encode", path("b.bake"), "-o", path("out.paim")}, 2,
@@ -181,15 +182,15 @@ TEST_F(BadInput, PlacesThatCannotBeWritten) {
     const std::string bake = make_bake("x.bake");
     const std::string poses = path("plates");
     write("file", "in the way");
-    std::filesystem::create_directory(directory_ / "folder");
+    std::filesystem::create_directory(directory_ / "folder.paim");
     for (const std::string& output : {path("missing/x.paim"), path("file/x.paim")}) {
         expect_refusal(PAIM_COMPRESS, {"encode", bake, "-o", output}, 4, {output + ": "});
         expect_refusal(PAIM_COMPRESS, {poses, "-o", output}, 4, {output + ": "});
     }
-    expect_refusal(PAIM_COMPRESS, {"encode", bake, "-o", path("folder")}, 4,
-                   {path("folder") + ": is a directory"});
-    expect_refusal(PAIM_COMPRESS, {poses, "-o", path("folder")}, 4,
-                   {path("folder") + ": is a directory"});
+    expect_refusal(PAIM_COMPRESS, {"encode", bake, "-o", path("folder.paim")}, 4,
+                   {path("folder.paim") + ": is a directory"});
+    expect_refusal(PAIM_COMPRESS, {poses, "-o", path("folder.paim")}, 4,
+                   {path("folder.paim") + ": is a directory"});
     for (const std::string& output : {path("missing/x.bake"), path("file/x.bake"), path("file")}) {
         expect_refusal(PAIM_COMPRESS, {"bake", poses, "-o", output}, 4, {output + ": "});
     }

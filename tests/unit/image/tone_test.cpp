@@ -55,5 +55,13 @@ TEST(ToneMap, KeepsOrderAndChannels) {
     EXPECT_EQ(display[1], (std::array<uint8_t, 3>{0, 0, 255}));
 }
 
+TEST(SuggestedExposure, BringsNearlyAllPixelsBelowWhite) {
+    EXPECT_EQ(suggested_exposure_ev(Image(4, 4)), 0.0f);
+    Image image(10, 10, Vec3f(1.0f, 4.0f, 2.0f));
+    EXPECT_FLOAT_EQ(suggested_exposure_ev(image), -2.0f);
+    image.at(3, 3) = Vec3f::Constant(1e6f);  // one lamp in the picture does not make all else black
+    EXPECT_FLOAT_EQ(suggested_exposure_ev(image), -2.0f);
+}
+
 }  // namespace
 }  // namespace paim
