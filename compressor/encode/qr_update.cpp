@@ -64,6 +64,7 @@ MatrixXd compact_factor(const Panel& v, const VectorXd& tau) {
 void fold_rows(MatrixXd& r, MatrixXd& rows) {
     PAIM_CHECK_EQ(r.rows(), r.cols());
     PAIM_CHECK_EQ(rows.cols(), r.cols());
+    if (rows.rows() == 0) return;
     const Index n = r.cols();
     for (Index first = 0; first < n; first += kPanel) {
         const Index size = std::min(kPanel, n - first);
