@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <functional>
 #include <limits>
@@ -29,10 +30,14 @@ void run_gnuplot(const std::string& script, const std::filesystem::path& output)
     }
 }
 
-// Text within gnuplot's single quotes.
+// Text within gnuplot's single quotes. A line would end there, and what follows it be a command: control
+// characters become blanks, as file names may hold them.
 std::string quoted(const std::string& text) {
     std::string result = "'";
-    for (const char c : text) result += c == '\'' ? std::string("''") : std::string(1, c);
+    for (const char c : text) {
+        if (c == '\'') result += '\'';
+        result += std::iscntrl(static_cast<unsigned char>(c)) != 0 ? ' ' : c;
+    }
     return result + "'";
 }
 

@@ -1,7 +1,6 @@
 // Bakes a whole sequence, pose by pose.
 #include "compressor/bake/bake_sequence.h"
 
-#include <cmath>
 #include <future>
 
 #include "paim/base/check.h"

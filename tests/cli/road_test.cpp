@@ -153,6 +153,18 @@ TEST_F(Road, AnalysisHoldsTogether) {
     EXPECT_EQ(named, std::set<std::string>(names.begin(), names.end()));
 }
 
+TEST_F(Road, NamesOfLightsAreNoCommandsForGnuplot) {
+    const std::string bake = make_bake("x.bake");
+    // A quote, and a line that gnuplot would run: it would write into the current folder.
+    const std::string name = "it's\nset print 'ran'; print 1\n#.exr";
+    write_exr(directory_ / name, Image(16, 8));
+    const auto result = analyze({"--size", "16", "--poses", "1", "-o", path("out"), "--components",
+                                 "1", "--bands", "1", "--env", path(name), bake});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_FALSE(std::filesystem::exists("ran"));
+    EXPECT_NE(text_of("out/bands.svg").find("it's set print"), std::string::npos);
+}
+
 TEST_F(Road, OneEnvironmentFollowsEachOption) {
     const std::string bake = make_bake("x.bake");
     write_exr(directory_ / "dawn.exr", Image(16, 8));
