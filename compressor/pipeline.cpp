@@ -127,6 +127,12 @@ ordered_json encode_to(const CompressOptions& options, const std::filesystem::pa
                                  summary.geometry_theory_error, summary.geometry_energy_error);
     json["transfer"] = part_json(summary.transfer_components, summary.transfer_rank,
                                  summary.transfer_theory_error, summary.transfer_energy_error);
+    json["transfer"]["above_noise"] = summary.transfer_above_noise;
+    json["transfer"]["signal_error"] = summary.transfer_signal_error;
+    json["transfer"]["shrunk"] = summary.shrunk;
+    json["transfer"]["expected_error"] = summary.expected_error();
+    json["transfer"]["expected_truncation_error"] = summary.expected_truncation_error;
+    json["transfer"]["expected_noise_error"] = summary.expected_noise_error;
     json["size_bytes"] = summary.size_bytes;
     if (!options.json) {
         fmt::print("{}: {:.2f} MB, {} bands\n", options.output.string(),
@@ -139,16 +145,18 @@ ordered_json encode_to(const CompressOptions& options, const std::filesystem::pa
             "  transfer: {} of {} components, energy error {:.3g} %, theoretical error {:.3g} %\n",
             summary.transfer_components, summary.transfer_rank,
             100.0 * summary.transfer_energy_error, 100.0 * summary.transfer_theory_error);
-    }
-    const bool keeps_nearly_all = summary.transfer_components > summary.transfer_rank * 4 / 5;
-    if (options.encode.transfer.kind == ComponentChoice::Kind::automatic && keeps_nearly_all &&
-        summary.transfer_rank > 10) {
         fmt::print(
-            stderr,
-            "note: 'auto' kept nearly all transfer components, mostly for the bake's noise "
-            "({:.1f} % of the transfer); --transfer-components 12 or --auto-transfer-error 10% "
-            "make it small, and paim-analyze shows what that costs\n",
-            100.0 * reader.total_statistics().relative_noise());
+            "  expected error of the transfer: {:.2g} % ({:.2g} % dropped components, {:.2g} % "
+            "bake "
+            "noise{})\n",
+            100.0 * summary.expected_error(), 100.0 * summary.expected_truncation_error,
+            100.0 * summary.expected_noise_error, summary.shrunk ? ", shrunk" : "");
+    }
+    if (summary.expected_noise_error > summary.expected_truncation_error && !options.quiet &&
+        !options.json) {
+        fmt::print(stderr,
+                   "note: most of the error is bake noise: more rays would help more than more "
+                   "components\n");
     }
     return json;
 }

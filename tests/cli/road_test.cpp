@@ -88,7 +88,7 @@ TEST_F(Road, CompressReportsInJson) {
     EXPECT_EQ(json["bake"]["poses_baked"], 4);
     EXPECT_EQ(json["bake"]["rays_traced"], 16 * 4 * json["bake"]["num_vertices"].get<int>());
     EXPECT_EQ(json["encode"]["size_bytes"], std::filesystem::file_size(path("x.paim")));
-    EXPECT_LT(json["encode"]["transfer"]["energy_error"], 0.01);
+    EXPECT_LT(json["encode"]["transfer"]["signal_error"], 0.01);
 
     json = parse_object(compress({"bake", poses, "-o", path("x.bake"), "--rays", "16", "--bands",
                                   "3", "--poses", "1-2", "--json"}));
