@@ -46,6 +46,7 @@ BakeIdentity bake_identity(const PoseSource& source, const BakeOptions& options,
     identity.num_vertices = source.topology().num_vertices;
     identity.num_triangles = static_cast<uint32_t>(source.topology().triangles.size());
     identity.mesh_xxh3 = mesh_checksum(source.topology(), source.albedo());
+    identity.origin = source.origin();
     for (uint32_t p = 0; p < source.num_poses(); ++p) {
         // The file's name alone, so that a bake does not depend on where the poses lie.
         const std::string name = std::filesystem::path(source.pose_name(p)).filename().string();

@@ -137,11 +137,11 @@ ParsedObj parse_obj(const std::string& name, std::span<char> text, const ObjScan
                         name);
     }
 
-    for (const Vec3d& position : to_vectors(attributes.vertices)) {
-        parsed.positions.push_back(position.cast<float>());
-        if (!parsed.positions.back().allFinite()) {
+    parsed.positions = to_vectors(attributes.vertices);
+    for (size_t v = 0; v < parsed.positions.size(); ++v) {
+        if (!parsed.positions[v].cast<float>().allFinite()) {
             throw_bad_input("{}: tinyobjloader read a coordinate of vertex {} as not finite", name,
-                            parsed.positions.size());
+                            v + 1);
         }
     }
     parsed.normals = to_vectors(attributes.normals);

@@ -14,7 +14,7 @@
 namespace paim {
 
 struct ParsedObj {
-    std::vector<Vec3f> positions;         // [V] scene units
+    std::vector<Vec3d> positions;         // [V] scene units, within float's range
     std::vector<Vec3d> colors;            // [V] r g b as written, or empty unless all have one
     std::vector<Vec3d> normals;           // vn lines as written
     std::vector<int32_t> corner_normals;  // per corner: index into normals, or -1

@@ -16,6 +16,7 @@
 #include "paim/base/hash.h"
 #include "paim/base/parallel.h"
 #include "paim/mesh/normals.h"
+#include "paim/mesh/origin.h"
 
 namespace paim {
 
@@ -40,12 +41,14 @@ ObjSequence::ObjSequence(std::vector<std::filesystem::path> files, const ObjOpti
 
 void ObjSequence::check_files() {
     checksums_.resize(files_.size());
+    std::vector<BoundsD> bounds(files_.size());
     const auto check = [&](size_t i) {
         std::vector<char> text = read_file(files_[i], kMaxFileBytes);
         checksums_[i] = xxh3(text.data(), text.size());
         const ObjReference reference{reference_name(files_[0], files_[i]), first_};
         ObjScan scan = scan_obj(files_[i].string(), text,
-                                {options_.normals_from_file, i > 0 ? &reference : nullptr});
+                                {options_.normals_from_file, i > 0 ? &reference : nullptr, true});
+        bounds[i] = scan.bounds;
         if (i == 0) first_ = std::move(scan);
         if (options_.on_file_checked) options_.on_file_checked();
     };
@@ -67,6 +70,15 @@ void ObjSequence::check_files() {
     });
     const size_t failed = first_failed.load();
     if (failed < files_.size()) std::rethrow_exception(failures[failed]);
+    for (size_t i = 1; i < bounds.size(); ++i) bounds[0].extend(bounds[i]);
+    origin_ = choose_origin(bounds[0]);
+}
+
+// Counted from the origin while they are still in double.
+std::vector<Vec3f> ObjSequence::local(const std::vector<Vec3d>& positions) const {
+    std::vector<Vec3f> moved(positions.size());
+    for (size_t v = 0; v < moved.size(); ++v) moved[v] = (positions[v] - origin_).cast<float>();
+    return moved;
 }
 
 ParsedObj ObjSequence::parse(uint32_t p, bool with_materials) const {
@@ -76,7 +88,7 @@ ParsedObj ObjSequence::parse(uint32_t p, bool with_materials) const {
         throw_bad_input("{}: changed since the sequence was opened", name);
     }
     // Scanned again for the sake of the clean text that it leaves; it costs a tenth of the parsing.
-    const ObjScan scan = scan_obj(name, text, {options_.normals_from_file, nullptr});
+    const ObjScan scan = scan_obj(name, text, {options_.normals_from_file, nullptr, false});
     return parse_obj(name, text, scan, {with_materials, files_[p].parent_path()});
 }
 
@@ -86,7 +98,7 @@ void ObjSequence::build_from_first() {
     const std::string name = pose_name(0);
     warnings_ = std::move(parsed.warnings);
 
-    Triangulation cut = triangulate(first_.faces, parsed.positions);
+    Triangulation cut = triangulate(first_.faces, local(parsed.positions));
     if (cut.triangles.empty()) {
         throw_bad_input("{}: no faces with three different vertices", name);
     }
@@ -119,11 +131,13 @@ uint64_t ObjSequence::pose_checksum(uint32_t p) const {
 
 Pose ObjSequence::load_pose(uint32_t p) const {
     PAIM_CHECK_LT(p, num_poses());
-    ParsedObj parsed = parse(p, false);
-    std::vector<Vec3f> normals = options_.normals_from_file
-                                     ? obj_normals(topology_, first_.faces, parsed)
-                                     : vertex_normals(topology_, parsed.positions);
-    return {std::move(parsed.positions), std::move(normals)};
+    const ParsedObj parsed = parse(p, false);
+    Pose pose;
+    pose.positions = local(parsed.positions);
+    pose.normals = options_.normals_from_file
+                       ? obj_normals(topology_, first_.faces, parsed, pose.positions)
+                       : vertex_normals(topology_, pose.positions);
+    return pose;
 }
 
 }  // namespace paim

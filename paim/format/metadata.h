@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "paim/base/vector.h"
+
 namespace paim {
 
 // A JSON object whose members are read with their type and range checked. Errors (bad input) name
@@ -21,6 +23,7 @@ class Metadata {
     uint32_t integer(const char* key, uint32_t lowest, uint32_t highest) const;
     double number(const char* key, double lowest, double highest) const;
     std::string text(const char* key) const;
+    Vec3d point(const char* key) const;  // of three numbers within float's range; zero if absent
     std::string object_text(const char* key) const;  // "{}" if absent
     const nlohmann::json& root() const { return json_; }
 
