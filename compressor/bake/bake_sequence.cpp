@@ -75,7 +75,8 @@ BakeSummary bake_sequence(const PoseSource& source, const BakeOptions& options,
         } else {
             const Pose pose = ahead.take(p);
             if (p < last && !writer.has_pose(p + 1)) ahead.start(p + 1);
-            const BakedPose baked = baker.bake(source.topology(), pose, p);
+            BakedPose baked = baker.bake(source.topology(), pose, p);
+            baked.statistics.mesh = report_pose(source.topology(), pose.positions);
             writer.write_pose(p, baked);
             statistics = baked.statistics;
             ++summary.baked;

@@ -8,9 +8,9 @@
 
 namespace paim {
 
-std::vector<float> ray_offsets(const Topology& topology, std::span<const Vec3f> positions) {
+std::vector<float> ray_offsets(const Topology& topology, std::span<const Vec3f> positions,
+                               double of_edge) {
     PAIM_CHECK_EQ(positions.size(), topology.num_vertices);
-    constexpr double kOfEdge = 1e-4;
     constexpr float kOfCoordinate = 4.0f * std::numeric_limits<float>::epsilon();
     std::vector<double> sums(positions.size(), 0.0);
     std::vector<uint32_t> counts(positions.size(), 0);
@@ -30,7 +30,7 @@ std::vector<float> ray_offsets(const Topology& topology, std::span<const Vec3f> 
     std::vector<float> offsets(positions.size());
     for (size_t v = 0; v < positions.size(); ++v) {
         const double mean = counts[v] > 0 ? sums[v] / counts[v] : 0.0;
-        offsets[v] = std::max(static_cast<float>(kOfEdge * mean),
+        offsets[v] = std::max(static_cast<float>(of_edge * mean),
                               kOfCoordinate * positions[v].cwiseAbs().maxCoeff());
     }
     return offsets;

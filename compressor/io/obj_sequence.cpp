@@ -15,6 +15,7 @@
 #include "paim/base/file.h"
 #include "paim/base/hash.h"
 #include "paim/base/parallel.h"
+#include "paim/mesh/mesh_report.h"
 #include "paim/mesh/normals.h"
 #include "paim/mesh/origin.h"
 
@@ -103,16 +104,13 @@ void ObjSequence::build_from_first() {
         throw_bad_input("{}: no faces with three different vertices", name);
     }
     topology_ = {first_.num_vertices, std::move(cut.triangles)};
+    distinct_ = without_duplicate_faces(topology_);
     albedo_ = options_.albedo ? Albedo{{*options_.albedo}}
                               : obj_albedo(name, first_.faces, parsed, warnings_);
 
-    std::vector<bool> used(first_.num_vertices, false);
-    for (const uint32_t v : first_.faces.corners) used[v] = true;
     const auto warn = [&](uint64_t count, const char* what) {
         if (count > 0) warnings_.push_back(fmt::format("{}: {} {}", name, count, what));
     };
-    warn(static_cast<uint64_t>(std::count(used.begin(), used.end(), false)),
-         "vertices belong to no face");
     warn(first_.num_small_faces, "faces of fewer than 3 vertices ignored");
     warn(first_.num_other_shapes, "points and lines ignored");
     warn(cut.num_repeating, "faces name a vertex twice");
@@ -135,8 +133,8 @@ Pose ObjSequence::load_pose(uint32_t p) const {
     Pose pose;
     pose.positions = local(parsed.positions);
     pose.normals = options_.normals_from_file
-                       ? obj_normals(topology_, first_.faces, parsed, pose.positions)
-                       : vertex_normals(topology_, pose.positions);
+                       ? obj_normals(distinct_, first_.faces, parsed, pose.positions)
+                       : vertex_normals(distinct_, pose.positions);
     return pose;
 }
 

@@ -59,6 +59,7 @@ class ObjSequence : public PoseSource {
     std::vector<uint64_t> checksums_;
     Vec3d origin_ = Vec3d::Zero();
     Topology topology_;
+    Topology distinct_;  // without duplicate faces, for the normals
     Albedo albedo_;
     std::vector<std::string> warnings_;
 };

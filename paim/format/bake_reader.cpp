@@ -44,6 +44,8 @@ PoseStatistics read_statistics_of(const ContainerReader& reader, uint64_t identi
         metadata.integer("zero_normals", 0, std::numeric_limits<int32_t>::max());
     statistics.transfer_rms = metadata.number("transfer_rms", 0.0, kMax);
     statistics.noise_rms = metadata.number("noise_rms", 0.0, kMax);
+    statistics.mesh.zero_area_faces = metadata.count("zero_area_faces");
+    statistics.mesh.coincident_faces = metadata.count("coincident_faces");
     return statistics;
 }
 

@@ -82,6 +82,10 @@ std::string Metadata::text(const char* key) const {
     return value.get<std::string>();
 }
 
+uint32_t Metadata::count(const char* key) const {
+    return json_.contains(key) ? integer(key, 0, std::numeric_limits<uint32_t>::max()) : 0;
+}
+
 Vec3d Metadata::point(const char* key) const {
     Vec3d result = Vec3d::Zero();
     const auto found = json_.find(key);

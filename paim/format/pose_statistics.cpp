@@ -14,6 +14,8 @@ PoseStatistics combine(std::span<const PoseStatistics> poses) {
         total.rays += pose.rays;
         total.blocked += pose.blocked;
         total.zero_normals += pose.zero_normals;
+        total.mesh.zero_area_faces += pose.mesh.zero_area_faces;
+        total.mesh.coincident_faces += pose.mesh.coincident_faces;
         transfer_energy += pose.transfer_rms * pose.transfer_rms;
         noise_energy += pose.noise_rms * pose.noise_rms;
     }

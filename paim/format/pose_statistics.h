@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <span>
 
+#include "paim/mesh/mesh_report.h"
+
 namespace paim {
 
 // Of one pose, or of several.
@@ -13,6 +15,7 @@ struct PoseStatistics {
     uint32_t zero_normals = 0;  // vertices without a normal: their transfer is 0
     double transfer_rms = 0.0;  // over vertices and coefficients
     double noise_rms = 0.0;     // its estimated standard error, from two independent halves
+    PoseReport mesh{};          // 0 in bakes from before it was counted
 
     // Noise as a fraction of the transfer; 0 where there is none of either.
     double relative_noise() const { return transfer_rms > 0.0 ? noise_rms / transfer_rms : 0.0; }
