@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "compressor/io/obj_text.h"
+#include "paim/base/check.h"
 #include "paim/base/error.h"
 #include "paim/base/file.h"
 
@@ -137,13 +138,8 @@ ParsedObj parse_obj(const std::string& name, std::span<char> text, const ObjScan
                         name);
     }
 
-    parsed.positions = to_vectors(attributes.vertices);
-    for (size_t v = 0; v < parsed.positions.size(); ++v) {
-        if (!parsed.positions[v].cast<float>().allFinite()) {
-            throw_bad_input("{}: tinyobjloader read a coordinate of vertex {} as not finite", name,
-                            v + 1);
-        }
-    }
+    PAIM_CHECK_EQ(scan.positions.size(), size_t{scan.num_vertices});
+    parsed.positions = scan.positions;
     parsed.normals = to_vectors(attributes.normals);
     if (scan.has_colors) parsed.colors = to_vectors(attributes.colors);
     if (options.read_materials) {

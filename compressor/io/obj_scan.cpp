@@ -90,7 +90,7 @@ class Scanner {
         int num_values = 0;
         Vec3d position = Vec3d::Zero();
         for (; text_.find_word(); ++num_values) {
-            if (num_values < 3 && options_.find_bounds) {
+            if (num_values < 3 && options_.read_positions) {
                 position[num_values] = text_.read_number("vertex coordinate");
             } else {
                 text_.skip_number(num_values < 3 ? "vertex coordinate" : "vertex attribute");
@@ -100,7 +100,7 @@ class Scanner {
             text_.fail(fmt::format("vertex coordinate: expected 3 numbers, got {}", num_values));
         }
         if (num_values < 6) scan_.has_colors = false;
-        if (options_.find_bounds) positions_.push_back(position);
+        if (options_.read_positions) scan_.positions.push_back(position);
         if (++vertices_.num_elements > kMaxIndex) {
             text_.fail(fmt::format("expected at most {} vertices", kMaxIndex));
         }
@@ -178,8 +178,6 @@ class Scanner {
             normals_.check(name_);
             check_corner_normals();
         }
-        if (!options_.find_bounds) return;
-        for (const uint32_t v : scan_.faces.corners) scan_.bounds.extend(positions_[v]);
     }
 
     void check_faces(const ObjReference& reference) const {
@@ -233,7 +231,6 @@ class Scanner {
     IndexRange vertices_{"face index"};
     IndexRange texture_coordinates_{"texture coordinate index"};
     IndexRange normals_{"normal index"};
-    std::vector<Vec3d> positions_;  // if bounds are asked for
     std::vector<size_t> face_lines_;
     std::vector<bool> corner_has_normal_;
 };

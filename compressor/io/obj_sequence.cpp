@@ -49,7 +49,8 @@ void ObjSequence::check_files() {
         const ObjReference reference{reference_name(files_[0], files_[i]), first_};
         ObjScan scan = scan_obj(files_[i].string(), text,
                                 {options_.normals_from_file, i > 0 ? &reference : nullptr, true});
-        bounds[i] = scan.bounds;
+        for (const uint32_t v : scan.faces.corners) bounds[i].extend(scan.positions[v]);
+        scan.positions = {};
         if (i == 0) first_ = std::move(scan);
         if (options_.on_file_checked) options_.on_file_checked();
     };
@@ -89,7 +90,7 @@ ParsedObj ObjSequence::parse(uint32_t p, bool with_materials) const {
         throw_bad_input("{}: changed since the sequence was opened", name);
     }
     // Scanned again for the sake of the clean text that it leaves; it costs a tenth of the parsing.
-    const ObjScan scan = scan_obj(name, text, {options_.normals_from_file, nullptr, false});
+    const ObjScan scan = scan_obj(name, text, {options_.normals_from_file, nullptr, true});
     return parse_obj(name, text, scan, {with_materials, files_[p].parent_path()});
 }
 

@@ -5,12 +5,16 @@
 namespace paim {
 namespace {
 
-TEST(ObjOrigin, ScanBoundsTheVerticesOfFaces) {
-    std::string text = "v +1 -2.5 3e0\nv 1e-999 0 \\\n -7\nv 4.25 1 1 9 9 9\nv 1e9 0 0\nf 1 2 3\n";
+TEST(ObjOrigin, ScanReadsPositionsToTheNearestDouble) {
+    std::string text =
+        "v +1 -2.5 3e0\nv 1e-999 0 \\\n -7\nv 4.25 .1 -5. 9 9 9\n"
+        "v 80000.300000000003 0.30000000000000004 123456789.12345678\nf 1 2 3\n";
     const ObjScan scan = scan_obj("x.obj", text, {false, nullptr, true});
-    EXPECT_EQ(scan.bounds.lower, Vec3d(0, -2.5, -7));
-    EXPECT_EQ(scan.bounds.upper, Vec3d(4.25, 1, 3));
-    EXPECT_TRUE(scan_text(kTriangleObj).bounds.empty());
+    EXPECT_EQ(
+        scan.positions,
+        (std::vector<Vec3d>{
+            {1, -2.5, 3}, {0, 0, -7}, {4.25, 0.1, -5}, {80000.3, 0.1 + 0.2, 123456789.12345678}}));
+    EXPECT_TRUE(scan_text(kTriangleObj).positions.empty());
 }
 
 TEST(ObjOrigin, KeepsTheDigitsOfMeshesFarAway) {
