@@ -13,6 +13,7 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
+#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -27,7 +28,7 @@
 namespace paim {
 namespace {
 
-constexpr uint32_t kRays = 512;  // per vertex
+constexpr uint32_t kRays = 256;  // per vertex
 
 struct Way {
     std::string name;
@@ -146,6 +147,7 @@ void measure(const std::string& name, const Topology& topology, const Pose& pose
 }  // namespace paim
 
 int main(int argc, char** argv) {
+    std::setvbuf(stdout, nullptr, _IOLBF, 0);
     using namespace paim;
     const auto shape = [](const std::string& name, const PoseSet& set, const Vec3f& squash,
                           const Vec3f& move = Vec3f::Zero()) {
@@ -159,14 +161,12 @@ int main(int argc, char** argv) {
         return poses::make_pose_set(*poses::make_sphere_sequence(n), 1);
     };
     shape("sphere", sphere(162), as_it_is);
-    shape("fine sphere", sphere(10000), as_it_is);
     shape("sphere squashed 1000:1", sphere(2562), {1.0f, 1e-3f, 1.0f});
     shape("cavity", poses::make_pose_set(*poses::make_cavity_sequence(1000), 1), as_it_is);
     shape("bowl", poses::make_pose_set(*poses::make_bowl_sequence(2000), 1), as_it_is);
     shape("octopus", poses::make_octopus(5000, 1), as_it_is);
     // As far out as single precision is left to carry it (paim/mesh/origin.h).
     shape("octopus 15 sizes out", poses::make_octopus(5000, 1), as_it_is, {150.0f, 0.0f, 0.0f});
-    shape("fine octopus", poses::make_octopus(50000, 1), as_it_is);
     for (int i = 1; i < argc; ++i) {
         const ObjSequence sequence({argv[i]});
         measure(argv[i], sequence.topology(), sequence.load_pose(0));
