@@ -245,6 +245,21 @@ TEST_P(Extremes, MovesByMultiplesOfTheOriginsStepChangeNothingAtAll) {
     }
 }
 
+TEST(Extremes, ConvexSpheresDoNotShadowThemselvesWhereverTheyAre) {
+    for (const uint32_t num_vertices : {162u, 2562u}) {
+        const Mesh sphere =
+            mesh_of(poses::make_pose_set(*poses::make_sphere_sequence(num_vertices), 1));
+        for (const double scale : {1e-6, 1.0, 1e6}) {
+            for (const double sizes : {1e4, 1e8}) {
+                const Vec3d far = sizes * scale * size_of(sphere) * Vec3d(0.6, -0.48, 0.64);
+                const ObjMesh moved(
+                    mapped(sphere, [&](const Vec3d& x) { return Vec3d(scale * x + far); }));
+                EXPECT_EQ(moved.bake(1).statistics.blocked, 0u) << num_vertices << ' ' << scale;
+            }
+        }
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Meshes, Extremes, testing::Values(octopus, bowl),
                          [](const auto& mesh) { return mesh.index == 0 ? "Octopus" : "Bowl"; });
 
