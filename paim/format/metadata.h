@@ -5,6 +5,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "paim/base/vector.h"
 
@@ -22,9 +23,10 @@ class Metadata {
 
     uint32_t integer(const char* key, uint32_t lowest, uint32_t highest) const;
     double number(const char* key, double lowest, double highest) const;
+    std::vector<double> numbers(const char* key, size_t count, double lowest, double highest) const;
     std::string text(const char* key) const;
     uint32_t count(const char* key) const;  // up to 2^32 - 1; 0 if absent
-    Vec3d point(const char* key) const;     // of three numbers within float's range; zero if absent
+    Vec3d point(const char* key) const;     // of three numbers up to ±4e38; zero if absent
     std::string object_text(const char* key) const;  // "{}" if absent
     const nlohmann::json& root() const { return json_; }
 
