@@ -184,6 +184,10 @@ std::optional<CompressOptions> parse_options(int argc, const char* const* argv, 
     app.get_option("--output")->required(false);
 
     CLI::App* bake = app.add_subcommand("bake", "Bake a pose sequence into a .bake directory");
+    bake->footer(
+        "What is odd about the mesh (open edges, faces that are there twice, ...) is counted in "
+        "warnings and in\n--json as 'mesh'. Meshes far from the world's origin are baked near it; "
+        "the bake keeps where they were.");
     add_input_options(*bake, options);
     bake->get_option("OBJ")->required();
     add_bake_options(*bake, options, raw);

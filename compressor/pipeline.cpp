@@ -10,6 +10,7 @@
 #include "compressor/bake/bake_sequence.h"
 #include "compressor/io/obj_files.h"
 #include "compressor/io/obj_sequence.h"
+#include "compressor/mesh_warnings.h"
 #include "paim/base/error.h"
 #include "paim/base/file.h"
 #include "paim/base/parallel.h"
@@ -43,6 +44,10 @@ void check_paim_output(const std::filesystem::path& output) {
     }
 }
 
+void print_warnings(const std::vector<std::string>& warnings) {
+    for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
+}
+
 ordered_json bake(const CompressOptions& options, const std::filesystem::path& directory) {
     check_output(directory);
     const auto files = find_obj_files(options.inputs, options.keep_order);
@@ -54,9 +59,9 @@ ordered_json bake(const CompressOptions& options, const std::filesystem::path& d
     obj_options.on_file_checked = [&] { checking.advance(); };
     const ObjSequence sequence(files, obj_options);
     checking.finish();
-    for (const std::string& warning : sequence.warnings()) {
-        fmt::print(stderr, "warning: {}\n", warning);
-    }
+    print_warnings(sequence.warnings());
+    const TopologyReport topology = report_topology(sequence.topology());
+    print_warnings(mesh_warnings(topology));
 
     const auto [first, last] = parse_pose_range(options.poses, sequence.num_poses());
     const uint32_t num_vertices = sequence.topology().num_vertices;
@@ -64,6 +69,7 @@ ordered_json bake(const CompressOptions& options, const std::filesystem::path& d
     const BakeSummary summary = bake_sequence(sequence, options.bake, options.normals, directory,
                                               first, last, [&](uint32_t) { baking.advance(); });
     baking.finish();
+    print_warnings(mesh_warnings(summary.total.mesh));
 
     const double noise = summary.total.relative_noise();
     ordered_json json;
@@ -79,6 +85,7 @@ ordered_json bake(const CompressOptions& options, const std::filesystem::path& d
     json["rays_blocked"] = summary.total.blocked;
     json["vertices_without_normal"] = summary.total.zero_normals;
     json["relative_noise"] = noise;
+    json["mesh"] = mesh_json(topology, summary.total.mesh);
     if (!options.json) {
         fmt::print(
             "{}: {} vertices, {} triangles, poses {}-{} of {} ({} baked, {} found), {} bands\n",

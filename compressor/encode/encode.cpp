@@ -89,6 +89,7 @@ EncodeSummary encode(const BakeReader& bake, const EncodeOptions& options,
     model.albedo = bake.albedo();
     model.layout = bake.identity().layout;
     model.layout.bands = std::min(options.bands, model.layout.bands);
+    model.origin = bake.identity().origin;
     model.frames_per_second = options.frames_per_second;
     model.name = options.name;
 
