@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "compressor/encode/bake_rows.h"
+#include "compressor/encode/memory_plan.h"
 #include "compressor/encode/principal_components.h"
 #include "paim/base/file.h"
 #include "paim/format/paim_file.h"
@@ -34,13 +35,15 @@ LowRankMatrix start_matrix(const BakeReader& bake, const RowSource& rows,
 }
 
 void stream(PaimWriter& writer, Part part, const RowSource& rows,
-            const PrincipalComponents& components, uint32_t num_components) {
-    for_each_encoded_block(rows, components, num_components, [&](const EncodedRows& block) {
+            const PrincipalComponents& components, uint32_t num_components,
+            uint32_t num_in_flight) {
+    const auto append = [&](const EncodedRows& block) {
         writer.append_mean(part, block.mean);
         for (uint32_t k = 0; k < num_components; ++k) {
             writer.append_component({part, k}, block.components[k]);
         }
-    });
+    };
+    for_each_encoded_block(rows, components, num_components, append, num_in_flight);
 }
 
 std::string provenance(const BakeReader& bake) {
@@ -76,9 +79,16 @@ uint64_t num_rows_to_read(const BakeReader& bake, const EncodeOptions& options) 
     return 2 * (GeometryRows(bake).num_rows() + TransferRows(bake, bands).num_rows());
 }
 
+void check_memory(const BakeReader& bake, const EncodeOptions& options) {
+    choose_num_in_flight(encode_size(bake, options), options.memory_bytes,
+                         bake.directory().string());
+}
+
 EncodeSummary encode(const BakeReader& bake, const EncodeOptions& options,
                      const std::filesystem::path& output,
                      const std::function<void(uint64_t)>& on_rows) {
+    const uint32_t in_flight = choose_num_in_flight(
+        encode_size(bake, options), options.memory_bytes, bake.directory().string());
     remove_abandoned_files(std::filesystem::absolute(output).parent_path(),
                            output.filename().string() + ".");
     Model model;
@@ -94,16 +104,18 @@ EncodeSummary encode(const BakeReader& bake, const EncodeOptions& options,
     const TransferRows baked_transfer(bake, model.layout.bands);
     const ReportingRows geometry_rows(baked_geometry, on_rows);
     const ReportingRows transfer_rows(baked_transfer, on_rows);
-    const PrincipalComponents geometry = principal_components(geometry_rows);
-    const PrincipalComponents transfer = principal_components(transfer_rows);
+    const PrincipalComponents geometry = principal_components(geometry_rows, in_flight);
+    const PrincipalComponents transfer = principal_components(transfer_rows, in_flight);
     model.geometry = start_matrix(bake, geometry_rows, geometry, options.geometry,
                                   options.automatic_geometry_error, options);
     model.transfer = start_matrix(bake, transfer_rows, transfer, options.transfer,
                                   options.automatic_transfer_error, options);
 
     PaimWriter writer(output, model);
-    stream(writer, Part::geometry, geometry_rows, geometry, model.geometry.num_components);
-    stream(writer, Part::transfer, transfer_rows, transfer, model.transfer.num_components);
+    stream(writer, Part::geometry, geometry_rows, geometry, model.geometry.num_components,
+           in_flight);
+    stream(writer, Part::transfer, transfer_rows, transfer, model.transfer.num_components,
+           in_flight);
     writer.commit();
 
     EncodeSummary summary;

@@ -1,5 +1,8 @@
 // Reads .bake directories.
+#include <algorithm>
+#include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "paim/base/error.h"
@@ -45,6 +48,19 @@ PoseStatistics read_statistics_of(const ContainerReader& reader, uint64_t identi
     statistics.transfer_rms = metadata.number("transfer_rms", 0.0, kMax);
     statistics.noise_rms = metadata.number("noise_rms", 0.0, kMax);
     return statistics;
+}
+
+// What check_finite() does, without the whole section in memory.
+void verify_planes(const ContainerReader& reader, Tag tag, uint32_t num_planes,
+                   uint32_t num_vertices) {
+    bool finite = true;
+    const Section& section = require_planes(reader, tag, num_planes, num_vertices);
+    reader.read_pieces(section, [&](uint64_t, std::span<const float> piece) {
+        finite = finite && std::all_of(piece.begin(), piece.end(),
+                                       [](float value) { return std::isfinite(value); });
+    });
+    // Only now is it known to be no damage; the place is looked for where it is needed.
+    if (!finite) check_finite(reader, tag, reader.read_f32(section));
 }
 
 }  // namespace
@@ -115,7 +131,15 @@ PoseStatistics BakeReader::total_statistics() const {
 }
 
 void BakeReader::verify_all() const {
-    parallel_for(num_poses(), 1, [&](size_t p, size_t) { read_pose(static_cast<uint32_t>(p)); });
+    parallel_for(num_poses(), 1, [&](size_t p, size_t) {
+        const ContainerReader reader(bake_pose_file(directory_, static_cast<uint32_t>(p)),
+                                     section::kKindPose);
+        read_statistics_of(reader, identity_checksum_, static_cast<uint32_t>(p));
+        verify_planes(reader, section::kPositions, 3, identity_.num_vertices);
+        verify_planes(reader, section::kNormals, 3, identity_.num_vertices);
+        verify_planes(reader, section::kTransfer, identity_.layout.num_planes(),
+                      identity_.num_vertices);
+    });
 }
 
 void BakeReader::read_position_rows(uint32_t p, uint64_t first, uint64_t count, float* out) const {

@@ -228,6 +228,24 @@ void ContainerReader::read_range(const Section& section, uint64_t first, uint64_
     read_bytes(section.offset + first * sizeof(float), out, count * sizeof(float));
 }
 
+void ContainerReader::read_pieces(
+    const Section& section,
+    const std::function<void(uint64_t, std::span<const float>)>& on_piece) const {
+    constexpr uint64_t kPiece = 1 << 18;  // 1 MB
+    const uint64_t num_values = section.spec.num_values();
+    StreamingHash hash;
+    std::vector<float> piece;
+    for (uint64_t first = 0; first < num_values; first += piece.size()) {
+        piece.resize(std::min(kPiece, num_values - first));
+        read_range(section, first, piece.size(), piece.data());
+        hash.update(piece.data(), piece.size() * sizeof(float));
+        on_piece(first, piece);
+    }
+    if (hash.digest() != section.xxh3) {
+        throw_bad_input("{}: damaged: the checksum does not match", label(section));
+    }
+}
+
 void ContainerReader::verify(const Section& section) const {
     StreamingHash hash;
     std::vector<char> buffer(std::min<uint64_t>(section.stored_size_bytes, 1 << 20));

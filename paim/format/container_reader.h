@@ -3,6 +3,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -38,6 +40,11 @@ class ContainerReader {
 
     // Values [first, first + count) of an f32 section, unverified: for streaming after verify().
     void read_range(const Section& section, uint64_t first, uint64_t count, float* out) const;
+
+    // All values of an f32 section, piece by piece; the checksum is verified once all are read.
+    void read_pieces(
+        const Section& section,
+        const std::function<void(uint64_t first, std::span<const float>)>& on_piece) const;
 
     // Reads the section through and checks its checksum.
     void verify(const Section& section) const;

@@ -66,7 +66,7 @@ Albedo read_albedo(const ContainerReader& reader, uint32_t num_vertices) {
     return albedo;
 }
 
-void check_finite(const ContainerReader& reader, Tag tag, const std::vector<float>& values) {
+void check_finite(const ContainerReader& reader, Tag tag, std::span<const float> values) {
     const auto bad =
         std::find_if(values.begin(), values.end(), [](float x) { return !std::isfinite(x); });
     if (bad != values.end()) {

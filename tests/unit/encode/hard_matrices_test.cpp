@@ -8,6 +8,12 @@
 #include "paim/metrics/spectrum.h"
 
 namespace paim {
+
+// GoogleTest shows the name, not the bytes.
+void PrintTo(const HardMatrix& hard, std::ostream* out) {
+    *out << hard.name;
+}
+
 namespace {
 
 using Eigen::Index;
