@@ -26,6 +26,8 @@ struct SyntheticBake {
         BakeIdentity identity;
         identity.layout = {TransferKind::diffuse, bands, 1};
         identity.rays = 2;
+        identity.sampler = "cosine";
+        identity.streams = "per-pose";
         identity.normals = "faces";
         identity.num_vertices = num_vertices;
         identity.num_triangles = static_cast<uint32_t>(topology.triangles.size());
@@ -39,6 +41,9 @@ struct SyntheticBake {
             pose.positions = values(static_cast<uint32_t>(p), 3, 0);
             pose.normals.assign(size_t{3} * num_vertices, 0.0f);
             pose.transfer = values(static_cast<uint32_t>(p), bands * bands, 1);
+            pose.noise.assign(pose.transfer.size(), noise);
+            pose.statistics.transfer_rms.assign(bands, 1.0);
+            pose.statistics.noise_rms.assign(bands, noise);
             writer.write_pose(static_cast<uint32_t>(p), pose);
         });
     }

@@ -3,8 +3,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -38,13 +36,8 @@ class ContainerReader {
     std::vector<double> read_f64(const Section& section) const;
     std::string read_text(const Section& section) const;
 
-    // Values [first, first + count) of an f32 section, unverified: for streaming after verify().
+    // Values [first, first + count) of an f32 or f16 section, unverified: for streaming after verify().
     void read_range(const Section& section, uint64_t first, uint64_t count, float* out) const;
-
-    // All values of an f32 section, piece by piece; the checksum is verified once all are read.
-    void read_pieces(
-        const Section& section,
-        const std::function<void(uint64_t first, std::span<const float>)>& on_piece) const;
 
     // Reads the section through and checks its checksum.
     void verify(const Section& section) const;
