@@ -147,7 +147,7 @@ class EndlessRows : public RowSource {
                     stream_key(first + static_cast<uint64_t>(row), 0, static_cast<uint64_t>(p));
                 // Columns fall off, so that the third pass is needed, too.
                 block(row, p) =
-                    std::ldexp(static_cast<float>(bits >> 40), -8 * static_cast<int>(p));
+                    std::ldexp(static_cast<float>(bits >> 40), -12 * static_cast<int>(p));
             }
         }
     }
@@ -166,7 +166,7 @@ TEST(PrincipalComponents, AreTheSameForAnyNumberInFlight) {
         const auto run = [&](uint32_t num_in_flight) {
             const PrincipalComponents components = principal_components(rows, num_in_flight);
             EXPECT_EQ(components.rank(), 3u);
-            EXPECT_TRUE(LeftVectors(rows, components, 3, num_in_flight).corrected());
+            EXPECT_TRUE(LeftVectors(rows, components, 3, 0x1p-30, num_in_flight).corrected());
             std::vector<double> values = components.singular_values;
             values.insert(values.end(), components.v.data(),
                           components.v.data() + components.v.size());
