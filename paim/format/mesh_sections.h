@@ -1,7 +1,7 @@
 // Triangles and albedo as sections, the same in .paim and .bake.
 #pragma once
 
-#include <vector>
+#include <span>
 
 #include "paim/format/container_reader.h"
 #include "paim/format/container_writer.h"
@@ -20,7 +20,8 @@ Topology read_triangles(const ContainerReader& reader, uint32_t num_vertices);
 Albedo read_albedo(const ContainerReader& reader, uint32_t num_vertices);
 
 // Error (bad input) naming the file, the section and the place of the first value that is not
-// finite.
-void check_finite(const ContainerReader& reader, Tag tag, const std::vector<float>& values);
+// finite; the values are those from `first` on.
+void check_finite(const ContainerReader& reader, Tag tag, std::span<const float> values,
+                  uint64_t first = 0);
 
 }  // namespace paim
