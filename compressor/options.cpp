@@ -93,7 +93,7 @@ void add_encode_options(CLI::App& app, CompressOptions& options, RawOptions& raw
     app.add_option(
            "--memory", raw.memory,
            "Memory that encoding stays below, bytes or with K, M, G or T for powers of 1000; "
-           "at least 64M, and 100 bytes times the square of the number of poses; the result "
+           "at least 64M, and 130 bytes times the square of the number of poses; the result "
            "is the same for any")
         ->capture_default_str();
     app.add_option("--fps", options.encode.frames_per_second,
