@@ -81,7 +81,7 @@ std::vector<float> component_weights(const PrincipalComponents& components, uint
 
 void for_each_encoded_block(const RowSource& rows, const PrincipalComponents& components,
                             uint32_t num_components,
-                            const std::function<void(const EncodedRows&)>& on_block,
+                            const std::function<void(EncodedRows&)>& on_block,
                             uint32_t num_in_flight) {
     // A 64th of what the rounding to float does, so that it cannot show: the pass that 1e-12 takes would be
     // for nothing.
@@ -97,7 +97,7 @@ void for_each_encoded_block(const RowSource& rows, const PrincipalComponents& co
             encoded[j] = encode_block(rows, first, std::min(block_rows, rows.num_rows() - first),
                                       left, num_components);
         });
-        for (const EncodedRows& block : encoded) on_block(block);
+        for (EncodedRows& block : encoded) on_block(block);
     }
 }
 

@@ -47,6 +47,8 @@ PoseStatistics read_statistics_of(const ContainerReader& reader, uint64_t identi
         metadata.integer("above_target", 0, std::numeric_limits<int32_t>::max());
     statistics.transfer_rms = metadata.numbers("transfer_rms", bands, 0.0, kMax);
     statistics.noise_rms = metadata.numbers("noise_rms", bands, 0.0, kMax);
+    statistics.mesh.zero_area_faces = metadata.count("zero_area_faces");
+    statistics.mesh.coincident_faces = metadata.count("coincident_faces");
     return statistics;
 }
 

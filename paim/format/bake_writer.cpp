@@ -28,6 +28,8 @@ std::string pose_metadata(uint64_t bake, uint32_t p, const PoseStatistics& stati
     json["above_target"] = statistics.above_target;
     json["transfer_rms"] = statistics.transfer_rms;
     json["noise_rms"] = statistics.noise_rms;
+    json["zero_area_faces"] = statistics.mesh.zero_area_faces;
+    json["coincident_faces"] = statistics.mesh.coincident_faces;
     return json.dump(2) + "\n";
 }
 

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "paim/mesh/mesh_report.h"
 #include "paim/transfer/layout.h"
 
 namespace paim {
@@ -18,6 +19,7 @@ struct PoseStatistics {
     // [bands] over the vertices, channels and coefficients of a band.
     std::vector<double> transfer_rms;
     std::vector<double> noise_rms;  // estimated standard error of the transfer, from its halves
+    PoseReport mesh{};              // 0 in bakes from before it was counted
 
     // Noise as a fraction of the transfer over all coefficients; 0 where there is none of either.
     double relative_noise() const;
