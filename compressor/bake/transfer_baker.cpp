@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <numeric>
 
@@ -30,11 +31,17 @@ constexpr size_t kMaxSums = size_t{1} << 25;
 std::vector<std::unique_ptr<DirectionSampler>> make_batches(const BakeOptions& options) {
     std::vector<std::unique_ptr<DirectionSampler>> batches;
     const uint32_t num_points = options.rays / 2;
-    const bool all_at_once = options.transfer_error <= 0.0;
-    uint32_t next = all_at_once ? num_points : std::min(kFirstBatch, num_points);
-    for (uint32_t first = 0; first < num_points; next = std::min(first, num_points - first)) {
-        batches.push_back(make_sampler(options.sampler, first, next));
-        first += next;
+    if (options.transfer_error <= 0.0) {
+        batches.push_back(make_sampler(options.sampler, 0, num_points));
+        return batches;
+    }
+    // Up to powers of two, where the points are a net, and half-way between them.
+    uint32_t end = kFirstBatch;
+    for (uint32_t first = 0; first < num_points;
+         end += std::has_single_bit(end) ? end / 2 : end / 3) {
+        end = std::min(end, num_points);
+        batches.push_back(make_sampler(options.sampler, first, end - first));
+        first = end;
     }
     return batches;
 }
@@ -171,7 +178,8 @@ class TransferBaker::PoseBake {
                     estimate(active[j], halves, work);
                 }
             });
-            active = above_noise_target(topology_, noise_energy_, target * target, active);
+            active =
+                above_noise_target(topology_, noise_energy_, num_rays_, target * target, active);
         }
         num_above_target_ += static_cast<uint32_t>(active.size());
     }

@@ -29,7 +29,8 @@ TEST_F(Memory, StaysBelowTheLimitAndChangesNoByte) {
     const long limited = peak_bytes("x.bake", "limited/x.paim", "72M");
     const long unlimited = peak_bytes("x.bake", "unlimited/x.paim", "100G");
     EXPECT_LT(limited, 72'000'000);
-    EXPECT_GT(unlimited, 72'000'000);  // otherwise the limit did nothing
+    // Otherwise the limit did nothing: 36 and 73 MB on two cores.
+    EXPECT_GT(unlimited, limited / 4 * 5);
     expect_same(contents_of(path("limited")), contents_of(path("unlimited")));
 }
 

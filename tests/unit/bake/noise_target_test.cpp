@@ -11,30 +11,39 @@ namespace {
 // Two triangles that share the edge 1–2, and a vertex of no face.
 const Topology kMesh{5, {{0, 1, 2}, {2, 1, 3}}};
 
-std::vector<uint32_t> above(const std::array<double, 5>& noise_energy,
-                            std::vector<uint32_t> candidates = {0, 1, 2, 3, 4}) {
-    return above_noise_target(kMesh, noise_energy, 1.0, candidates);
+using Vertices = std::vector<uint32_t>;
+using Energies = std::array<double, 5>;
+
+Vertices above(const Energies& noise_energy, const std::array<uint64_t, 5>& num_rays,
+               const Vertices& candidates = {0, 1, 2, 3, 4}) {
+    return above_noise_target(kMesh, noise_energy, num_rays, 1.0, candidates);
 }
 
-using Vertices = std::vector<uint32_t>;
+constexpr std::array<uint64_t, 5> kAlike{64, 64, 64, 64, 64};
 
 TEST(NoiseTarget, IsMetByEqual) {
-    EXPECT_EQ(above({1, 1, 1, 1, 1}), Vertices{});
+    EXPECT_EQ(above({1, 1, 1, 1, 1}, kAlike), Vertices{});
+    EXPECT_EQ(above({1.001, 1.001, 1.001, 1.001, 1.001}, kAlike), (Vertices{0, 1, 2, 3, 4}));
 }
 
-TEST(NoiseTarget, OwnNoiseAboveItGoesOn) {
-    EXPECT_EQ(above({0, 0, 0, 0, 1.5}), Vertices{4});
-    // The mean of the neighbours 1, 2 of vertex 0 stays below.
-    EXPECT_EQ(above({0, 1.5, 0, 0, 0}), Vertices{1});
+TEST(NoiseTarget, IsThatOfAVertexWithItsNeighbours) {
+    // 4 has none. 0 and 3 have the neighbours 1 and 2, counted twice where two faces share the edge: the
+    // mean of (own twice, 1, 2), and for 1 and 2 of (own twice, 0, 3, and the other twice).
+    EXPECT_EQ(above({0, 0, 0, 0, 1.5}, kAlike), Vertices{4});
+    EXPECT_EQ(above({0, 2.9, 0, 0, 0}, kAlike), Vertices{});
+    EXPECT_EQ(above({0, 3.1, 0, 0, 0}, kAlike), (Vertices{1, 2}));
+    EXPECT_EQ(above({0, 4.1, 0, 0, 0}, kAlike), (Vertices{0, 1, 2, 3}));
 }
 
-TEST(NoiseTarget, NoisyNeighboursKeepAQuietVertexGoing) {
-    // The others look quiet, but the mean over the neighbours of each is 3/2.
-    EXPECT_EQ(above({0, 3, 0, 0, 0}), (Vertices{0, 1, 2, 3}));
+TEST(NoiseTarget, NeighboursOfOtherCountsAreComparedAtTheVertexsOwn) {
+    // At 64 rays 1 and 2 would have 4^1.5 = 8 times the squared error that they have at 256.
+    const std::array<uint64_t, 5> num_rays{64, 256, 256, 64, 64};
+    EXPECT_EQ(above({0, 0.26, 0.26, 0, 0}, num_rays), (Vertices{0, 3}));
+    EXPECT_EQ(above({0, 0.24, 0.24, 0, 0}, num_rays), Vertices{});
 }
 
 TEST(NoiseTarget, OnlyCandidatesAreAsked) {
-    EXPECT_EQ(above({9, 9, 9, 9, 9}, {0, 4}), (Vertices{0, 4}));
+    EXPECT_EQ(above({9, 9, 9, 9, 9}, kAlike, {0, 4}), (Vertices{0, 4}));
 }
 
 }  // namespace
