@@ -9,6 +9,7 @@
 
 #include "compressor/bake/transfer_baker.h"
 #include "compressor/encode/encode.h"
+#include "compressor/scene/floor.h"
 
 namespace paim {
 
@@ -21,6 +22,7 @@ struct CompressOptions {
     BakeOptions bake;
     std::string normals = "faces";
     std::optional<Vec3f> albedo;
+    std::optional<FloorOptions> floor;
     std::string poses;  // "A-B", empty for all
     bool discard_bake = false;
 

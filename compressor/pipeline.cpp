@@ -6,10 +6,12 @@
 #include <cerrno>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "compressor/bake/bake_sequence.h"
 #include "compressor/io/obj_files.h"
 #include "compressor/io/obj_sequence.h"
+#include "compressor/scene/floor.h"
 #include "paim/base/error.h"
 #include "paim/base/file.h"
 #include "paim/base/parallel.h"
@@ -59,18 +61,30 @@ ordered_json bake(const CompressOptions& options, const std::filesystem::path& d
     }
 
     const auto [first, last] = parse_pose_range(options.poses, sequence.num_poses());
-    const uint32_t num_vertices = sequence.topology().num_vertices;
+    Surroundings surroundings;
+    std::optional<PosesOnFloor> on_floor;
+    if (options.floor) {
+        cli::Progress measuring("measuring", "poses", sequence.num_poses(), quiet);
+        const Bounds bounds = bounds_of(sequence, [&] { measuring.advance(); });
+        measuring.finish();
+        on_floor.emplace(sequence, bounds, *options.floor);
+        surroundings.floor = on_floor->description();
+    }
+    const PoseSource& poses = on_floor ? static_cast<const PoseSource&>(*on_floor) : sequence;
+    const uint32_t num_vertices = poses.topology().num_vertices;
     cli::Progress baking("baking", "poses", last - first + 1, quiet);
-    const BakeSummary summary = bake_sequence(sequence, options.bake, options.normals, directory,
-                                              first, last, [&](uint32_t) { baking.advance(); });
+    const BakeSummary summary = bake_sequence(
+        poses, options.bake, options.normals, directory, first, last,
+        [&](uint32_t) { baking.advance(); }, surroundings);
     baking.finish();
 
     const double noise = summary.total.relative_noise();
     ordered_json json;
     json["bake"] = directory.string();
     json["num_vertices"] = num_vertices;
-    json["num_triangles"] = sequence.topology().triangles.size();
+    json["num_triangles"] = poses.topology().triangles.size();
     json["num_poses"] = sequence.num_poses();
+    if (!surroundings.floor.empty()) json["floor"] = surroundings.floor;
     json["poses_baked"] = summary.baked;
     json["poses_resumed"] = summary.resumed;
     json["bands"] = options.bake.bands;
@@ -82,7 +96,7 @@ ordered_json bake(const CompressOptions& options, const std::filesystem::path& d
     if (!options.json) {
         fmt::print(
             "{}: {} vertices, {} triangles, poses {}-{} of {} ({} baked, {} found), {} bands\n",
-            directory.string(), num_vertices, sequence.topology().triangles.size(), first, last,
+            directory.string(), num_vertices, poses.topology().triangles.size(), first, last,
             sequence.num_poses(), summary.baked, summary.resumed, options.bake.bands);
         fmt::print(
             "  {} rays a vertex, {:.1f} % blocked; estimated noise {:.2f} % of the transfer\n",
@@ -91,6 +105,7 @@ ordered_json bake(const CompressOptions& options, const std::filesystem::path& d
                                          static_cast<double>(summary.total.rays)
                                    : 0.0,
             100.0 * noise);
+        if (!surroundings.floor.empty()) fmt::print("  on a floor of {}\n", surroundings.floor);
         if (summary.total.zero_normals > 0) {
             fmt::print("  {} vertices (over all poses) have no normal; their transfer is 0\n",
                        summary.total.zero_normals);

@@ -69,6 +69,7 @@ ordered_json describe_bake(const std::filesystem::path& path) {
     json["rays"] = identity.rays;
     json["seed"] = fmt::format("{:016x}", identity.seed);
     json["normals"] = identity.normals;
+    if (!identity.floor.empty()) json["floor"] = identity.floor;
     uint64_t size_bytes = 0;
     for (uint32_t p = 0; p < bake.num_poses(); ++p) {
         size_bytes += std::filesystem::file_size(bake_pose_file(path, p));

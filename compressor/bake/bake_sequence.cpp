@@ -36,13 +36,14 @@ class ReadAhead {
 }  // namespace
 
 BakeIdentity bake_identity(const PoseSource& source, const BakeOptions& options,
-                           const std::string& normals) {
+                           const std::string& normals, const Surroundings& surroundings) {
     BakeIdentity identity;
     identity.baker = kBakerVersion;
     identity.layout = {TransferKind::diffuse, options.bands, 1};
     identity.rays = options.rays;
     identity.seed = options.seed;
     identity.normals = normals;
+    identity.floor = surroundings.floor;
     identity.num_vertices = source.topology().num_vertices;
     identity.num_triangles = static_cast<uint32_t>(source.topology().triangles.size());
     identity.mesh_xxh3 = mesh_checksum(source.topology(), source.albedo());
@@ -57,10 +58,11 @@ BakeIdentity bake_identity(const PoseSource& source, const BakeOptions& options,
 BakeSummary bake_sequence(const PoseSource& source, const BakeOptions& options,
                           const std::string& normals, const std::filesystem::path& directory,
                           uint32_t first, uint32_t last,
-                          const std::function<void(uint32_t)>& on_pose) {
+                          const std::function<void(uint32_t)>& on_pose,
+                          const Surroundings& surroundings) {
     PAIM_CHECK_LE(first, last);
     PAIM_CHECK_LT(last, source.num_poses());
-    const BakeIdentity identity = bake_identity(source, options, normals);
+    const BakeIdentity identity = bake_identity(source, options, normals, surroundings);
     const BakeWriter writer(directory, identity, source.topology(), source.albedo());
     const TransferBaker baker(options);
     ReadAhead ahead(source);

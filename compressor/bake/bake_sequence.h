@@ -17,9 +17,14 @@ struct BakeSummary {
     PoseStatistics total;  // of all poses in range; RMS values over all of them
 };
 
+// What a sequence stands on or among.
+struct Surroundings {
+    std::string floor;  // description of the ground that the poses have got; empty if none
+};
+
 // What decides the bytes of the bake of this sequence with these options.
 BakeIdentity bake_identity(const PoseSource& source, const BakeOptions& options,
-                           const std::string& normals);
+                           const std::string& normals, const Surroundings& surroundings = {});
 
 // Bakes poses first … last (inclusive) that are not there yet.
 // on_pose   called after each pose, found or baked, with its number
@@ -27,6 +32,7 @@ BakeIdentity bake_identity(const PoseSource& source, const BakeOptions& options,
 BakeSummary bake_sequence(const PoseSource& source, const BakeOptions& options,
                           const std::string& normals, const std::filesystem::path& directory,
                           uint32_t first, uint32_t last,
-                          const std::function<void(uint32_t)>& on_pose);
+                          const std::function<void(uint32_t)>& on_pose,
+                          const Surroundings& surroundings = {});
 
 }  // namespace paim

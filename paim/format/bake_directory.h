@@ -22,6 +22,7 @@ struct BakeIdentity {
     uint32_t rays = 0;  // per vertex
     uint64_t seed = 0;
     std::string normals;  // "faces" or "file"
+    std::string floor;    // what ground was put under the poses; empty if none
     uint32_t num_vertices = 0;
     uint32_t num_triangles = 0;
     uint64_t mesh_xxh3 = 0;  // of triangles and albedo

@@ -53,6 +53,7 @@ std::string manifest_text(const BakeIdentity& identity) {
     json["rays"] = identity.rays;
     json["seed"] = hex(identity.seed);
     json["normals"] = identity.normals;
+    if (!identity.floor.empty()) json["floor"] = identity.floor;
     json["num_vertices"] = identity.num_vertices;
     json["num_triangles"] = identity.num_triangles;
     json["mesh_xxh3"] = hex(identity.mesh_xxh3);
@@ -84,6 +85,7 @@ BakeIdentity read_manifest(const std::filesystem::path& path) {
     identity.rays = metadata.integer("rays", 1, kMaxCount);
     identity.seed = parse_hex(metadata.text("seed"), file, "seed");
     identity.normals = metadata.text("normals");
+    if (metadata.root().contains("floor")) identity.floor = metadata.text("floor");
     identity.num_vertices = metadata.integer("num_vertices", 1, kMaxCount);
     identity.num_triangles = metadata.integer("num_triangles", 1, kMaxCount);
     identity.mesh_xxh3 = parse_hex(metadata.text("mesh_xxh3"), file, "mesh_xxh3");
@@ -105,12 +107,14 @@ std::string first_difference(const BakeIdentity& there, const BakeIdentity& want
     const auto differ = [](const char* what, const auto& a, const auto& b) {
         return a == b ? std::string() : fmt::format("{}: {} there, {} asked for", what, a, b);
     };
+    const auto or_none = [](const std::string& text) { return text.empty() ? "none" : text; };
     for (const std::string& difference :
          {differ("baker", there.baker, wanted.baker),
           differ("bands", there.layout.bands, wanted.layout.bands),
           differ("channels", there.layout.channels, wanted.layout.channels),
           differ("rays", there.rays, wanted.rays), differ("seed", there.seed, wanted.seed),
           differ("normals", there.normals, wanted.normals),
+          differ("floor", or_none(there.floor), or_none(wanted.floor)),
           differ("vertices", there.num_vertices, wanted.num_vertices),
           differ("triangles", there.num_triangles, wanted.num_triangles),
           differ("poses", there.num_poses(), wanted.num_poses()),

@@ -160,6 +160,8 @@ TEST_F(BakeDirectory, RefusesOtherIdentitiesByName) {
     expect_contains(refusal([](auto& i) { ++i.seed; }), "(seed: ");
     expect_contains(refusal([](auto& i) { i.normals = "file"; }),
                     "(normals: faces there, file asked for)");
+    expect_contains(refusal([](auto& i) { i.floor = "wood"; }),
+                    "(floor: none there, wood asked for)");
     expect_contains(refusal([](auto& i) { ++i.num_vertices; }), "(vertices: 4 there, 5 asked for)");
     expect_contains(refusal([](auto& i) { ++i.num_triangles; }),
                     "(triangles: 4 there, 5 asked for)");
@@ -169,6 +171,16 @@ TEST_F(BakeDirectory, RefusesOtherIdentitiesByName) {
     expect_contains(refusal([](auto& i) { i.poses[2].xxh3 = 4; }),
                     "(0000000000000003) there, c \"ü\".obj (0000000000000004) asked for)");
     EXPECT_EQ(reading_complaint(), "nothing");  // it is as it was
+}
+
+TEST_F(BakeDirectory, ManifestKeepsTheFloor) {
+    BakeIdentity identity = make_identity();
+    const std::string without = manifest_text(identity);
+    identity.floor = "100 vertices at y = -1";
+    writer(identity);
+    EXPECT_EQ(read_manifest(bake_ / "manifest.json"), identity);
+    // A bake without one has the manifest, and so the checksum, that it had before there were floors.
+    EXPECT_EQ(without.find("floor"), std::string::npos);
 }
 
 TEST_F(BakeDirectory, NamesThatAreNotTextStillResume) {
