@@ -21,8 +21,15 @@ struct RawOptions {
     std::string transfer_components = "auto";
     std::string precision = "f32";
     std::string auto_transfer_error = "1%";
+    std::string transfer_error;
+    std::string sampler = "cosine";
+    std::string streams = "per-pose";
+    std::optional<uint32_t> rays;
     uint32_t encode_bands = 0;
 };
+
+// The default of --rays where the rays are those a vertex may take at most.
+constexpr uint32_t kMostRays = 16384;
 
 void add_input_options(CLI::App& app, CompressOptions& options) {
     app.add_option(
@@ -38,9 +45,25 @@ void add_input_options(CLI::App& app, CompressOptions& options) {
 }
 
 void add_bake_options(CLI::App& app, CompressOptions& options, RawOptions& raw) {
-    app.add_option("--rays", options.bake.rays,
-                   "Rays per vertex and pose, even, 2 to 16777216; more rays, less noise")
+    app.add_option("--rays", raw.rays,
+                   fmt::format("Rays per vertex and pose, even, 2 to 16777216; more rays, less "
+                               "noise; with --transfer-error the most (then {})",
+                               kMostRays))
         ->check(cli::in_range(uint32_t{2}, uint32_t{1} << 24))
+        ->default_str(std::to_string(options.bake.rays));
+    app.add_option("--transfer-error", raw.transfer_error,
+                   "Instead of a fixed count: each vertex takes rays until the estimated error of "
+                   "its transfer is below this fraction (0.02, 2%) of an open vertex's");
+    app.add_option("--sampler", raw.sampler,
+                   "Directions of the rays: 'cosine' (low-discrepancy, best), or as references "
+                   "'uniform' (random over the sphere), 'uniform-sobol'")
+        ->check(CLI::IsMember({"cosine", "uniform", "uniform-sobol"}))
+        ->capture_default_str();
+    app.add_option(
+           "--streams", raw.streams,
+           "Random numbers: independent 'per-pose', 'shared' by all poses, or 'mixed' (half "
+           "of the rays each)")
+        ->check(CLI::IsMember({"per-pose", "shared", "mixed"}))
         ->capture_default_str();
     app.add_option("--albedo", raw.albedo,
                    "Diffuse reflectance R,G,B (or one number), linear, 0 to 1; default: vertex "
@@ -117,6 +140,21 @@ void apply(const RawOptions& raw, CompressOptions& options) {
         if (!raw.floor_albedo.empty()) {
             options.floor->albedo = cli::parse_color(raw.floor_albedo, "--floor-albedo");
         }
+    }
+    if (!raw.transfer_error.empty()) {
+        options.bake.transfer_error = cli::parse_fraction(raw.transfer_error, "--transfer-error");
+        if (!(options.bake.transfer_error > 0.0)) {
+            throw_usage("--transfer-error: expected more than 0, got '{}'", raw.transfer_error);
+        }
+        options.bake.rays = kMostRays;
+    }
+    if (raw.rays) options.bake.rays = *raw.rays;
+    for (const SamplerKind kind :
+         {SamplerKind::cosine, SamplerKind::uniform, SamplerKind::uniform_sobol}) {
+        if (raw.sampler == sampler_name(kind)) options.bake.sampler = kind;
+    }
+    for (const Streams streams : {Streams::per_pose, Streams::shared, Streams::mixed}) {
+        if (raw.streams == streams_name(streams)) options.bake.streams = streams;
     }
     if (options.bake.rays % 2 != 0) {
         throw_usage("--rays: expected an even number (two independent halves), got {}",

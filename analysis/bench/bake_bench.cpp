@@ -19,7 +19,7 @@ constexpr size_t kOriginsPerPiece = 64;  // as the baker
 
 // The rays that TransferBaker traces for pose 0.
 RayList rays_of_bake(const PoseSource& source, const Pose& pose, const BakeOptions& options) {
-    const CosineDirections generator(options.rays / 2);
+    const CosineDirections generator(0, options.rays / 2);
     const std::vector<float> offsets = ray_offsets(source.topology(), pose.positions);
     RayList rays;
     rays.per_origin = options.rays;
@@ -67,7 +67,7 @@ void bake(benchmark::State& state, Bare bare, uint32_t num_vertices, uint32_t nu
 
 // Making directions alone, which is most of what surrounds the rays.
 void directions(benchmark::State& state, uint32_t num_rays) {
-    const CosineDirections generator(num_rays);
+    const CosineDirections generator(0, num_rays);
     DirectionArrays out;
     const Vec3f normal = Vec3f(0.3f, -0.8f, 0.5f).normalized();
     uint64_t key = 0;

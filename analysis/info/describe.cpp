@@ -66,7 +66,10 @@ ordered_json describe_bake(const std::filesystem::path& path) {
     json["last_pose"] = identity.poses.back().name;
     json["bands"] = identity.layout.bands;
     json["channels"] = identity.layout.channels;
+    json["sampler"] = identity.sampler;
+    json["streams"] = identity.streams;
     json["rays"] = identity.rays;
+    if (identity.transfer_error > 0.0) json["transfer_error"] = identity.transfer_error;
     json["seed"] = fmt::format("{:016x}", identity.seed);
     json["normals"] = identity.normals;
     if (!identity.floor.empty()) json["floor"] = identity.floor;
@@ -79,7 +82,12 @@ ordered_json describe_bake(const std::filesystem::path& path) {
     json["rays_traced"] = total.rays;
     json["rays_blocked"] = total.blocked;
     json["vertices_without_normal"] = total.zero_normals;
+    if (identity.transfer_error > 0.0) {
+        json["vertices_above_transfer_error"] = total.above_target;
+    }
     json["relative_noise"] = total.relative_noise();
+    json["transfer_rms_by_band"] = total.transfer_rms;
+    json["noise_rms_by_band"] = total.noise_rms;
     return json;
 }
 

@@ -40,7 +40,10 @@ BakeIdentity bake_identity(const PoseSource& source, const BakeOptions& options,
     BakeIdentity identity;
     identity.baker = kBakerVersion;
     identity.layout = {TransferKind::diffuse, options.bands, 1};
+    identity.sampler = sampler_name(options.sampler);
+    identity.streams = streams_name(options.streams);
     identity.rays = options.rays;
+    identity.transfer_error = options.transfer_error;
     identity.seed = options.seed;
     identity.normals = normals;
     identity.floor = surroundings.floor;

@@ -72,7 +72,8 @@ void orthonormal_basis(const Vec3f& normal, Vec3f& tangent, Vec3f& bitangent) {
     bitangent = Vec3f(b, sign + normal.y() * normal.y() * a, -normal.y());
 }
 
-CosineDirections::CosineDirections(uint32_t count) : count_(count), points_(count) {
+CosineDirections::CosineDirections(uint32_t first, uint32_t count)
+    : count_(count), points_(first, count) {
     const uint32_t padded = (count + kPadding - 1) / kPadding * kPadding;
     points_.reversed_x.resize(padded, 0);
     points_.reversed_y.resize(padded, 0);

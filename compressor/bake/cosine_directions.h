@@ -14,11 +14,11 @@ struct DirectionArrays {
     std::vector<float> x, y, z;
 };
 
-// A set of `count` directions whose density over the hemisphere is cos θ / π. Each key gives an
-// independent, unbiased set.
+// Directions [first, first + count) of a sequence whose density over the hemisphere is cos θ / π. Each
+// key gives an independent, unbiased sequence.
 class CosineDirections {
   public:
-    explicit CosineDirections(uint32_t count);
+    CosineDirections(uint32_t first, uint32_t count);
 
     uint32_t count() const { return count_; }
     uint32_t padded_count() const { return static_cast<uint32_t>(points_.reversed_x.size()); }

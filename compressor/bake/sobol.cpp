@@ -36,10 +36,11 @@ struct OrderedPoint {
 
 }  // namespace
 
-SobolPoints::SobolPoints(uint32_t count) : reversed_x(count), reversed_y(count) {
+SobolPoints::SobolPoints(uint32_t first, uint32_t count) : reversed_x(count), reversed_y(count) {
     std::vector<OrderedPoint> points(count);
     for (uint32_t j = 0; j < count; ++j) {
-        points[j] = {morton_code(reverse_bits(j), reverse_bits(reversed_second(j))), j};
+        const uint32_t index = first + j;
+        points[j] = {morton_code(reverse_bits(index), reverse_bits(reversed_second(index))), index};
     }
     std::sort(points.begin(), points.end());
     for (uint32_t j = 0; j < count; ++j) {

@@ -8,7 +8,7 @@
 
 namespace paim {
 
-// The first `count` points of the (0, 2)-sequence, each coordinate a 32-bit fraction with its bits
+// Points [first, first + count) of the (0, 2)-sequence, each coordinate a 32-bit fraction with its bits
 // reversed, which is the form that scrambling works on. In Morton order: points of the same square or
 // half square (an elementary interval) follow one another, and as scrambling moves whole intervals,
 // they still do afterwards, whatever the seed. Rays along neighbouring directions go together.
@@ -16,7 +16,7 @@ struct SobolPoints {
     std::vector<uint32_t> reversed_x;
     std::vector<uint32_t> reversed_y;
 
-    explicit SobolPoints(uint32_t count);
+    SobolPoints(uint32_t first, uint32_t count);
 };
 
 // These two take one number or, as vectors of the compiler, several.

@@ -1,16 +1,18 @@
 // Diffuse shadowed transfer of one pose.
 // Based on: Sloan, Kautz and Snyder, Precomputed Radiance Transfer for Real-Time Rendering in Dynamic,
-//           Low-Frequency Lighting Environments, 2002; the unoccluded part as control variate after
-//           Owen, Monte Carlo Theory, Methods and Examples, 2013, chapter 8.9
+//           Low-Frequency Lighting Environments, 2002
 #include "compressor/bake/transfer_baker.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
+#include "compressor/bake/half_sums.h"
+#include "compressor/bake/noise_target.h"
 #include "compressor/bake/ray_offset.h"
 #include "paim/base/check.h"
 #include "paim/base/parallel.h"
-#include "paim/base/seed.h"
 #include "paim/mesh/planes.h"
 #include "paim/sh/cosine_lobe.h"
 #include "paim/trace/scene.h"
@@ -19,11 +21,23 @@ namespace paim {
 
 namespace {
 
-constexpr uint32_t kBatch = sh::BatchBasis::kBatch;
-constexpr size_t kSumLanes = sh::BatchBasis::kSumLanes;
 constexpr size_t kVerticesPerPiece = 64;
-// Lane sums are single precision; they are emptied into double before rounding matters.
-constexpr uint32_t kRaysPerFlush = 32 * kBatch;
+// Points of a half in the first batch towards an error target: two packets of rays.
+constexpr uint32_t kFirstBatch = 32;
+// Sums that may be kept between batches; a larger mesh is baked part by part. 256 MB.
+constexpr size_t kMaxSums = size_t{1} << 25;
+
+std::vector<std::unique_ptr<DirectionSampler>> make_batches(const BakeOptions& options) {
+    std::vector<std::unique_ptr<DirectionSampler>> batches;
+    const uint32_t num_points = options.rays / 2;
+    const bool all_at_once = options.transfer_error <= 0.0;
+    uint32_t next = all_at_once ? num_points : std::min(kFirstBatch, num_points);
+    for (uint32_t first = 0; first < num_points; next = std::min(first, num_points - first)) {
+        batches.push_back(make_sampler(options.sampler, first, next));
+        first += next;
+    }
+    return batches;
+}
 
 // â_l / π for each coefficient, [bands²]: the transfer of an unoccluded vertex is this times y_i(n).
 std::vector<double> cosine_lobe_by_coefficient(uint32_t bands) {
@@ -34,151 +48,184 @@ std::vector<double> cosine_lobe_by_coefficient(uint32_t bands) {
     return lobe;
 }
 
+using Halves = std::array<HalfSums, 2>;
+
 }  // namespace
 
-// One half of a vertex's rays.
-struct Half {
-    DirectionArrays directions;
-    std::vector<float> blocked;  // 1 or 0
-    uint32_t num_blocked = 0;
-};
+// The bake of one pose while it lasts.
+class TransferBaker::PoseBake {
+  public:
+    PoseBake(const TransferBaker& baker, const Topology& topology, const Pose& pose, uint32_t p)
+        : baker_(baker),
+          options_(baker.options_),
+          topology_(topology),
+          pose_(pose),
+          p_(p),
+          scene_(topology, pose.positions),
+          offsets_(ray_offsets(topology, pose.positions)),
+          lobe_(cosine_lobe_by_coefficient(options_.bands)),
+          num_rays_(topology.num_vertices),
+          num_blocked_(topology.num_vertices),
+          noise_energy_(topology.num_vertices) {
+        for (auto& half : halves_) half.resize(lobe_.size() * topology.num_vertices, 0.0f);
+    }
 
-struct TransferBaker::Workspace {
-    Half halves[2];
-    std::vector<float> weights;     // [padded rays]
-    std::vector<float> lanes;       // [C][kSumLanes]
-    std::vector<double> sums[2];    // [C] of each half
-    std::vector<double> at_normal;  // [C] y_i(n)
-    std::vector<double> mean;       // [C] the transfer
-    std::vector<double> lobe;       // [C]
+    BakedPose run() {
+        if (options_.transfer_error > 0.0) {
+            bake_to_target();
+        } else {
+            bake_at_once();
+        }
+        return finish();
+    }
 
-    Workspace(uint32_t bands, uint32_t num_rays, uint32_t padded_rays)
-        : weights(padded_rays, 0.0f),
-          lanes(size_t{bands} * bands * kSumLanes),
-          at_normal(size_t{bands} * bands),
-          mean(at_normal.size()),
-          lobe(cosine_lobe_by_coefficient(bands)) {
-        for (size_t h = 0; h < 2; ++h) {
-            halves[h].blocked.resize(num_rays);
-            sums[h].resize(at_normal.size());
+  private:
+    struct Workspace {
+        HalfTracer tracers[2];
+        std::vector<double> unoccluded;  // [C]
+        std::vector<double> estimates;   // [2][C]
+
+        Workspace(const sh::BatchBasis& basis, size_t num_coefficients)
+            : tracers{HalfTracer(basis), HalfTracer(basis)},
+              unoccluded(num_coefficients),
+              estimates(2 * num_coefficients) {}
+    };
+
+    size_t num_coefficients() const { return lobe_.size(); }
+    bool has_normal(size_t v) const { return !pose_.normals[v].isZero(0.0f); }
+
+    // Traces another batch of a vertex's rays; adds them up only where their sums can matter.
+    void shoot(size_t v, const DirectionSampler& batch, bool is_only_batch, Halves& halves,
+               Workspace& work) const {
+        const Vec3f& normal = pose_.normals[v];
+        const Vec3f origin = pose_.positions[v] + offsets_[v] * normal;
+        for (uint32_t h = 0; h < 2; ++h) {
+            const uint64_t key = half_key(options_, p_, static_cast<uint32_t>(v), h);
+            work.tracers[h].trace(scene_, origin, normal, batch, key, halves[h]);
+        }
+        const uint64_t num_rays = halves[0].num_rays + halves[1].num_rays;
+        const uint64_t num_blocked = halves[0].num_blocked + halves[1].num_blocked;
+        const bool has_closed_form = options_.sampler == SamplerKind::cosine;
+        const bool needs_no_sums =
+            is_only_batch && (num_blocked == num_rays || (num_blocked == 0 && has_closed_form));
+        if (needs_no_sums) return;
+        for (size_t h = 0; h < 2; ++h) work.tracers[h].add(halves[h]);
+    }
+
+    // Writes what the halves say so far.
+    void estimate(size_t v, const Halves& halves, Workspace& work) {
+        std::span<const double> unoccluded;
+        if (options_.sampler == SamplerKind::cosine) {
+            sh::evaluate_basis(static_cast<int>(options_.bands), pose_.normals[v].cast<double>(),
+                               std::span(work.unoccluded));
+            for (size_t i = 0; i < num_coefficients(); ++i) work.unoccluded[i] *= lobe_[i];
+            unoccluded = work.unoccluded;
+        }
+        estimate_halves(std::span<const HalfSums, 2>(halves), unoccluded, work.estimates);
+        double energy = 0.0;
+        for (size_t i = 0; i < num_coefficients(); ++i) {
+            const double a = work.estimates[i];
+            const double b = work.estimates[num_coefficients() + i];
+            halves_[0][i * topology_.num_vertices + v] = static_cast<float>(a);
+            halves_[1][i * topology_.num_vertices + v] = static_cast<float>(b);
+            energy += 0.25 * (a - b) * (a - b);
+        }
+        noise_energy_[v] = energy;
+        num_rays_[v] = halves[0].num_rays + halves[1].num_rays;
+        num_blocked_[v] = halves[0].num_blocked + halves[1].num_blocked;
+    }
+
+    void bake_at_once() {
+        parallel_for(topology_.num_vertices, kVerticesPerPiece, [&](size_t begin, size_t end) {
+            Workspace work(baker_.basis_, num_coefficients());
+            for (size_t v = begin; v < end; ++v) {
+                if (!has_normal(v)) continue;
+                Halves halves{HalfSums(num_coefficients()), HalfSums(num_coefficients())};
+                shoot(v, *baker_.batches_[0], true, halves, work);
+                estimate(v, halves, work);
+            }
+        });
+    }
+
+    void bake_to_target() {
+        const size_t part = std::max<size_t>(1, kMaxSums / (4 * num_coefficients()));
+        for (size_t begin = 0; begin < topology_.num_vertices; begin += part) {
+            bake_part_to_target(begin, std::min<size_t>(topology_.num_vertices, begin + part));
         }
     }
 
-    // Σ ((1 − blocked) − open) y_i over the rays of half h.
-    void sum(const sh::BatchBasis& basis, size_t h, float open) {
-        const Half& half = halves[h];
-        const auto num_rays = static_cast<uint32_t>(half.blocked.size());
-        // Padding keeps its weight of zero.
-        for (uint32_t j = 0; j < num_rays; ++j) weights[j] = (1.0f - half.blocked[j]) - open;
-        std::fill(sums[h].begin(), sums[h].end(), 0.0);
-        for (uint32_t first = 0; first < num_rays; first += kRaysPerFlush) {
-            std::fill(lanes.begin(), lanes.end(), 0.0f);
-            const uint32_t end = std::min(num_rays, first + kRaysPerFlush);
-            for (uint32_t j = first; j < end; j += kBatch) {
-                basis.accumulate(half.directions.x.data() + j, half.directions.y.data() + j,
-                                 half.directions.z.data() + j, weights.data() + j, lanes.data());
-            }
-            for (size_t i = 0; i < mean.size(); ++i) {
-                for (size_t lane = 0; lane < kSumLanes; ++lane) {
-                    sums[h][i] += static_cast<double>(lanes[i * kSumLanes + lane]);
+    void bake_part_to_target(size_t begin, size_t end) {
+        const double target = options_.transfer_error * open_transfer_norm(options_.bands);
+        std::vector<uint32_t> active;
+        for (size_t v = begin; v < end; ++v) {
+            if (has_normal(v)) active.push_back(static_cast<uint32_t>(v));
+        }
+        std::vector<Halves> sums(
+            end - begin, Halves{HalfSums(num_coefficients()), HalfSums(num_coefficients())});
+        for (const auto& batch : baker_.batches_) {
+            parallel_for(active.size(), kVerticesPerPiece, [&](size_t first, size_t last) {
+                Workspace work(baker_.basis_, num_coefficients());
+                for (size_t j = first; j < last; ++j) {
+                    Halves& halves = sums[active[j] - begin];
+                    shoot(active[j], *batch, false, halves, work);
+                    estimate(active[j], halves, work);
                 }
-            }
+            });
+            active = above_noise_target(topology_, noise_energy_, target * target, active);
         }
+        num_above_target_ += static_cast<uint32_t>(active.size());
     }
-};
 
-// The transfer of a vertex is left in the workspace; this is what else it found.
-struct TransferBaker::Estimate {
-    uint32_t num_blocked = 0;
-    double energy = 0.0;        // Σ_i t_i²
-    double noise_energy = 0.0;  // Σ_i (half the difference of the halves)²
+    // The halves become their mean and half their difference.
+    BakedPose finish() {
+        BakedPose baked;
+        baked.positions = to_planes(pose_.positions);
+        baked.normals = to_planes(pose_.normals);
+        for (size_t r = 0; r < halves_[0].size(); ++r) {
+            const float a = halves_[0][r];
+            const float b = halves_[1][r];
+            halves_[0][r] = 0.5f * (a + b);
+            halves_[1][r] = 0.5f * (a - b);
+        }
+        baked.transfer = std::move(halves_[0]);
+        baked.noise = std::move(halves_[1]);
+        PoseStatistics& statistics = baked.statistics;
+        statistics.rays = std::accumulate(num_rays_.begin(), num_rays_.end(), uint64_t{0});
+        statistics.blocked = std::accumulate(num_blocked_.begin(), num_blocked_.end(), uint64_t{0});
+        for (size_t v = 0; v < topology_.num_vertices; ++v) {
+            statistics.zero_normals += has_normal(v) ? 0 : 1;
+        }
+        statistics.above_target = num_above_target_;
+        const TransferLayout layout = baker_.layout();
+        statistics.transfer_rms = rms_by_band(layout, baked.transfer);
+        statistics.noise_rms = rms_by_band(layout, baked.noise);
+        return baked;
+    }
+
+    const TransferBaker& baker_;
+    const BakeOptions& options_;
+    const Topology& topology_;
+    const Pose& pose_;
+    const uint32_t p_;
+    const Scene scene_;
+    const std::vector<float> offsets_;
+    const std::vector<double> lobe_;     // [C]
+    std::vector<float> halves_[2];       // [C][V] the estimates of both halves
+    std::vector<uint64_t> num_rays_;     // [V]
+    std::vector<uint64_t> num_blocked_;  // [V]
+    std::vector<double> noise_energy_;   // [V] Σ_i (half the difference of the halves)²
+    uint32_t num_above_target_ = 0;
 };
 
 TransferBaker::TransferBaker(const BakeOptions& options)
-    : options_(options), directions_(options.rays / 2), basis_(static_cast<int>(options.bands)) {
+    : options_(options), batches_(make_batches(options)), basis_(static_cast<int>(options.bands)) {
     PAIM_CHECK(options.rays >= 2 && options.rays % 2 == 0);
 }
 
-TransferBaker::Estimate TransferBaker::estimate(const Scene& scene, const Vec3f& origin,
-                                                const Vec3f& normal, uint32_t p, uint32_t v,
-                                                Workspace& work) const {
-    const uint32_t num_rays = directions_.count();
-    Estimate result;
-    for (uint32_t h = 0; h < 2; ++h) {
-        Half& half = work.halves[h];
-        directions_.generate(normal, stream_key(options_.seed, p, v, h), half.directions);
-        half.num_blocked = scene.blocked(origin, half.directions.x.data(), half.directions.y.data(),
-                                         half.directions.z.data(), num_rays, half.blocked.data());
-        result.num_blocked += half.num_blocked;
-    }
-    sh::evaluate_basis(static_cast<int>(options_.bands), normal.cast<double>(),
-                       std::span(work.at_normal));
-    const bool all_open = result.num_blocked == 0;
-    const bool all_blocked = result.num_blocked == 2 * num_rays;
-    const bool partly = !all_open && !all_blocked;
-    double open[2];  // of each half, what the other one says; rounded as the weights are
-    for (size_t h = 0; h < 2; ++h) {
-        const double blocked = static_cast<double>(work.halves[1 - h].num_blocked) / num_rays;
-        const auto rounded = static_cast<float>(1.0 - blocked);
-        open[h] = static_cast<double>(rounded);
-        if (partly) work.sum(basis_, h, rounded);
-    }
-    for (size_t i = 0; i < work.mean.size(); ++i) {
-        const double unoccluded = work.lobe[i] * work.at_normal[i];
-        double estimates[2];
-        for (size_t h = 0; h < 2; ++h) {
-            estimates[h] = open[h] * unoccluded + (partly ? work.sums[h][i] / num_rays : 0.0);
-        }
-        work.mean[i] = 0.5 * (estimates[0] + estimates[1]);
-        const double error = 0.5 * (estimates[0] - estimates[1]);
-        result.energy += work.mean[i] * work.mean[i];
-        result.noise_energy += error * error;
-    }
-    return result;
-}
-
 BakedPose TransferBaker::bake(const Topology& topology, const Pose& pose, uint32_t p) const {
-    const uint32_t num_vertices = topology.num_vertices;
-    PAIM_CHECK_EQ(pose.positions.size(), num_vertices);
-    PAIM_CHECK_EQ(pose.normals.size(), num_vertices);
-    const Scene scene(topology, pose.positions);
-    const std::vector<float> offsets = ray_offsets(topology, pose.positions);
-    const size_t num_planes = layout().num_planes();
-
-    BakedPose baked;
-    baked.positions = to_planes(pose.positions);
-    baked.normals = to_planes(pose.normals);
-    baked.transfer.resize(num_planes * num_vertices, 0.0f);
-    std::vector<Estimate> estimates(num_vertices);
-    std::vector<uint8_t> has_normal(num_vertices, 0);
-    parallel_for(num_vertices, kVerticesPerPiece, [&](size_t begin, size_t end) {
-        Workspace work(options_.bands, directions_.count(), directions_.padded_count());
-        for (size_t v = begin; v < end; ++v) {
-            const Vec3f& normal = pose.normals[v];
-            if (normal.isZero(0.0f)) continue;
-            has_normal[v] = 1;
-            estimates[v] = estimate(scene, pose.positions[v] + offsets[v] * normal, normal, p,
-                                    static_cast<uint32_t>(v), work);
-            for (size_t i = 0; i < num_planes; ++i) {
-                baked.transfer[i * num_vertices + v] = static_cast<float>(work.mean[i]);
-            }
-        }
-    });
-
-    PoseStatistics& statistics = baked.statistics;
-    double energy = 0.0;
-    double noise_energy = 0.0;
-    for (size_t v = 0; v < num_vertices; ++v) {
-        statistics.blocked += estimates[v].num_blocked;
-        statistics.zero_normals += has_normal[v] ? 0 : 1;
-        energy += estimates[v].energy;
-        noise_energy += estimates[v].noise_energy;
-    }
-    statistics.rays = uint64_t{num_vertices - statistics.zero_normals} * 2 * directions_.count();
-    const double num_values = static_cast<double>(num_planes) * num_vertices;
-    statistics.transfer_rms = std::sqrt(energy / num_values);
-    statistics.noise_rms = std::sqrt(noise_energy / num_values);
-    return baked;
+    PAIM_CHECK_EQ(pose.positions.size(), topology.num_vertices);
+    PAIM_CHECK_EQ(pose.normals.size(), topology.num_vertices);
+    return PoseBake(*this, topology, pose, p).run();
 }
 
 }  // namespace paim

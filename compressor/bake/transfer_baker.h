@@ -4,8 +4,11 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <vector>
 
-#include "compressor/bake/cosine_directions.h"
+#include "compressor/bake/bake_options.h"
+#include "compressor/bake/direction_sampler.h"
 #include "paim/format/bake_directory.h"
 #include "paim/mesh/pose_source.h"
 #include "paim/sh/basis.h"
@@ -14,22 +17,12 @@
 namespace paim {
 
 // Raised whenever the same options give other bytes, so that bakes of different builds do not mix.
-constexpr uint32_t kBakerVersion = 1;
+constexpr uint32_t kBakerVersion = 2;
 
-struct BakeOptions {
-    uint32_t bands = 5;   // 1 … sh::kMaxBands
-    uint32_t rays = 512;  // per vertex, even, 2 … 2^24
-    uint64_t seed = 1;
-};
-
-// Each vertex shoots two independent halves of its rays. A half's estimate is
-//
-//     t_i = c â_l y_i(n) + mean over its rays of ((1 − blocked) − c) y_i,
-//
-// unbiased for any c that does not come from those rays. c is the fraction of open rays in the *other*
-// half: open vertices (c = 1) get the closed form exactly, closed ones (c = 0) exactly zero, and in
-// between the unoccluded part, whose integral is known, carries no noise of its own. The mean of the
-// halves is the transfer, half their difference estimates its error.
+// Every vertex shoots two independent halves of its rays (half_sums.h). Their mean is the transfer,
+// half their difference its noise. With a fixed count all rays of a vertex are shot at once; with an
+// error target they are shot in batches, each as many as all before, until the vertex's own noise and
+// the mean over its neighbours are below the target.
 class TransferBaker {
   public:
     explicit TransferBaker(const BakeOptions& options);
@@ -42,13 +35,11 @@ class TransferBaker {
     TransferLayout layout() const { return {TransferKind::diffuse, options_.bands, 1}; }
 
   private:
-    struct Workspace;
-    struct Estimate;
-    Estimate estimate(const class Scene& scene, const Vec3f& origin, const Vec3f& normal,
-                      uint32_t p, uint32_t v, Workspace& work) const;
+    class PoseBake;
 
     BakeOptions options_;
-    CosineDirections directions_;
+    // The rays of a half come in batches, one sampler each; one batch if the count is fixed.
+    std::vector<std::unique_ptr<DirectionSampler>> batches_;
     sh::BatchBasis basis_;
 };
 

@@ -19,10 +19,13 @@ namespace paim {
 struct BakeIdentity {
     uint32_t baker = 0;  // version of the baker, raised whenever the bytes it makes change
     TransferLayout layout;
-    uint32_t rays = 0;  // per vertex
+    uint32_t rays = 0;  // per vertex; with a transfer_error, the most
     uint64_t seed = 0;
-    std::string normals;  // "faces" or "file"
-    std::string floor;    // what ground was put under the poses; empty if none
+    double transfer_error = 0.0;  // what every vertex was baked to, 0: a fixed count of rays
+    std::string sampler;          // "cosine", "uniform" or "uniform-sobol"
+    std::string streams;          // "per-pose", "shared" or "mixed"
+    std::string normals;          // "faces" or "file"
+    std::string floor;            // what ground was put under the poses; empty if none
     uint32_t num_vertices = 0;
     uint32_t num_triangles = 0;
     uint64_t mesh_xxh3 = 0;  // of triangles and albedo
@@ -45,13 +48,16 @@ struct BakedPose {
     std::vector<float> positions;  // [3][V] scene units
     std::vector<float> normals;    // [3][V]
     std::vector<float> transfer;   // [planes][V]
+    // [planes][V] one draw of the transfer's error: half the difference of its two independent halves,
+    // which has the mean (0) and the variance of that error. Files hold it as f16.
+    std::vector<float> noise;
     PoseStatistics statistics;
 };
 
 // What the bake of pose p found out about itself. Errors (bad input) name the file: damaged, or of
-// another pose or bake than the one with this checksum (bake_manifest.h).
+// another pose or bake than the one with this checksum (bake_manifest.h) and number of bands.
 PoseStatistics read_bake_statistics(const std::filesystem::path& directory,
-                                    uint64_t identity_checksum, uint32_t p);
+                                    uint64_t identity_checksum, uint32_t p, uint32_t bands);
 
 // Writes a bake, possibly one that was begun before.
 class BakeWriter {
@@ -66,7 +72,7 @@ class BakeWriter {
 
     // What the bake of a pose that is there found out about itself.
     PoseStatistics read_statistics(uint32_t p) const {
-        return read_bake_statistics(directory_, identity_checksum_, p);
+        return read_bake_statistics(directory_, identity_checksum_, p, identity_.layout.bands);
     }
 
     // All or nothing; may be called from several threads.
@@ -93,7 +99,7 @@ class BakeReader {
     // Reads every byte of pose p and checks it. May be called from several threads.
     BakedPose read_pose(uint32_t p) const;
     PoseStatistics read_statistics(uint32_t p) const {
-        return read_bake_statistics(directory_, identity_checksum_, p);
+        return read_bake_statistics(directory_, identity_checksum_, p, identity_.layout.bands);
     }
 
     // Of all poses together.
@@ -102,10 +108,11 @@ class BakeReader {
     // Checks the checksums of all poses, once, before rows are streamed.
     void verify_all() const;
 
-    // Rows [first, first + count) of positions (3 · V rows) or transfer (planes · V rows) of pose
-    // p.
+    // Rows [first, first + count) of positions (3 · V rows), transfer or noise (planes · V rows) of
+    // pose p.
     void read_position_rows(uint32_t p, uint64_t first, uint64_t count, float* out) const;
     void read_transfer_rows(uint32_t p, uint64_t first, uint64_t count, float* out) const;
+    void read_noise_rows(uint32_t p, uint64_t first, uint64_t count, float* out) const;
 
   private:
     std::filesystem::path directory_;

@@ -16,7 +16,7 @@ using nlohmann::ordered_json;
 
 namespace {
 
-constexpr uint32_t kManifestVersion = 1;
+constexpr uint32_t kManifestVersion = 2;
 constexpr uint32_t kMaxCount = std::numeric_limits<int32_t>::max();
 constexpr uint64_t kMaxSizeBytes = 64 << 20;
 
@@ -50,7 +50,10 @@ std::string manifest_text(const BakeIdentity& identity) {
     json["transfer_kind"] = "diffuse";
     json["bands"] = identity.layout.bands;
     json["channels"] = identity.layout.channels;
+    json["sampler"] = identity.sampler;
+    json["streams"] = identity.streams;
     json["rays"] = identity.rays;
+    json["transfer_error"] = identity.transfer_error;
     json["seed"] = hex(identity.seed);
     json["normals"] = identity.normals;
     if (!identity.floor.empty()) json["floor"] = identity.floor;
@@ -83,6 +86,10 @@ BakeIdentity read_manifest(const std::filesystem::path& path) {
     if (identity.layout.channels == 2) throw_unsupported("{}: 2 transfer channels", file);
     identity.baker = metadata.integer("baker", 0, kMaxCount);
     identity.rays = metadata.integer("rays", 1, kMaxCount);
+    identity.sampler = metadata.text("sampler");
+    identity.streams = metadata.text("streams");
+    identity.transfer_error =
+        metadata.number("transfer_error", 0.0, std::numeric_limits<double>::max());
     identity.seed = parse_hex(metadata.text("seed"), file, "seed");
     identity.normals = metadata.text("normals");
     if (metadata.root().contains("floor")) identity.floor = metadata.text("floor");
@@ -112,8 +119,10 @@ std::string first_difference(const BakeIdentity& there, const BakeIdentity& want
          {differ("baker", there.baker, wanted.baker),
           differ("bands", there.layout.bands, wanted.layout.bands),
           differ("channels", there.layout.channels, wanted.layout.channels),
-          differ("rays", there.rays, wanted.rays), differ("seed", there.seed, wanted.seed),
-          differ("normals", there.normals, wanted.normals),
+          differ("sampler", there.sampler, wanted.sampler),
+          differ("streams", there.streams, wanted.streams), differ("rays", there.rays, wanted.rays),
+          differ("transfer error", there.transfer_error, wanted.transfer_error),
+          differ("seed", there.seed, wanted.seed), differ("normals", there.normals, wanted.normals),
           differ("floor", or_none(there.floor), or_none(wanted.floor)),
           differ("vertices", there.num_vertices, wanted.num_vertices),
           differ("triangles", there.num_triangles, wanted.num_triangles),

@@ -15,8 +15,8 @@ namespace paim {
 namespace {
 
 const Section& require_planes(const ContainerReader& reader, Tag tag, uint32_t num_planes,
-                              uint32_t num_vertices) {
-    const Section& section = reader.require(tag, ScalarType::f32);
+                              uint32_t num_vertices, ScalarType type = ScalarType::f32) {
+    const Section& section = reader.require(tag, type);
     const auto& shape = section.spec.shape;
     if (shape[0] != 1 || shape[1] != num_planes || shape[2] != num_vertices) {
         throw_bad_input("{}: section {}: {} x {} x {} values, expected {} x {}", reader.path(),
@@ -26,7 +26,7 @@ const Section& require_planes(const ContainerReader& reader, Tag tag, uint32_t n
 }
 
 PoseStatistics read_statistics_of(const ContainerReader& reader, uint64_t identity_checksum,
-                                  uint32_t p) {
+                                  uint32_t p, uint32_t bands) {
     const Metadata metadata(reader.read_text(reader.require(section::kMetadata, ScalarType::u8)),
                             reader.path());
     const std::string bake = fmt::format("{:016x}", identity_checksum);
@@ -42,8 +42,10 @@ PoseStatistics read_statistics_of(const ContainerReader& reader, uint64_t identi
     statistics.blocked = static_cast<uint64_t>(metadata.number("blocked", 0.0, kMaxExact));
     statistics.zero_normals =
         metadata.integer("zero_normals", 0, std::numeric_limits<int32_t>::max());
-    statistics.transfer_rms = metadata.number("transfer_rms", 0.0, kMax);
-    statistics.noise_rms = metadata.number("noise_rms", 0.0, kMax);
+    statistics.above_target =
+        metadata.integer("above_target", 0, std::numeric_limits<int32_t>::max());
+    statistics.transfer_rms = metadata.numbers("transfer_rms", bands, 0.0, kMax);
+    statistics.noise_rms = metadata.numbers("noise_rms", bands, 0.0, kMax);
     return statistics;
 }
 
@@ -81,31 +83,32 @@ BakeReader::BakeReader(std::filesystem::path directory) : directory_(std::move(d
     }
     // The manifest's count of vertices is believed only once a file holds that many.
     const ContainerReader pose(bake_pose_file(directory_, 0), section::kKindPose);
-    read_statistics_of(pose, identity_checksum_, 0);
+    read_statistics_of(pose, identity_checksum_, 0, identity_.layout.bands);
     require_planes(pose, section::kPositions, 3, identity_.num_vertices);
     require_planes(pose, section::kTransfer, identity_.layout.num_planes(), identity_.num_vertices);
 }
 
 BakedPose BakeReader::read_pose(uint32_t p) const {
     const ContainerReader reader(bake_pose_file(directory_, p), section::kKindPose);
-    const auto read = [&](Tag tag, uint32_t num_planes) {
+    const auto read = [&](Tag tag, uint32_t num_planes, ScalarType type = ScalarType::f32) {
         std::vector<float> values =
-            reader.read_f32(require_planes(reader, tag, num_planes, identity_.num_vertices));
+            reader.read_f32(require_planes(reader, tag, num_planes, identity_.num_vertices, type));
         check_finite(reader, tag, values);
         return values;
     };
     BakedPose pose;
-    pose.statistics = read_statistics_of(reader, identity_checksum_, p);
+    pose.statistics = read_statistics_of(reader, identity_checksum_, p, identity_.layout.bands);
     pose.positions = read(section::kPositions, 3);
     pose.normals = read(section::kNormals, 3);
     pose.transfer = read(section::kTransfer, identity_.layout.num_planes());
+    pose.noise = read(section::kNoise, identity_.layout.num_planes(), ScalarType::f16);
     return pose;
 }
 
 PoseStatistics read_bake_statistics(const std::filesystem::path& directory,
-                                    uint64_t identity_checksum, uint32_t p) {
+                                    uint64_t identity_checksum, uint32_t p, uint32_t bands) {
     const ContainerReader reader(bake_pose_file(directory, p), section::kKindPose);
-    return read_statistics_of(reader, identity_checksum, p);
+    return read_statistics_of(reader, identity_checksum, p, bands);
 }
 
 PoseStatistics BakeReader::total_statistics() const {
@@ -128,6 +131,13 @@ void BakeReader::read_transfer_rows(uint32_t p, uint64_t first, uint64_t count, 
     const ContainerReader reader(bake_pose_file(directory_, p), section::kKindPose);
     reader.read_range(require_planes(reader, section::kTransfer, identity_.layout.num_planes(),
                                      identity_.num_vertices),
+                      first, count, out);
+}
+
+void BakeReader::read_noise_rows(uint32_t p, uint64_t first, uint64_t count, float* out) const {
+    const ContainerReader reader(bake_pose_file(directory_, p), section::kKindPose);
+    reader.read_range(require_planes(reader, section::kNoise, identity_.layout.num_planes(),
+                                     identity_.num_vertices, ScalarType::f16),
                       first, count, out);
 }
 

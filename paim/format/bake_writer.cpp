@@ -1,11 +1,13 @@
 // Writes .bake directories.
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <utility>
 
 #include "paim/base/check.h"
 #include "paim/base/error.h"
 #include "paim/base/file.h"
+#include "paim/base/half.h"
 #include "paim/base/hash.h"
 #include "paim/format/bake_directory.h"
 #include "paim/format/bake_manifest.h"
@@ -23,6 +25,7 @@ std::string pose_metadata(uint64_t bake, uint32_t p, const PoseStatistics& stati
     json["rays"] = statistics.rays;
     json["blocked"] = statistics.blocked;
     json["zero_normals"] = statistics.zero_normals;
+    json["above_target"] = statistics.above_target;
     json["transfer_rms"] = statistics.transfer_rms;
     json["noise_rms"] = statistics.noise_rms;
     return json.dump(2) + "\n";
@@ -97,6 +100,7 @@ void BakeWriter::write_pose(uint32_t p, const BakedPose& pose) const {
     const uint32_t num_vertices = identity_.num_vertices;
     const uint32_t num_planes = identity_.layout.num_planes();
     PAIM_CHECK_EQ(pose.transfer.size(), size_t{num_planes} * num_vertices);
+    PAIM_CHECK_EQ(pose.noise.size(), pose.transfer.size());
     const std::string metadata = pose_metadata(identity_checksum_, p, pose.statistics);
     const auto planes = [&](Tag tag, uint32_t count) {
         return SectionSpec{tag, ScalarType::f32, 0, {1, count, num_vertices}};
@@ -106,11 +110,15 @@ void BakeWriter::write_pose(uint32_t p, const BakedPose& pose) const {
         {{section::kMetadata, ScalarType::u8, 0, {1, 1, static_cast<uint32_t>(metadata.size())}},
          planes(section::kPositions, 3),
          planes(section::kNormals, 3),
-         planes(section::kTransfer, num_planes)});
+         planes(section::kTransfer, num_planes),
+         {section::kNoise, ScalarType::f16, 0, {1, num_planes, num_vertices}}});
     writer.append(0, metadata.data(), metadata.size());
     writer.append(1, std::span(pose.positions));
     writer.append(2, std::span(pose.normals));
     writer.append(3, std::span(pose.transfer));
+    std::vector<uint16_t> noise(pose.noise.size());
+    std::transform(pose.noise.begin(), pose.noise.end(), noise.begin(), to_half);
+    writer.append(4, std::span<const uint16_t>(noise));
     writer.commit();
 }
 

@@ -5,8 +5,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <Eigen/Core>
-
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
@@ -15,6 +13,7 @@
 
 #include "paim/base/check.h"
 #include "paim/base/error.h"
+#include "paim/base/half.h"
 #include "paim/base/hash.h"
 
 namespace paim {
@@ -205,9 +204,7 @@ std::vector<float> ContainerReader::read_f32(const Section& section) const {
     if (section.spec.type != ScalarType::f16) return read_values<float>(section, ScalarType::f32);
     const auto halves = read_values<uint16_t>(section, ScalarType::f16);
     std::vector<float> values(halves.size());
-    std::transform(halves.begin(), halves.end(), values.begin(), [](uint16_t bits) {
-        return static_cast<float>(Eigen::numext::bit_cast<Eigen::half>(bits));
-    });
+    std::transform(halves.begin(), halves.end(), values.begin(), from_half);
     return values;
 }
 
@@ -222,9 +219,16 @@ std::string ContainerReader::read_text(const Section& section) const {
 
 void ContainerReader::read_range(const Section& section, uint64_t first, uint64_t count,
                                  float* out) const {
-    PAIM_CHECK(section.spec.type == ScalarType::f32);
     PAIM_CHECK_LE(first, section.spec.num_values());
     PAIM_CHECK_LE(count, section.spec.num_values() - first);
+    if (section.spec.type == ScalarType::f16) {
+        std::vector<uint16_t> halves(count);
+        read_bytes(section.offset + first * sizeof(uint16_t), halves.data(),
+                   count * sizeof(uint16_t));
+        std::transform(halves.begin(), halves.end(), out, from_half);
+        return;
+    }
+    PAIM_CHECK(section.spec.type == ScalarType::f32);
     read_bytes(section.offset + first * sizeof(float), out, count * sizeof(float));
 }
 

@@ -72,6 +72,25 @@ double Metadata::number(const char* key, double lowest, double highest) const {
     return value.get<double>();
 }
 
+std::vector<double> Metadata::numbers(const char* key, size_t count, double lowest,
+                                      double highest) const {
+    const json& value = member(key);
+    if (!value.is_array() || value.size() != count) {
+        throw_bad_input("{}: metadata: '{}': expected {} numbers, got {}", file_, key, count,
+                        shown(value));
+    }
+    std::vector<double> numbers;
+    for (const json& entry : value) {
+        const double number = entry.is_number() ? entry.get<double>() : lowest - 1.0;
+        if (!(number >= lowest && number <= highest)) {
+            throw_bad_input("{}: metadata: '{}': expected {} to {}, got {}", file_, key, lowest,
+                            highest, shown(entry));
+        }
+        numbers.push_back(number);
+    }
+    return numbers;
+}
+
 std::string Metadata::text(const char* key) const {
     const json& value = member(key);
     if (!value.is_string()) {

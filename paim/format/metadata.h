@@ -5,6 +5,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace paim {
 
@@ -20,6 +21,7 @@ class Metadata {
 
     uint32_t integer(const char* key, uint32_t lowest, uint32_t highest) const;
     double number(const char* key, double lowest, double highest) const;
+    std::vector<double> numbers(const char* key, size_t count, double lowest, double highest) const;
     std::string text(const char* key) const;
     std::string object_text(const char* key) const;  // "{}" if absent
     const nlohmann::json& root() const { return json_; }

@@ -23,5 +23,6 @@ constexpr Tag kSpectrum[2] = {Tag("GSPC"), Tag("TSPC")};   // f64 [n]
 constexpr Tag kPositions("POSN");  // f32 [3][V]
 constexpr Tag kNormals("NRML");    // f32 [3][V]
 constexpr Tag kTransfer("TRNF");   // f32 [planes][V]
+constexpr Tag kNoise("NOIS");      // f16 [planes][V]
 
 }  // namespace paim::section

@@ -1,11 +1,11 @@
 // Writes .paim files.
-#include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <utility>
 
 #include "paim/base/check.h"
+#include "paim/base/half.h"
 #include "paim/format/mesh_sections.h"
 #include "paim/format/paim_file.h"
 #include "paim/format/paim_sections.h"
@@ -155,9 +155,7 @@ void PaimWriter::append_component(ComponentId id, std::span<const float> rows) {
         return;
     }
     std::vector<uint16_t> halves(rows.size());
-    std::transform(rows.begin(), rows.end(), halves.begin(), [](float value) {
-        return Eigen::numext::bit_cast<uint16_t>(Eigen::half(value));
-    });
+    std::transform(rows.begin(), rows.end(), halves.begin(), to_half);
     writer_.append(section, std::span<const uint16_t>(halves));
 }
 

@@ -3,6 +3,9 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
+
+#include "paim/transfer/layout.h"
 
 namespace paim {
 
@@ -11,14 +14,19 @@ struct PoseStatistics {
     uint64_t rays = 0;          // traced
     uint64_t blocked = 0;       // of these
     uint32_t zero_normals = 0;  // vertices without a normal: their transfer is 0
-    double transfer_rms = 0.0;  // over vertices and coefficients
-    double noise_rms = 0.0;     // its estimated standard error, from two independent halves
+    uint32_t above_target = 0;  // vertices still above the transfer error asked for
+    // [bands] over the vertices, channels and coefficients of a band.
+    std::vector<double> transfer_rms;
+    std::vector<double> noise_rms;  // estimated standard error of the transfer, from its halves
 
-    // Noise as a fraction of the transfer; 0 where there is none of either.
-    double relative_noise() const { return transfer_rms > 0.0 ? noise_rms / transfer_rms : 0.0; }
+    // Noise as a fraction of the transfer over all coefficients; 0 where there is none of either.
+    double relative_noise() const;
 };
 
-// Counts add up; RMS values are those over all poses.
+// The root mean square of planes (transfer/layout.h) over all but the band, [bands].
+std::vector<double> rms_by_band(const TransferLayout& layout, std::span<const float> planes);
+
+// Counts add up; RMS values are those over all poses, which have the same number of bands (checked).
 PoseStatistics combine(std::span<const PoseStatistics> poses);
 
 }  // namespace paim

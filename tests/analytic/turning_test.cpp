@@ -40,7 +40,7 @@ Shot shoot(const PoseSet& source, double mesh_turn, double light_turn) {
     camera.eye = turn * Vec3f(3, 5, 9);
     camera.target = turn * Vec3f(0, 1.5f, 0);
     return {render_images(source.topology(), positions, radiance, camera, 128, 128)[0],
-            baked.statistics.noise_rms / baked.statistics.transfer_rms};
+            baked.statistics.relative_noise()};
 }
 
 TEST(Turning, LightOneWayIsMeshTheOther) {

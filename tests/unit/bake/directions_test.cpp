@@ -15,7 +15,7 @@ namespace {
 TEST(ScrambledSobol, EveryElementaryIntervalHoldsOnePoint) {
     // The defining property of a (0, m, 2)-net, which Owen scrambling keeps.
     constexpr uint32_t kLog = 8;
-    const SobolPoints points(1u << kLog);
+    const SobolPoints points(0, 1u << kLog);
     for (const uint32_t seed : {0u, 1u, 0xdeadbeefu}) {
         for (uint32_t log_x = 0; log_x <= kLog; ++log_x) {
             std::set<std::pair<int, int>> cells;
@@ -32,7 +32,7 @@ TEST(ScrambledSobol, EveryElementaryIntervalHoldsOnePoint) {
 
 TEST(ScrambledSobol, SixteenNeighboursShareAnElementaryInterval) {
     // 256 points, 16 in each of the 4 x 4 squares, under any seed.
-    const SobolPoints points(256);
+    const SobolPoints points(0, 256);
     for (const uint32_t seed : {0u, 1u, 0xdeadbeefu}) {
         for (size_t first = 0; first < 256; first += 16) {
             std::set<std::pair<int, int>> squares;
@@ -48,7 +48,7 @@ TEST(ScrambledSobol, SixteenNeighboursShareAnElementaryInterval) {
 
 TEST(ScrambledSobol, SeedsGiveUniformIndependentPoints) {
     // One point under many seeds is uniform: mean 1/2, variance 1/12, no correlation of the axes.
-    const SobolPoints points(16);
+    const SobolPoints points(0, 16);
     constexpr int kSeeds = 20000;
     double mean = 0.0, square = 0.0, product = 0.0;
     for (int s = 0; s < kSeeds; ++s) {
@@ -66,7 +66,7 @@ TEST(ScrambledSobol, SeedsGiveUniformIndependentPoints) {
 }
 
 TEST(CosineDirections, AreUnitAndAboveTheHorizon) {
-    const CosineDirections directions(100);
+    const CosineDirections directions(0, 100);
     EXPECT_EQ(directions.padded_count(), 112u);
     DirectionArrays d;
     RandomStream random(5);
@@ -90,7 +90,7 @@ TEST(CosineDirections, AverageTheBasisToTheCosineLobe) {
     // The mean of y_i over directions of density cos θ / π is â_l/π · y_i(n).
     constexpr int kBands = 6;
     const Vec3f normal = Vec3f(0.3f, -0.8f, 0.5f).normalized();
-    const CosineDirections directions(1u << 14);
+    const CosineDirections directions(0, 1u << 14);
     DirectionArrays d;
     directions.generate(normal, 99, d);
     std::vector<double> y(36), mean(36, 0.0), at_normal(36);

@@ -23,6 +23,9 @@ BakeIdentity make_identity() {
     BakeIdentity identity;
     identity.layout = {TransferKind::diffuse, 2, 1};
     identity.rays = 64;
+    identity.transfer_error = 0.1;
+    identity.sampler = "cosine";
+    identity.streams = "shared";
     identity.seed = 0xfedcba9876543210;  // more than a double holds
     identity.normals = "faces";
     identity.num_vertices = 4;
@@ -40,8 +43,10 @@ BakedPose make_pose(uint32_t p) {
                       [&] { return static_cast<float>(random.uniform()); });
         return values;
     };
-    BakedPose pose{fill(12), fill(12), fill(16), {}};
-    pose.statistics = {256, 17 + p, 1, 0.25, 0.125 / (p + 1)};
+    BakedPose pose{fill(12), fill(12), fill(16), fill(16), {}};
+    // Noise is stored in half precision.
+    for (float& value : pose.noise) value = std::round(value * 1024.0f) / 1024.0f;
+    pose.statistics = {256, 17 + p, 1, 2, {0.25, 0.5}, {0.125 / (p + 1), 0.0}};
     return pose;
 }
 
@@ -93,10 +98,12 @@ TEST_F(BakeDirectory, RoundTrips) {
         EXPECT_EQ(pose.positions, expected.positions);
         EXPECT_EQ(pose.normals, expected.normals);
         EXPECT_EQ(pose.transfer, expected.transfer);
+        EXPECT_EQ(pose.noise, expected.noise);
         for (const PoseStatistics& statistics : {pose.statistics, reader.read_statistics(p)}) {
             EXPECT_EQ(statistics.rays, expected.statistics.rays);
             EXPECT_EQ(statistics.blocked, expected.statistics.blocked);
             EXPECT_EQ(statistics.zero_normals, expected.statistics.zero_normals);
+            EXPECT_EQ(statistics.above_target, expected.statistics.above_target);
             EXPECT_EQ(statistics.transfer_rms, expected.statistics.transfer_rms);
             EXPECT_EQ(statistics.noise_rms, expected.statistics.noise_rms);
         }
@@ -106,6 +113,8 @@ TEST_F(BakeDirectory, RoundTrips) {
         EXPECT_TRUE(std::equal(rows.begin(), rows.end(), expected.positions.begin() + 7));
         reader.read_transfer_rows(p, 11, 5, rows.data());
         EXPECT_TRUE(std::equal(rows.begin(), rows.end(), expected.transfer.begin() + 11));
+        reader.read_noise_rows(p, 11, 5, rows.data());
+        EXPECT_TRUE(std::equal(rows.begin(), rows.end(), expected.noise.begin() + 11));
     }
     reader.verify_all();
 }
@@ -267,14 +276,14 @@ TEST_F(BakeDirectory, RefusesHostileManifests) {
     // What a later version wrote is not damaged.
     write_file(bake_ / "manifest.json", whole);
     std::string later = whole;
-    later.replace(later.find("\"version\": 1"), 12, "\"version\": 2");
+    later.replace(later.find("\"version\": 2"), 12, "\"version\": 3");
     write_file(bake_ / "manifest.json", later);
     try {
         BakeReader reader(bake_);
         ADD_FAILURE();
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ExitCode::unsupported);
-        expect_contains(error.what(), "bake version 2, expected 1");
+        expect_contains(error.what(), "bake version 3, expected 2");
     }
 }
 

@@ -1,0 +1,45 @@
+// The directions in which a vertex looks, and how much each counts.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "compressor/bake/cosine_directions.h"
+
+namespace paim {
+
+enum class SamplerKind : uint32_t {
+    cosine,         // cosine-distributed, low-discrepancy: the one to use
+    uniform,        // uniform over the sphere, random: the slow reference
+    uniform_sobol,  // uniform over the sphere, low-discrepancy
+};
+
+// What options and manifests call it: "cosine", "uniform" or "uniform-sobol".
+const char* sampler_name(SamplerKind kind);
+
+// Directions to trace. Weights are padded with zeros like the directions.
+struct RaySet : DirectionArrays {
+    std::vector<float> weights;
+    uint32_t num_rays = 0;
+};
+
+// Points [first, first + count) of a sequence of directions. For any function f of direction, the sum
+// of weight · f(ω) over the rays of a set, divided by num_points(), has the expectation
+// 1/π ∫ max(0, n·ω) f(ω) dω. Each key gives an independent sequence.
+class DirectionSampler {
+  public:
+    explicit DirectionSampler(uint32_t num_points) : num_points_(num_points) {}
+    virtual ~DirectionSampler() = default;
+    uint32_t num_points() const { return num_points_; }
+
+    // normal unit. Points below its horizon count nothing and are left out of the rays.
+    virtual void generate(const Vec3f& normal, uint64_t key, RaySet& out) const = 0;
+
+  private:
+    uint32_t num_points_;
+};
+
+std::unique_ptr<DirectionSampler> make_sampler(SamplerKind kind, uint32_t first, uint32_t count);
+
+}  // namespace paim
