@@ -83,6 +83,11 @@ void add_bake_options(CLI::App& app, CompressOptions& options, RawOptions& raw) 
         ->check(cli::in_range(kMinFloorVertices, kMaxFloorVertices))
         ->capture_default_str()
         ->needs(floor);
+    app.add_option(
+           "--static", options.statics,
+           "An OBJ file of scenery, which blocks the poses' light but is stored once; may be "
+           "given several times. The poses cast no shadow on it: for that there is --floor")
+        ->allow_extra_args(false);
     app.add_option("--seed", options.bake.seed, "Seed of the random streams, 0 to 2^64 - 1")
         ->check(cli::in_range(uint64_t{0}, std::numeric_limits<uint64_t>::max()))
         ->capture_default_str();

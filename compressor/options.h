@@ -23,7 +23,8 @@ struct CompressOptions {
     std::string normals = "faces";
     std::optional<Vec3f> albedo;
     std::optional<FloorOptions> floor;
-    std::string poses;  // "A-B", empty for all
+    std::vector<std::string> statics;  // OBJ files of scenery
+    std::string poses;                 // "A-B", empty for all
     bool discard_bake = false;
 
     // Encode.

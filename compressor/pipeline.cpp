@@ -70,6 +70,15 @@ ordered_json bake(const CompressOptions& options, const std::filesystem::path& d
         on_floor.emplace(sequence, bounds, *options.floor);
         surroundings.floor = on_floor->description();
     }
+    for (const std::string& file : options.statics) {
+        ObjOptions static_options;
+        static_options.normals_from_file = obj_options.normals_from_file;
+        const ObjSequence still({file}, static_options);
+        for (const std::string& warning : still.warnings()) {
+            fmt::print(stderr, "warning: {}\n", warning);
+        }
+        surroundings.scenery.add(still);
+    }
     const PoseSource& poses = on_floor ? static_cast<const PoseSource&>(*on_floor) : sequence;
     const uint32_t num_vertices = poses.topology().num_vertices;
     cli::Progress baking("baking", "poses", last - first + 1, quiet);
@@ -85,6 +94,11 @@ ordered_json bake(const CompressOptions& options, const std::filesystem::path& d
     json["num_triangles"] = poses.topology().triangles.size();
     json["num_poses"] = sequence.num_poses();
     if (!surroundings.floor.empty()) json["floor"] = surroundings.floor;
+    const StaticMesh& scenery = surroundings.scenery;
+    if (!scenery.empty()) {
+        json["scenery_vertices"] = scenery.topology.num_vertices;
+        json["scenery_triangles"] = scenery.topology.triangles.size();
+    }
     json["poses_baked"] = summary.baked;
     json["poses_resumed"] = summary.resumed;
     json["bands"] = options.bake.bands;
@@ -106,6 +120,10 @@ ordered_json bake(const CompressOptions& options, const std::filesystem::path& d
                                    : 0.0,
             100.0 * noise);
         if (!surroundings.floor.empty()) fmt::print("  on a floor of {}\n", surroundings.floor);
+        if (!scenery.empty()) {
+            fmt::print("  among scenery of {} vertices and {} triangles\n",
+                       scenery.topology.num_vertices, scenery.topology.triangles.size());
+        }
         if (summary.total.zero_normals > 0) {
             fmt::print("  {} vertices (over all poses) have no normal; their transfer is 0\n",
                        summary.total.zero_normals);

@@ -46,6 +46,10 @@ ordered_json describe_paim(const std::filesystem::path& path) {
         static_cast<double>(model.topology.num_vertices) * static_cast<double>(model.num_poses());
     json["bits_per_vertex_per_pose"] =
         per_pose > 0.0 ? 8.0 * json["size_bytes"].get<double>() / per_pose : 0.0;
+    if (!model.scenery.empty()) {
+        json["scenery_vertices"] = model.scenery.topology.num_vertices;
+        json["scenery_triangles"] = model.scenery.topology.triangles.size();
+    }
     json["geometry"] = describe_part(model.geometry);
     json["transfer"] = describe_part(model.transfer);
     json["provenance"] = ordered_json::parse(model.provenance_json);
@@ -73,6 +77,11 @@ ordered_json describe_bake(const std::filesystem::path& path) {
     json["seed"] = fmt::format("{:016x}", identity.seed);
     json["normals"] = identity.normals;
     if (!identity.floor.empty()) json["floor"] = identity.floor;
+    for (const auto& source : identity.scenery) json["static"].push_back(source.name);
+    if (bake.scenery()) {
+        json["scenery_vertices"] = bake.scenery()->topology.num_vertices;
+        json["scenery_triangles"] = bake.scenery()->topology.triangles.size();
+    }
     uint64_t size_bytes = 0;
     for (uint32_t p = 0; p < bake.num_poses(); ++p) {
         size_bytes += std::filesystem::file_size(bake_pose_file(path, p));

@@ -47,6 +47,7 @@ BakeIdentity bake_identity(const PoseSource& source, const BakeOptions& options,
     identity.seed = options.seed;
     identity.normals = normals;
     identity.floor = surroundings.floor;
+    identity.scenery = surroundings.scenery.sources;
     identity.num_vertices = source.topology().num_vertices;
     identity.num_triangles = static_cast<uint32_t>(source.topology().triangles.size());
     identity.mesh_xxh3 = mesh_checksum(source.topology(), source.albedo());
@@ -68,6 +69,11 @@ BakeSummary bake_sequence(const PoseSource& source, const BakeOptions& options,
     const BakeIdentity identity = bake_identity(source, options, normals, surroundings);
     const BakeWriter writer(directory, identity, source.topology(), source.albedo());
     const TransferBaker baker(options);
+    const StaticMesh& scenery = surroundings.scenery;
+    if (!scenery.empty() && !writer.has_scenery()) {
+        writer.write_scenery({scenery.topology, scenery.albedo,
+                              baker.bake(scenery.topology, scenery.pose, kSceneryPose)});
+    }
     ReadAhead ahead(source);
     BakeSummary summary;
     std::vector<PoseStatistics> poses;
@@ -79,7 +85,7 @@ BakeSummary bake_sequence(const PoseSource& source, const BakeOptions& options,
         } else {
             const Pose pose = ahead.take(p);
             if (p < last && !writer.has_pose(p + 1)) ahead.start(p + 1);
-            const BakedPose baked = baker.bake(source.topology(), pose, p);
+            const BakedPose baked = baker.bake(source.topology(), pose, p, scenery);
             writer.write_pose(p, baked);
             statistics = baked.statistics;
             ++summary.baked;

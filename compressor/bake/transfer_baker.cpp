@@ -55,13 +55,14 @@ using Halves = std::array<HalfSums, 2>;
 // The bake of one pose while it lasts.
 class TransferBaker::PoseBake {
   public:
-    PoseBake(const TransferBaker& baker, const Topology& topology, const Pose& pose, uint32_t p)
+    PoseBake(const TransferBaker& baker, const Topology& topology, const Pose& pose, uint32_t p,
+             const StaticMesh& scenery)
         : baker_(baker),
           options_(baker.options_),
           topology_(topology),
           pose_(pose),
           p_(p),
-          scene_(topology, pose.positions),
+          scene_(topology, pose.positions, scenery.topology, scenery.pose.positions),
           offsets_(ray_offsets(topology, pose.positions)),
           lobe_(cosine_lobe_by_coefficient(options_.bands)),
           num_rays_(topology.num_vertices),
@@ -222,10 +223,11 @@ TransferBaker::TransferBaker(const BakeOptions& options)
     PAIM_CHECK(options.rays >= 2 && options.rays % 2 == 0);
 }
 
-BakedPose TransferBaker::bake(const Topology& topology, const Pose& pose, uint32_t p) const {
+BakedPose TransferBaker::bake(const Topology& topology, const Pose& pose, uint32_t p,
+                              const StaticMesh& scenery) const {
     PAIM_CHECK_EQ(pose.positions.size(), topology.num_vertices);
     PAIM_CHECK_EQ(pose.normals.size(), topology.num_vertices);
-    return PoseBake(*this, topology, pose, p).run();
+    return PoseBake(*this, topology, pose, p, scenery).run();
 }
 
 }  // namespace paim

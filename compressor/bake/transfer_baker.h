@@ -9,6 +9,7 @@
 
 #include "compressor/bake/bake_options.h"
 #include "compressor/bake/direction_sampler.h"
+#include "compressor/scene/static_mesh.h"
 #include "paim/format/bake_directory.h"
 #include "paim/mesh/pose_source.h"
 #include "paim/sh/basis.h"
@@ -30,7 +31,9 @@ class TransferBaker {
     // pose     positions [V] finite, normals [V] unit or zero (transfer 0)
     // p        the pose's number, which keys the random streams
     // Deterministic on any number of threads. Errors: those of Scene.
-    BakedPose bake(const Topology& topology, const Pose& pose, uint32_t p) const;
+    // scenery  blocks light too
+    BakedPose bake(const Topology& topology, const Pose& pose, uint32_t p,
+                   const StaticMesh& scenery = {}) const;
 
     TransferLayout layout() const { return {TransferKind::diffuse, options_.bands, 1}; }
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "compressor/encode/bake_rows.h"
+#include "compressor/encode/playable_scenery.h"
 #include "compressor/encode/principal_components.h"
 #include "paim/base/file.h"
 #include "paim/format/paim_file.h"
@@ -89,6 +90,7 @@ EncodeSummary encode(const BakeReader& bake, const EncodeOptions& options,
     model.frames_per_second = options.frames_per_second;
     model.name = options.name;
     model.provenance_json = provenance(bake);
+    model.scenery = playable_scenery(bake, model.layout.bands);
 
     const GeometryRows baked_geometry(bake);
     const TransferRows baked_transfer(bake, model.layout.bands);

@@ -137,13 +137,8 @@ PosesOnFloor::PosesOnFloor(const PoseSource& source, const Bounds& bounds,
     if (first > std::numeric_limits<int32_t>::max() - num_floor) {
         throw_bad_input("floor: {} vertices are too many to add {}", first, num_floor);
     }
-    topology_.num_vertices += num_floor;
-    for (const Triangle& t : floor_.topology.triangles) {
-        topology_.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-    }
-    if (albedo_.values.size() == 1 && albedo_.values[0] == options.albedo) return;
-    if (albedo_.values.size() == 1) albedo_.values.resize(first, Vec3f(albedo_.values[0]));
-    albedo_.values.resize(topology_.num_vertices, options.albedo);
+    topology_.append(floor_.topology);
+    albedo_.append({{options.albedo}}, first, num_floor);
 }
 
 uint64_t PosesOnFloor::pose_checksum(uint32_t p) const {

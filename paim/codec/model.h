@@ -38,12 +38,24 @@ struct LowRankMatrix {
     }
 };
 
+// What stands still beside an animation, stored once. It blocks and bounces the animation's light; its
+// own transfer is that of the scenery alone, for the animation casts no shadow on it.
+struct Scenery {
+    Topology topology;  // without vertices: there is no scenery
+    Albedo albedo;
+    std::vector<float> positions;  // [3][S] scene units
+    std::vector<float> transfer;   // [planes][S], of the animation's layout
+
+    bool empty() const { return topology.num_vertices == 0; }
+};
+
 struct Model {
     Topology topology;
     Albedo albedo;
     TransferLayout layout;
     LowRankMatrix geometry;  // 3 planes: x, y, z
     LowRankMatrix transfer;  // layout.num_planes() planes
+    Scenery scenery;
     float frames_per_second = 24.0f;
     std::string name;
     std::string provenance_json;  // a JSON object: how it was made, for people and paim-info

@@ -81,9 +81,11 @@ RTCRay make_ray(const Vec3f& origin, const Vec3f& direction) {
 
 // A power of two that brings the largest coordinate to 1/2 … 1, where Embree's arithmetic is at home: it
 // loses hits beyond about 1e±18. Multiplying by it is exact, so that nothing else changes.
-float unit_scale(std::span<const Vec3f> positions) {
+float unit_scale(std::span<const Vec3f> positions, std::span<const Vec3f> more_positions) {
     float largest = 0.0f;
-    for (const Vec3f& x : positions) largest = std::max(largest, x.cwiseAbs().maxCoeff());
+    for (const auto points : {positions, more_positions}) {
+        for (const Vec3f& x : points) largest = std::max(largest, x.cwiseAbs().maxCoeff());
+    }
     int exponent = 0;
     std::frexp(largest, &exponent);
     return largest > 0.0f ? std::ldexp(1.0f, std::clamp(-exponent, -126, 126)) : 1.0f;
@@ -94,7 +96,22 @@ float unit_scale(std::span<const Vec3f> positions) {
 struct Scene::Impl {
     Device device;
     RTCScene scene = nullptr;
-    float scale = 1.0f;  // of what Embree sees
+    float scale = 1.0f;                   // of what Embree sees
+    uint32_t first_triangle[2] = {0, 0};  // of each mesh
+
+    void attach(unsigned int id, const Topology& topology, std::span<const Vec3f> positions) {
+        if (topology.triangles.empty()) return;
+        std::vector<Vec3f> scaled(positions.begin(), positions.end());
+        for (Vec3f& x : scaled) x *= scale;
+        const RTCGeometry geometry = rtcNewGeometry(device.handle(), RTC_GEOMETRY_TYPE_TRIANGLE);
+        set_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, scaled.data(),
+                   scaled.size());
+        set_buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, topology.triangles.data(),
+                   topology.triangles.size());
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometryByID(scene, geometry, id);
+        rtcReleaseGeometry(geometry);
+    }
 
     ~Impl() {
         if (scene != nullptr) rtcReleaseScene(scene);
@@ -102,25 +119,20 @@ struct Scene::Impl {
 };
 
 Scene::Scene(const Topology& topology, std::span<const Vec3f> positions)
+    : Scene(topology, positions, {}, {}) {}
+
+Scene::Scene(const Topology& topology, std::span<const Vec3f> positions, const Topology& scenery,
+             std::span<const Vec3f> scenery_positions)
     : impl_(std::make_unique<Impl>()) {
     PAIM_CHECK_EQ(positions.size(), topology.num_vertices);
-    const RTCDevice device = impl_->device.handle();
-    impl_->scene = rtcNewScene(device);
+    PAIM_CHECK_EQ(scenery_positions.size(), scenery.num_vertices);
+    impl_->scene = rtcNewScene(impl_->device.handle());
     rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(impl_->scene, RTC_BUILD_QUALITY_HIGH);
-    impl_->scale = unit_scale(positions);
-    if (!topology.triangles.empty()) {
-        std::vector<Vec3f> scaled(positions.begin(), positions.end());
-        for (Vec3f& x : scaled) x *= impl_->scale;
-        const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-        set_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, scaled.data(),
-                   scaled.size());
-        set_buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, topology.triangles.data(),
-                   topology.triangles.size());
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometry(impl_->scene, geometry);
-        rtcReleaseGeometry(geometry);
-    }
+    impl_->scale = unit_scale(positions, scenery_positions);
+    impl_->attach(0, topology, positions);
+    impl_->attach(1, scenery, scenery_positions);
+    impl_->first_triangle[1] = static_cast<uint32_t>(topology.triangles.size());
     rtcCommitScene(impl_->scene);
     impl_->device.throw_if_failed();
 }
@@ -164,7 +176,9 @@ std::optional<Hit> Scene::first_hit(const Vec3f& origin, const Vec3f& direction)
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     context.intersect(impl_->scene, query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-    return Hit{query.ray.tfar / impl_->scale, query.hit.primID, query.hit.u, query.hit.v};
+    return Hit{query.ray.tfar / impl_->scale,
+               impl_->first_triangle[query.hit.geomID] + query.hit.primID, query.hit.u,
+               query.hit.v};
 }
 
 }  // namespace paim

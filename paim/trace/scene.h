@@ -24,6 +24,10 @@ class Scene {
   public:
     // positions [V] finite. Throws Error(unsupported) if Embree cannot be started, or what it reports.
     Scene(const Topology& topology, std::span<const Vec3f> positions);
+
+    // The same with a second mesh. Its triangles are counted on from the first one's.
+    Scene(const Topology& topology, std::span<const Vec3f> positions, const Topology& scenery,
+          std::span<const Vec3f> scenery_positions);
     ~Scene();
     Scene(const Scene&) = delete;
     Scene& operator=(const Scene&) = delete;

@@ -192,6 +192,55 @@ TEST_F(BakeDirectory, ManifestKeepsTheFloor) {
     EXPECT_EQ(without.find("floor"), std::string::npos);
 }
 
+TEST_F(BakeDirectory, KeepsSceneryAndRefusesOthersByName) {
+    BakeIdentity identity = make_identity();
+    identity.scenery = {{"wall.obj", 5}, {"tree.obj", 6}};
+    BakedScenery scenery{kTetrahedron, kAlbedo, make_pose(7)};
+    {
+        const BakeWriter all = writer(identity);
+        EXPECT_FALSE(all.has_scenery());
+        all.write_scenery(scenery);
+        EXPECT_TRUE(all.has_scenery());
+        for (uint32_t p = 0; p < 3; ++p) all.write_pose(p, make_pose(p));
+    }
+    const BakeReader reader(bake_);
+    EXPECT_EQ(reader.identity(), identity);
+    ASSERT_TRUE(reader.scenery());
+    EXPECT_EQ(reader.scenery()->topology, scenery.topology);
+    EXPECT_EQ(reader.scenery()->albedo.values, scenery.albedo.values);
+    EXPECT_EQ(reader.scenery()->pose.positions, scenery.pose.positions);
+    EXPECT_EQ(reader.scenery()->pose.normals, scenery.pose.normals);
+    EXPECT_EQ(reader.scenery()->pose.transfer, scenery.pose.transfer);
+
+    const auto refusal = [&](const auto& change) {
+        BakeIdentity other = identity;
+        change(other);
+        return complaint([&] { writer(other); });
+    };
+    expect_contains(refusal([](auto& i) { i.scenery.clear(); }),
+                    "(static files: 2 there, 0 asked for)");
+    expect_contains(refusal([](auto& i) { i.scenery[1].name = "bush.obj"; }),
+                    "(static file 1: tree.obj (0000000000000006) there, bush.obj (");
+    expect_contains(refusal([](auto& i) { ++i.scenery[0].xxh3; }), "(static file 0: wall.obj (");
+
+    const std::string whole = text_of("scenery.bin");
+    for (size_t j = 0; j < 40; ++j) {
+        std::string damaged = whole;
+        damaged[whole.size() * j / 40] ^= 4;
+        write_file(bake_ / "scenery.bin", damaged);
+        const std::string message = reading_complaint();
+        EXPECT_EQ(writer(identity).has_scenery(), message == "nothing") << j;
+        if (message != "nothing") expect_contains(message, "scenery.bin: ");
+        write_file(bake_ / "scenery.bin", whole.substr(0, whole.size() * j / 40));
+        EXPECT_FALSE(writer(identity).has_scenery()) << "cut at " << whole.size() * j / 40;
+    }
+    fs::remove(bake_ / "scenery.bin");
+    expect_contains(reading_complaint(), "scenery.bin: cannot open");
+
+    // A bake without has none, whatever lies in the folder.
+    EXPECT_FALSE(manifest_text(make_identity()).find("static") != std::string::npos);
+}
+
 TEST_F(BakeDirectory, NamesThatAreNotTextStillResume) {
     BakeIdentity identity = make_identity();
     identity.poses[0].name = "caf\xe9.obj";  // Latin-1

@@ -88,6 +88,22 @@ TEST(Scene, HitsTheSameAtAnyScale) {
     }
 }
 
+TEST(Scene, CountsTheSecondMeshAfterTheFirst) {
+    // The second one lies nearer to the ray's start and is smaller.
+    std::vector<Vec3f> nearer = kCorners;
+    for (Vec3f& x : nearer) x = 0.5f * x + Vec3f(0, 0, 1);
+    const Scene scene(kTriangle, kCorners, kTriangle, nearer);
+    const auto both = scene.first_hit({0.1f, 0.1f, 2}, {0, 0, -1});
+    ASSERT_TRUE(both);
+    EXPECT_EQ(both->triangle, kTriangle.triangles.size());
+    const auto first = scene.first_hit({0.1f, 0.1f, 0.5f}, {0, 0, -1});
+    ASSERT_TRUE(first);
+    EXPECT_EQ(first->triangle, 0u);
+    const auto alone = Scene({}, {}, kTriangle, nearer).first_hit({0.1f, 0.1f, 2}, {0, 0, -1});
+    ASSERT_TRUE(alone);
+    EXPECT_EQ(alone->triangle, 0u);
+}
+
 TEST(Scene, HoldsNothingWithoutTriangles) {
     const Topology isolated{1, {}};
     const Scene scene(isolated, std::vector<Vec3f>{{0, 0, 0}});
