@@ -68,6 +68,13 @@ void add_bake_options(CLI::App& app, CompressOptions& options, RawOptions& raw) 
     app.add_option("--albedo", raw.albedo,
                    "Diffuse reflectance R,G,B (or one number), linear, 0 to 1; default: vertex "
                    "colours, else Kd of the materials, else 0.8");
+    app.add_option(
+           "--bounces", options.bake.bounces,
+           fmt::format("How often light may bounce before it reaches a vertex, 0 to {}; with "
+                       "colours a bake that bounces is three times as large",
+                       kMaxBounces))
+        ->check(cli::in_range(uint32_t{0}, kMaxBounces))
+        ->capture_default_str();
     CLI::Option* floor =
         app.add_flag("--floor", raw.floor,
                      "Put a ground under the poses, just below the lowest point of all: it gets "
@@ -83,10 +90,10 @@ void add_bake_options(CLI::App& app, CompressOptions& options, RawOptions& raw) 
         ->check(cli::in_range(kMinFloorVertices, kMaxFloorVertices))
         ->capture_default_str()
         ->needs(floor);
-    app.add_option(
-           "--static", options.statics,
-           "An OBJ file of scenery, which blocks the poses' light but is stored once; may be "
-           "given several times. The poses cast no shadow on it: for that there is --floor")
+    app.add_option("--static", options.statics,
+                   "An OBJ file of scenery, which blocks and bounces the poses' light but is "
+                   "stored once; may be "
+                   "given several times. The poses cast no shadow on it: for that there is --floor")
         ->allow_extra_args(false);
     app.add_option("--seed", options.bake.seed, "Seed of the random streams, 0 to 2^64 - 1")
         ->check(cli::in_range(uint64_t{0}, std::numeric_limits<uint64_t>::max()))

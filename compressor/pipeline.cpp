@@ -80,6 +80,8 @@ ordered_json bake(const CompressOptions& options, const std::filesystem::path& d
         surroundings.scenery.add(still);
     }
     const PoseSource& poses = on_floor ? static_cast<const PoseSource&>(*on_floor) : sequence;
+    const TransferLayout baked_layout =
+        TransferBaker::bake_layout(options.bake, poses.albedo(), surroundings.scenery);
     const uint32_t num_vertices = poses.topology().num_vertices;
     cli::Progress baking("baking", "poses", last - first + 1, quiet);
     const BakeSummary summary = bake_sequence(
@@ -103,6 +105,8 @@ ordered_json bake(const CompressOptions& options, const std::filesystem::path& d
     json["poses_resumed"] = summary.resumed;
     json["bands"] = options.bake.bands;
     json["rays"] = options.bake.rays;
+    json["bounces"] = options.bake.bounces;
+    json["channels"] = baked_layout.channels;
     json["rays_traced"] = summary.total.rays;
     json["rays_blocked"] = summary.total.blocked;
     json["vertices_without_normal"] = summary.total.zero_normals;
@@ -119,6 +123,14 @@ ordered_json bake(const CompressOptions& options, const std::filesystem::path& d
                                          static_cast<double>(summary.total.rays)
                                    : 0.0,
             100.0 * noise);
+        if (options.bake.bounces > 0) {
+            fmt::print("  {} bounces in {}; {:.2g} % of the rays ended on the back of a face\n",
+                       options.bake.bounces, baked_layout.channels == 3 ? "colour" : "grey",
+                       summary.total.rays > 0
+                           ? 100.0 * static_cast<double>(summary.total.back_hits) /
+                                 static_cast<double>(summary.total.rays)
+                           : 0.0);
+        }
         if (!surroundings.floor.empty()) fmt::print("  on a floor of {}\n", surroundings.floor);
         if (!scenery.empty()) {
             fmt::print("  among scenery of {} vertices and {} triangles\n",

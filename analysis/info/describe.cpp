@@ -76,6 +76,7 @@ ordered_json describe_bake(const std::filesystem::path& path) {
     if (identity.transfer_error > 0.0) json["transfer_error"] = identity.transfer_error;
     json["seed"] = fmt::format("{:016x}", identity.seed);
     json["normals"] = identity.normals;
+    json["bounces"] = identity.bounces;
     if (!identity.floor.empty()) json["floor"] = identity.floor;
     for (const auto& source : identity.scenery) json["static"].push_back(source.name);
     if (bake.scenery()) {

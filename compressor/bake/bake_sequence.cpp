@@ -1,7 +1,9 @@
 // Bakes a whole sequence, pose by pose.
 #include "compressor/bake/bake_sequence.h"
 
+#include <algorithm>
 #include <future>
+#include <ranges>
 
 #include "paim/base/check.h"
 #include "paim/base/parallel.h"
@@ -39,7 +41,8 @@ BakeIdentity bake_identity(const PoseSource& source, const BakeOptions& options,
                            const std::string& normals, const Surroundings& surroundings) {
     BakeIdentity identity;
     identity.baker = kBakerVersion;
-    identity.layout = {TransferKind::diffuse, options.bands, 1};
+    identity.layout = TransferBaker::bake_layout(options, source.albedo(), surroundings.scenery);
+    identity.bounces = options.bounces;
     identity.sampler = sampler_name(options.sampler);
     identity.streams = streams_name(options.streams);
     identity.rays = options.rays;
@@ -68,11 +71,17 @@ BakeSummary bake_sequence(const PoseSource& source, const BakeOptions& options,
     PAIM_CHECK_LT(last, source.num_poses());
     const BakeIdentity identity = bake_identity(source, options, normals, surroundings);
     const BakeWriter writer(directory, identity, source.topology(), source.albedo());
-    const TransferBaker baker(options);
-    const StaticMesh& scenery = surroundings.scenery;
-    if (!scenery.empty() && !writer.has_scenery()) {
-        writer.write_scenery({scenery.topology, scenery.albedo,
-                              baker.bake(scenery.topology, scenery.pose, kSceneryPose)});
+    TransferBaker baker(options, source.albedo(), surroundings.scenery);
+    const auto lacks = [&](uint32_t p) { return !writer.has_pose(p); };
+    if (const StaticMesh& scenery = surroundings.scenery; !scenery.empty()) {
+        const bool found = writer.has_scenery();
+        // Poses need its light where that bounces.
+        const auto poses = std::views::iota(first, last + 1);
+        const bool needed = options.bounces > 0 && std::any_of(poses.begin(), poses.end(), lacks);
+        if (!found || needed) {
+            const BakedPose baked = baker.bake_scenery();
+            if (!found) writer.write_scenery({scenery.topology, scenery.albedo, baked});
+        }
     }
     ReadAhead ahead(source);
     BakeSummary summary;
@@ -85,7 +94,7 @@ BakeSummary bake_sequence(const PoseSource& source, const BakeOptions& options,
         } else {
             const Pose pose = ahead.take(p);
             if (p < last && !writer.has_pose(p + 1)) ahead.start(p + 1);
-            const BakedPose baked = baker.bake(source.topology(), pose, p, scenery);
+            const BakedPose baked = baker.bake(source.topology(), pose, p);
             writer.write_pose(p, baked);
             statistics = baked.statistics;
             ++summary.baked;

@@ -51,6 +51,7 @@ std::string provenance(const BakeReader& bake) {
     json["rays"] = identity.rays;
     json["seed"] = fmt::format("{:016x}", identity.seed);
     json["normals"] = identity.normals;
+    if (identity.bounces > 0) json["bounces"] = identity.bounces;
     json["bake_noise"] = bake.total_statistics().relative_noise();
     return json.dump();
 }

@@ -27,6 +27,7 @@ struct BakeIdentity {
     std::string sampler;          // "cosine", "uniform" or "uniform-sobol"
     std::string streams;          // "per-pose", "shared" or "mixed"
     std::string normals;          // "faces" or "file"
+    uint32_t bounces = 0;         // of light between vertices
     std::string floor;            // what ground was put under the poses; empty if none
     uint32_t num_vertices = 0;
     uint32_t num_triangles = 0;

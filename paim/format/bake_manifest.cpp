@@ -67,6 +67,7 @@ std::string manifest_text(const BakeIdentity& identity) {
     json["transfer_error"] = identity.transfer_error;
     json["seed"] = hex(identity.seed);
     json["normals"] = identity.normals;
+    if (identity.bounces > 0) json["bounces"] = identity.bounces;
     if (!identity.floor.empty()) json["floor"] = identity.floor;
     json["num_vertices"] = identity.num_vertices;
     json["num_triangles"] = identity.num_triangles;
@@ -106,6 +107,9 @@ BakeIdentity read_manifest(const std::filesystem::path& path) {
         metadata.number("transfer_error", 0.0, std::numeric_limits<double>::max());
     identity.seed = parse_hex(metadata.text("seed"), file, "seed");
     identity.normals = metadata.text("normals");
+    if (metadata.root().contains("bounces")) {
+        identity.bounces = metadata.integer("bounces", 0, kMaxCount);
+    }
     if (metadata.root().contains("floor")) identity.floor = metadata.text("floor");
     identity.num_vertices = metadata.integer("num_vertices", 1, kMaxCount);
     identity.num_triangles = metadata.integer("num_triangles", 1, kMaxCount);
@@ -139,6 +143,7 @@ std::string first_difference(const BakeIdentity& there, const BakeIdentity& want
     const auto or_none = [](const std::string& text) { return text.empty() ? "none" : text; };
     for (const std::string& difference :
          {differ("baker", there.baker, wanted.baker),
+          differ("bounces", there.bounces, wanted.bounces),
           differ("bands", there.layout.bands, wanted.layout.bands),
           differ("channels", there.layout.channels, wanted.layout.channels),
           differ("sampler", there.sampler, wanted.sampler),

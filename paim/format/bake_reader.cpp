@@ -44,6 +44,9 @@ PoseStatistics read_statistics_of(const ContainerReader& reader, uint64_t identi
         metadata.integer("zero_normals", 0, std::numeric_limits<int32_t>::max());
     statistics.above_target =
         metadata.integer("above_target", 0, std::numeric_limits<int32_t>::max());
+    if (metadata.root().contains("back_hits")) {
+        statistics.back_hits = static_cast<uint64_t>(metadata.number("back_hits", 0.0, kMaxExact));
+    }
     statistics.transfer_rms = metadata.numbers("transfer_rms", bands, 0.0, kMax);
     statistics.noise_rms = metadata.numbers("noise_rms", bands, 0.0, kMax);
     return statistics;

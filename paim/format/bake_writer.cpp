@@ -26,6 +26,7 @@ std::string pose_metadata(uint64_t bake, uint32_t p, const PoseStatistics& stati
     json["blocked"] = statistics.blocked;
     json["zero_normals"] = statistics.zero_normals;
     json["above_target"] = statistics.above_target;
+    if (statistics.back_hits > 0) json["back_hits"] = statistics.back_hits;
     json["transfer_rms"] = statistics.transfer_rms;
     json["noise_rms"] = statistics.noise_rms;
     return json.dump(2) + "\n";

@@ -18,6 +18,8 @@ struct PoseStatistics {
     // [bands] over the vertices, channels and coefficients of a band.
     std::vector<double> transfer_rms;
     std::vector<double> noise_rms;  // estimated standard error of the transfer, from its halves
+    // Rays whose light would have bounced off the back of a face: it did not.
+    uint64_t back_hits = 0;
 
     // Noise as a fraction of the transfer over all coefficients; 0 where there is none of either.
     double relative_noise() const;

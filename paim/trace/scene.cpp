@@ -139,25 +139,40 @@ Scene::Scene(const Topology& topology, std::span<const Vec3f> positions, const T
 
 Scene::~Scene() = default;
 
-uint32_t Scene::blocked(const Vec3f& origin, const float* x, const float* y, const float* z,
-                        uint32_t count, float* blocked) const {
-    constexpr uint32_t kPacket = 16;
-    embree::Context context;
-    RTCRay16 rays{};
-    const Vec3f start = impl_->scale * origin;
+namespace {
+
+constexpr uint32_t kPacket = 16;
+
+// Sets up what all rays from one start share.
+void set_origin(const Vec3f& start, RTCRay16& rays) {
     std::fill_n(rays.org_x, kPacket, start.x());
     std::fill_n(rays.org_y, kPacket, start.y());
     std::fill_n(rays.org_z, kPacket, start.z());
     std::fill_n(rays.mask, kPacket, 0xffffffffu);
+}
+
+// Sets up num_rays of a packet; the others are not valid.
+void set_directions(const float* x, const float* y, const float* z, uint32_t num_rays,
+                    RTCRay16& rays, int* valid) {
+    for (uint32_t j = 0; j < kPacket; ++j) valid[j] = j < num_rays ? -1 : 0;
+    std::copy_n(x, num_rays, rays.dir_x);
+    std::copy_n(y, num_rays, rays.dir_y);
+    std::copy_n(z, num_rays, rays.dir_z);
+    std::fill_n(rays.tfar, kPacket, std::numeric_limits<float>::infinity());
+}
+
+}  // namespace
+
+uint32_t Scene::blocked(const Vec3f& origin, const float* x, const float* y, const float* z,
+                        uint32_t count, float* blocked) const {
+    embree::Context context;
+    RTCRay16 rays{};
+    set_origin(impl_->scale * origin, rays);
     alignas(64) int valid[kPacket];
     uint32_t num_blocked = 0;
     for (uint32_t first = 0; first < count; first += kPacket) {
         const uint32_t num_rays = std::min(kPacket, count - first);
-        for (uint32_t j = 0; j < kPacket; ++j) valid[j] = j < num_rays ? -1 : 0;
-        std::copy_n(x + first, num_rays, rays.dir_x);
-        std::copy_n(y + first, num_rays, rays.dir_y);
-        std::copy_n(z + first, num_rays, rays.dir_z);
-        std::fill_n(rays.tfar, kPacket, std::numeric_limits<float>::infinity());
+        set_directions(x + first, y + first, z + first, num_rays, rays, valid);
         context.occluded(valid, impl_->scene, rays);
         for (uint32_t j = 0; j < num_rays; ++j) {
             const bool hit = rays.tfar[j] < 0.0f;  // Embree's mark of a blocked ray
@@ -166,6 +181,28 @@ uint32_t Scene::blocked(const Vec3f& origin, const float* x, const float* y, con
         }
     }
     return num_blocked;
+}
+
+void Scene::first_hits(const Vec3f& origin, const float* x, const float* y, const float* z,
+                       uint32_t count, Hit* hits) const {
+    embree::Context context;
+    RTCRayHit16 query{};
+    set_origin(impl_->scale * origin, query.ray);
+    alignas(64) int valid[kPacket];
+    for (uint32_t first = 0; first < count; first += kPacket) {
+        const uint32_t num_rays = std::min(kPacket, count - first);
+        set_directions(x + first, y + first, z + first, num_rays, query.ray, valid);
+        std::fill_n(query.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
+        std::fill_n(query.hit.instID[0], kPacket, RTC_INVALID_GEOMETRY_ID);
+        context.intersect(valid, impl_->scene, query);
+        for (uint32_t j = 0; j < num_rays; ++j) {
+            const unsigned int mesh = query.hit.geomID[j];
+            hits[first + j] = {query.ray.tfar[j] / impl_->scale, kNoTriangle, query.hit.u[j],
+                               query.hit.v[j]};
+            if (mesh == RTC_INVALID_GEOMETRY_ID) continue;
+            hits[first + j].triangle = impl_->first_triangle[mesh] + query.hit.primID[j];
+        }
+    }
 }
 
 std::optional<Hit> Scene::first_hit(const Vec3f& origin, const Vec3f& direction) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -10,6 +11,9 @@
 #include "paim/mesh/topology.h"
 
 namespace paim {
+
+// In a hit: nothing.
+constexpr uint32_t kNoTriangle = std::numeric_limits<uint32_t>::max();
 
 struct Hit {
     float distance;     // along the (unit) direction, scene units
@@ -39,6 +43,11 @@ class Scene {
     // returns  how many are blocked
     uint32_t blocked(const Vec3f& origin, const float* x, const float* y, const float* z,
                      uint32_t count, float* blocked) const;
+
+    // The nearest hit in each of these directions; its triangle is kNoTriangle where there is none.
+    // hits  [count]
+    void first_hits(const Vec3f& origin, const float* x, const float* y, const float* z,
+                    uint32_t count, Hit* hits) const;
 
     // The nearest hit at distance > 0, if any.
     std::optional<Hit> first_hit(const Vec3f& origin, const Vec3f& direction) const;

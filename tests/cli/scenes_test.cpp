@@ -1,6 +1,7 @@
 // What a sequence stands on and among, through the tools: floors, scenery and light that bounces.
 #include "paim/format/bake_directory.h"
 #include "paim/format/paim_file.h"
+#include "paim/image/exr.h"
 #include "tests/cli/tool_test.h"
 
 namespace paim {
@@ -49,6 +50,71 @@ TEST_F(Scenes, FloorOptionsNeedAFloorAndSenseOfScale) {
     expect_failure(bake("x.bake", {"--floor", "--floor-vertices", "15"}), 1,
                    {"--floor-vertices", "16 to"});
     expect_failure(bake("x.bake", {"--floor", "--floor-albedo", "2"}), 1, {"--floor-albedo"});
+}
+
+TEST_F(Scenes, BouncesAreNamedAndColourCostsThreeChannels) {
+    make_poses("plates", 3, 200);
+    const auto size_of = [&](const std::string& name) {
+        return static_cast<double>(std::filesystem::file_size(path(name)));
+    };
+    const Arguments grey{"--bounces", "2"}, red{"--bounces", "2", "--albedo", "0.9,0.1,0.1"};
+    auto json = parse_object(bake("0.bake", {}, "plates"));
+    EXPECT_EQ(json["channels"], 1);
+    EXPECT_FALSE(json.contains("back_hits"));
+    json = parse_object(bake("grey.bake", grey, "plates"));
+    EXPECT_EQ(json["channels"], 1);
+    EXPECT_EQ(json["bounces"], 2);
+    json = parse_object(bake("red.bake", red, "plates"));
+    EXPECT_EQ(json["channels"], 3);
+    // A floor or scenery of a colour is enough.
+    json = parse_object(
+        bake("floor.bake",
+             {"--bounces", "1", "--floor", "--floor-vertices", "50", "--floor-albedo", "0,0,1"},
+             "plates"));
+    EXPECT_EQ(json["channels"], 3);
+
+    expect_failure(bake("grey.bake", {}, "plates"), 2, {"(bounces: 2 there, 0 asked for)"});
+    expect_failure(bake("0.bake", grey, "plates"), 2, {"(bounces: 0 there, 2 asked for)"});
+    expect_failure(bake("x.bake", {"--bounces", "17"}, "plates"), 1, {"--bounces", "0 to 16"});
+    EXPECT_EQ(parse_object(bake("red.bake", red, "plates"))["poses_resumed"], 3);
+
+    const Arguments all{"--transfer-components", "all"};
+    for (const std::string name : {"0", "grey", "red"}) {
+        Arguments encode{"encode", path(name + ".bake"), "-o", path(name + ".paim")};
+        encode.insert(encode.end(), all.begin(), all.end());
+        expect_success(compress(encode));
+    }
+    // Transfer of 4 planes a channel, as f32 and, its noise, f16; positions and normals of 6. Headers and
+    // metadata are a few hundred bytes.
+    EXPECT_NEAR(size_of("grey.bake/pose_000000.bin"), size_of("0.bake/pose_000000.bin"), 100);
+    EXPECT_NEAR(size_of("red.bake/pose_000000.bin") - size_of("grey.bake/pose_000000.bin"),
+                200 * 8 * (4 + 2), 200);
+    // Mean and the two components of three poses.
+    EXPECT_NEAR(size_of("red.paim") - size_of("grey.paim"), 200 * 8 * 4 * 3, 400);
+    json = parse_object(info({path("red.paim"), "--json"}));
+    EXPECT_EQ(json["channels"], 3);
+    EXPECT_EQ(json["provenance"]["bounces"], 2);
+    EXPECT_EQ(parse_object(info({path("grey.bake"), "--json"}))["bounces"], 2);
+    json = parse_object(analyze({path("red.bake"), "-o", path("report"), "--size", "32",
+                                 "--components", "1", "--bands", "1", "--poses", "2", "--json"}));
+    EXPECT_LT(json["transfer_components"][0]["visual_error"]["sky"], 1e-5);
+#ifdef PAIM_PLAY
+    expect_success(run(PAIM_PLAY, {path("red.paim"), "--snapshot", path("red.exr"), "--size",
+                                   "64x48", "--background", "black"}));
+    // Light that bounces off red is red: the picture over its own albedo is, too.
+    const Image image = read_exr(path("red.exr"));
+    Vec3f sum = Vec3f::Zero();
+    for (const Vec3f& pixel : image.pixels) sum += pixel.cwiseQuotient(Vec3f(0.9f, 0.1f, 0.1f));
+    expect_success(run(PAIM_PLAY, {path("0.paim"), "--snapshot", path("0.exr"), "--size", "64x48",
+                                   "--background", "black"}));
+    const Image plain = read_exr(path("0.exr"));
+    Vec3f plain_sum = Vec3f::Zero();
+    for (const Vec3f& pixel : plain.pixels) plain_sum += pixel / 0.8f;
+    const Vec3f gain = sum.cwiseQuotient(plain_sum);
+    EXPECT_GT(gain.x(), 1.05f);
+    EXPECT_GT(gain.x(), gain.y() + 0.05f);
+    EXPECT_GT(gain.y(), 0.99f);
+#endif
 }
 
 TEST_F(Scenes, StaticFilesAreStoredOnceAndNamed) {

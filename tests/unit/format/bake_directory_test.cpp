@@ -46,7 +46,7 @@ BakedPose make_pose(uint32_t p) {
     BakedPose pose{fill(12), fill(12), fill(16), fill(16), {}};
     // Noise is stored in half precision.
     for (float& value : pose.noise) value = std::round(value * 1024.0f) / 1024.0f;
-    pose.statistics = {256, 17 + p, 1, 2, {0.25, 0.5}, {0.125 / (p + 1), 0.0}};
+    pose.statistics = {256, 17 + p, 1, 2, {0.25, 0.5}, {0.125 / (p + 1), 0.0}, 3};
     return pose;
 }
 
@@ -103,6 +103,7 @@ TEST_F(BakeDirectory, RoundTrips) {
             EXPECT_EQ(statistics.rays, expected.statistics.rays);
             EXPECT_EQ(statistics.blocked, expected.statistics.blocked);
             EXPECT_EQ(statistics.zero_normals, expected.statistics.zero_normals);
+            EXPECT_EQ(statistics.back_hits, 3u);
             EXPECT_EQ(statistics.above_target, expected.statistics.above_target);
             EXPECT_EQ(statistics.transfer_rms, expected.statistics.transfer_rms);
             EXPECT_EQ(statistics.noise_rms, expected.statistics.noise_rms);
@@ -169,6 +170,7 @@ TEST_F(BakeDirectory, RefusesOtherIdentitiesByName) {
     expect_contains(refusal([](auto& i) { ++i.seed; }), "(seed: ");
     expect_contains(refusal([](auto& i) { i.normals = "file"; }),
                     "(normals: faces there, file asked for)");
+    expect_contains(refusal([](auto& i) { i.bounces = 3; }), "(bounces: 0 there, 3 asked for)");
     expect_contains(refusal([](auto& i) { i.floor = "wood"; }),
                     "(floor: none there, wood asked for)");
     expect_contains(refusal([](auto& i) { ++i.num_vertices; }), "(vertices: 4 there, 5 asked for)");
@@ -182,14 +184,16 @@ TEST_F(BakeDirectory, RefusesOtherIdentitiesByName) {
     EXPECT_EQ(reading_complaint(), "nothing");  // it is as it was
 }
 
-TEST_F(BakeDirectory, ManifestKeepsTheFloor) {
+TEST_F(BakeDirectory, ManifestKeepsFloorAndBounces) {
     BakeIdentity identity = make_identity();
     const std::string without = manifest_text(identity);
     identity.floor = "100 vertices at y = -1";
+    identity.bounces = 2;
     writer(identity);
     EXPECT_EQ(read_manifest(bake_ / "manifest.json"), identity);
-    // A bake without one has the manifest, and so the checksum, that it had before there were floors.
+    // A bake without them has the manifest, and so the checksum, that it had before there were any.
     EXPECT_EQ(without.find("floor"), std::string::npos);
+    EXPECT_EQ(without.find("bounces"), std::string::npos);
 }
 
 TEST_F(BakeDirectory, KeepsSceneryAndRefusesOthersByName) {

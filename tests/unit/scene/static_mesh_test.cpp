@@ -65,9 +65,10 @@ TEST(StaticMesh, BlocksAsIfItWerePartOfTheMesh) {
     const PoseSet lower = plate(both, false), upper = plate(both, true);
     StaticMesh scenery;
     scenery.add(upper);
-    const TransferBaker baker({3, 256, 1});
-    const BakedPose whole = baker.bake(both.topology(), both.load_pose(0), 0);
-    const BakedPose part = baker.bake(lower.topology(), lower.load_pose(0), 0, scenery);
+    const BakeOptions options{3, 256, 1};
+    const BakedPose whole = TransferBaker(options).bake(both.topology(), both.load_pose(0), 0);
+    const BakedPose part =
+        TransferBaker(options, {}, scenery).bake(lower.topology(), lower.load_pose(0), 0);
     // The same rays against the same triangles: the same numbers.
     const size_t num_all = both.topology().num_vertices, num_lower = num_all / 2;
     for (size_t i = 0; i < 9; ++i) {
