@@ -100,6 +100,9 @@ BENCHMARK_CAPTURE(shade, vertices_10000, 10000);
 BENCHMARK_CAPTURE(basis, small, 3);
 BENCHMARK_CAPTURE(basis, bands_5, 5);
 BENCHMARK_CAPTURE(basis, bands_10, 10);
+BENCHMARK_CAPTURE(basis, bands_16, 16);
+BENCHMARK_CAPTURE(basis, bands_17, 17);
+BENCHMARK_CAPTURE(basis, bands_64, 64);
 
 }  // namespace
 

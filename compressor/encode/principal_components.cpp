@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "compressor/encode/left_vectors.h"
 #include "compressor/encode/tsqr.h"
 #include "paim/base/check.h"
 #include "paim/base/parallel.h"
@@ -17,29 +18,22 @@ using Eigen::MatrixXd;
 
 namespace {
 
-// Blocks that are worked on at once before they are handed on in order.
-constexpr uint64_t kBlocksPerRound = 16;
-
 EncodedRows encode_block(const RowSource& rows, uint64_t first, uint64_t count,
-                         const MatrixXd& projection) {
+                         const LeftVectors& left, uint32_t num_components) {
     Eigen::MatrixXf block(static_cast<Index>(count), static_cast<Index>(rows.num_columns()));
     rows.read(first, block);
     EncodedRows encoded;
     encoded.mean.resize(count);
-    encoded.components.resize(static_cast<size_t>(projection.cols()));
+    encoded.components.resize(num_components);
     for (auto& component : encoded.components) component.resize(count);
-    MatrixXd centred, scores;
-    Eigen::VectorXd mean;
-    for (Index row = 0; row < block.rows(); row += kRowsAtOnce) {
-        const Index size = std::min(kRowsAtOnce, block.rows() - row);
-        centre_rows(block.middleRows(row, size), centred, mean);
-        scores.noalias() = centred * projection;
+    left.project(block, [&](Index row, const Eigen::VectorXd& mean, const MatrixXd& scores) {
+        const Index size = scores.rows();
         Eigen::Map<Eigen::VectorXf>(encoded.mean.data() + row, size) = mean.cast<float>();
-        for (Index k = 0; k < projection.cols(); ++k) {
+        for (Index k = 0; k < scores.cols(); ++k) {
             float* component = encoded.components[static_cast<size_t>(k)].data();
             Eigen::Map<Eigen::VectorXf>(component + row, size) = scores.col(k).cast<float>();
         }
-    }
+    });
     return encoded;
 }
 
@@ -48,20 +42,26 @@ EncodedRows encode_block(const RowSource& rows, uint64_t first, uint64_t count,
 uint32_t PrincipalComponents::rank() const {
     if (singular_values.empty()) return 0;
     const auto num_poses = v.rows();
-    const double floor = singular_values[0] * static_cast<double>(num_poses) *
+    // Reducing P columns rounds about P times. So does each of the folds of kRowsAtOnce rows, by less than
+    // 2^-52 of the largest value and at random: √folds. Measured on matrices of exactly known rank: at most
+    // a third (6.6 · 2^-52 of 6 poses and a million rows).
+    const double num_folds = static_cast<double>(num_rows) / static_cast<double>(kRowsAtOnce);
+    const double floor = singular_values[0] *
+                         (static_cast<double>(num_poses) + std::sqrt(num_folds)) *
                          std::numeric_limits<double>::epsilon();
     const auto above = std::count_if(singular_values.begin(), singular_values.end(),
                                      [&](double s) { return s > floor; });
     return static_cast<uint32_t>(std::min<Index>(above, num_poses - 1));
 }
 
-PrincipalComponents principal_components(const RowSource& rows) {
+PrincipalComponents principal_components(const RowSource& rows, uint32_t num_in_flight) {
     // With fewer rows than columns the factor has that many rows; the others are zero.
     const auto count = static_cast<Index>(std::min<uint64_t>(rows.num_rows(), rows.num_columns()));
-    SmallSvd svd = jacobi_svd(centred_triangular_factor(rows).topRows(count));
+    SmallSvd svd = jacobi_svd(centred_triangular_factor(rows, num_in_flight).topRows(count));
     PrincipalComponents components;
     components.singular_values.assign(svd.singular_values.begin(), svd.singular_values.end());
     components.v = std::move(svd.v);
+    components.num_rows = rows.num_rows();
     return components;
 }
 
@@ -81,22 +81,17 @@ std::vector<float> component_weights(const PrincipalComponents& components, uint
 
 void for_each_encoded_block(const RowSource& rows, const PrincipalComponents& components,
                             uint32_t num_components,
-                            const std::function<void(const EncodedRows&)>& on_block) {
-    PAIM_CHECK_LE(num_components, components.rank());
-    // U = A' V S⁻¹, times √rows for unit RMS.
-    MatrixXd projection = components.v.leftCols(num_components);
-    for (uint32_t k = 0; k < num_components; ++k) {
-        projection.col(k) *=
-            std::sqrt(static_cast<double>(rows.num_rows())) / components.singular_values[k];
-    }
+                            const std::function<void(const EncodedRows&)>& on_block,
+                            uint32_t num_in_flight) {
+    const LeftVectors left(rows, components, num_components, num_in_flight);
     const uint64_t block_rows = rows_per_block(rows.num_columns());
     const uint64_t num_blocks = (rows.num_rows() + block_rows - 1) / block_rows;
-    for (uint64_t round = 0; round < num_blocks; round += kBlocksPerRound) {
-        std::vector<EncodedRows> encoded(std::min(kBlocksPerRound, num_blocks - round));
+    for (uint64_t round = 0; round < num_blocks; round += num_in_flight) {
+        std::vector<EncodedRows> encoded(std::min<uint64_t>(num_in_flight, num_blocks - round));
         parallel_for(encoded.size(), 1, [&](size_t j, size_t) {
             const uint64_t first = (round + j) * block_rows;
             encoded[j] = encode_block(rows, first, std::min(block_rows, rows.num_rows() - first),
-                                      projection);
+                                      left, num_components);
         });
         for (const EncodedRows& block : encoded) on_block(block);
     }

@@ -8,6 +8,7 @@
 
 #include "compressor/encode/jacobi_svd.h"
 #include "compressor/encode/row_source.h"
+#include "compressor/encode/tsqr.h"
 
 namespace paim {
 
@@ -16,12 +17,18 @@ struct PrincipalComponents {
     std::vector<double> singular_values;  // [min(rows, P)], descending
     Eigen::MatrixXd v;                    // [P][min(rows, P)]
 
-    // How many singular values are more than rounding: above P · 2⁻⁵² of the largest, and at most
-    // P − 1, since centring takes one.
+    uint64_t num_rows = 0;  // of the matrix
+
+    // How many singular values are more than rounding: above (P + √(rows / 256)) · 2⁻⁵² of the largest,
+    // and at most P − 1, since centring takes one. The data's own floats count as exact: what their
+    // rounding to 2⁻²⁴ put into them is a component like any other.
     uint32_t rank() const;
 };
 
-PrincipalComponents principal_components(const RowSource& rows);
+// num_in_flight  blocks of rows that are worked on at once, a power of two to kMaxInFlight: fewer need less
+//                memory and give the same bytes
+PrincipalComponents principal_components(const RowSource& rows,
+                                         uint32_t num_in_flight = kMaxInFlight);
 
 // Weights of the first num_components components as the .paim holds them: W_kp = s_k V_pk / √rows, so
 // that components have unit RMS. returns [K][P]
@@ -37,6 +44,7 @@ struct EncodedRows {
 // Calls on_block for consecutive blocks of rows, in order, from one thread.
 void for_each_encoded_block(const RowSource& rows, const PrincipalComponents& components,
                             uint32_t num_components,
-                            const std::function<void(const EncodedRows&)>& on_block);
+                            const std::function<void(const EncodedRows&)>& on_block,
+                            uint32_t num_in_flight = kMaxInFlight);
 
 }  // namespace paim

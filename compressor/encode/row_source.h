@@ -18,6 +18,9 @@ class RowSource {
 
     // Rows [first, first + block.rows()) into block, which has num_columns() columns. Thread-safe.
     virtual void read(uint64_t first, Eigen::MatrixXf& block) const = 0;
+
+    // The same rows, for a pass that nobody counted on beforehand: it reports nothing.
+    virtual const RowSource& silent() const { return *this; }
 };
 
 // Another source, with a word to the caller after each block that is read (from any thread).
@@ -32,6 +35,7 @@ class ReportingRows : public RowSource {
         rows_.read(first, block);
         if (on_rows_) on_rows_(static_cast<uint64_t>(block.rows()));
     }
+    const RowSource& silent() const override { return rows_; }
 
   private:
     const RowSource& rows_;

@@ -4,9 +4,13 @@
 #include "compressor/encode/tsqr.h"
 
 #include <algorithm>
+#include <bit>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "compressor/encode/qr_update.h"
+#include "paim/base/check.h"
 #include "paim/base/parallel.h"
 
 namespace paim {
@@ -16,29 +20,44 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-// Runs of blocks that are factored side by side. Each holds one n x n factor, whatever the number of
-// rows; more of them would only cost memory.
-constexpr uint64_t kNumRuns = 32;
+// The factor of the runs of a complete subtree.
+struct Subtree {
+    MatrixXd factor;
+    uint64_t num_runs;
+};
 
 // The factor of blocks [begin, end), one after the other.
-MatrixXd factor_of_run(const RowSource& rows, uint64_t begin, uint64_t end) {
-    const auto n = static_cast<Index>(rows.num_columns());
+MatrixXd factor_of_run(const RowSource& rows, Index n, const RowMap& map, uint64_t begin,
+                       uint64_t end) {
     const uint64_t block_rows = rows_per_block(rows.num_columns());
     MatrixXd factor = MatrixXd::Zero(n, n);
     Eigen::MatrixXf block;
-    MatrixXd centred;
+    MatrixXd centred, mapped;
     Eigen::VectorXd mean;
     for (uint64_t b = begin; b < end; ++b) {
         const uint64_t first = b * block_rows;
-        block.resize(static_cast<Index>(std::min(block_rows, rows.num_rows() - first)), n);
+        block.resize(static_cast<Index>(std::min(block_rows, rows.num_rows() - first)),
+                     static_cast<Index>(rows.num_columns()));
         rows.read(first, block);
         for (Index row = 0; row < block.rows(); row += kRowsAtOnce) {
             const Index count = std::min(kRowsAtOnce, block.rows() - row);
             centre_rows(block.middleRows(row, count), centred, mean);
-            fold_rows(factor, centred);
+            if (map) map(centred, mapped);
+            fold_rows(factor, map ? mapped : centred);
         }
     }
     return factor;
+}
+
+// factors[0] becomes the factor of all, by a binary tree over them in order.
+void combine(std::span<MatrixXd> factors) {
+    for (size_t stride = 1; stride < factors.size(); stride *= 2) {
+        parallel_for((factors.size() + stride - 1) / (2 * stride), 1, [&](size_t i, size_t) {
+            const size_t upper = 2 * i * stride;
+            fold_rows(factors[upper], factors[upper + stride]);
+            factors[upper + stride].resize(0, 0);
+        });
+    }
 }
 
 }  // namespace
@@ -53,33 +72,51 @@ void centre_rows(const Eigen::Ref<const Eigen::MatrixXf>& block, MatrixXd& centr
                  Eigen::VectorXd& mean) {
     centred.resize(block.rows(), block.cols());
     mean.setZero(block.rows());
-    // Column by column, as they lie in memory.
+    if (block.cols() == 0) return;
+    // Differences to the first column first, which doubles hold exactly: rounding is then that of what
+    // moves, however far from zero it does, and a row that is still gives zeros. Column by column, as they
+    // lie in memory.
+    const Eigen::VectorXd first = block.col(0).cast<double>();
     for (Index p = 0; p < block.cols(); ++p) {
-        centred.col(p) = block.col(p).cast<double>();
+        centred.col(p) = block.col(p).cast<double>() - first;
         mean += centred.col(p);
     }
     mean /= static_cast<double>(block.cols());
     centred.colwise() -= mean;
+    mean += first;
 }
 
-MatrixXd centred_triangular_factor(const RowSource& rows) {
+MatrixXd triangular_factor(const RowSource& rows, Index num_columns, const RowMap& map,
+                           uint32_t num_in_flight) {
+    PAIM_CHECK(std::has_single_bit(num_in_flight) && num_in_flight <= kMaxInFlight);
     const uint64_t block_rows = rows_per_block(rows.num_columns());
     const uint64_t num_blocks = (rows.num_rows() + block_rows - 1) / block_rows;
-    const uint64_t num_runs = std::min(kNumRuns, num_blocks);
-    std::vector<MatrixXd> factors(num_runs);
-    parallel_for(num_runs, 1, [&](size_t run, size_t) {
-        factors[run] =
-            factor_of_run(rows, run * num_blocks / num_runs, (run + 1) * num_blocks / num_runs);
-    });
-    // A binary tree over the runs in order.
-    for (size_t stride = 1; stride < factors.size(); stride *= 2) {
-        parallel_for((factors.size() + stride - 1) / (2 * stride), 1, [&](size_t i, size_t) {
-            const size_t upper = 2 * i * stride;
-            fold_rows(factors[upper], factors[upper + stride]);
+    const uint64_t num_runs = std::min<uint64_t>(kMaxInFlight, num_blocks);
+    // Factors of 2^i runs that wait for their right neighbours, larger ones first: a tree's left edge.
+    // Folding them as soon as they are complete gives the same tree for any number in flight.
+    std::vector<Subtree> waiting;
+    for (uint64_t first = 0; first < num_runs; first += num_in_flight) {
+        std::vector<MatrixXd> factors(std::min<uint64_t>(num_in_flight, num_runs - first));
+        parallel_for(factors.size(), 1, [&](size_t j, size_t) {
+            const uint64_t run = first + j;
+            factors[j] = factor_of_run(rows, num_columns, map, run * num_blocks / num_runs,
+                                       (run + 1) * num_blocks / num_runs);
         });
+        combine(factors);
+        waiting.push_back({std::move(factors[0]), num_in_flight});
+        while (waiting.size() > 1 && (waiting.end()[-2].num_runs == waiting.back().num_runs ||
+                                      first + num_in_flight >= num_runs)) {
+            fold_rows(waiting.end()[-2].factor, waiting.back().factor);
+            waiting.end()[-2].num_runs *= 2;
+            waiting.pop_back();
+        }
     }
-    const auto n = static_cast<Index>(rows.num_columns());
-    return factors.empty() ? MatrixXd::Zero(n, n) : factors[0];
+    if (waiting.empty()) return MatrixXd::Zero(num_columns, num_columns);
+    return std::move(waiting[0].factor);
+}
+
+MatrixXd centred_triangular_factor(const RowSource& rows, uint32_t num_in_flight) {
+    return triangular_factor(rows, static_cast<Index>(rows.num_columns()), {}, num_in_flight);
 }
 
 }  // namespace paim

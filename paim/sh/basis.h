@@ -22,7 +22,7 @@ namespace paim::sh {
 void evaluate_basis(int bands, const Vec3d& direction, std::span<float> values);
 void evaluate_basis(int bands, const Vec3d& direction, std::span<double> values);
 
-// Evaluates the basis for many directions at once, in float: the inner loop of the bake.
+// Evaluates the basis for many directions at once, to float: the inner loop of the bake.
 class BatchBasis {
   public:
     static constexpr int kBatch = 16;
@@ -32,12 +32,13 @@ class BatchBasis {
 
     int bands() const { return bands_; }
 
-    // x, y, z  [kBatch] unit directions
+    // x, y, z  [kBatch] unit directions, or zero
     // values   [bands²][kBatch]
-    // err      relative to the largest value of a band, sqrt((2l+1)/4π): 5e-7 at 5 bands, 3e-6 at
-    // 10,
-    //          7e-5 at 64 (2^-24 · l²/4, all of it near the poles)
-    // cost     about 130 ps a value with SSE2: 50 ns for 5 bands, 180 ns for 10
+    // err      relative to the largest value of a band, sqrt((2l+1)/4π), and to the direction before
+    //          it was rounded to float: 5e-7 at 5 bands, 3e-6 at 10, 8e-6 at 16 (2^-24 · l²/2, all of it
+    //          near the poles); 2e-6 at 17 to 64, which are computed in double
+    // cost     about 130 ps a value with SSE2: 50 ns for 5 bands, 180 ns for 10, 420 ns for 16; 270 ps
+    //          above, 17 µs for 64
     void evaluate(const float* x, const float* y, const float* z, float* values) const;
 
     // Adds Σ_j weights[j] · y_i(direction j) to each coefficient's sum, at the cost of evaluate alone:
@@ -50,12 +51,9 @@ class BatchBasis {
                     float* sums) const;
 
   private:
-    template <typename Weights, typename Sink>
-    void run(const float* x, const float* y, const float* z, const Weights& weights,
-             const Sink& sink) const;
-
     int bands_;
-    std::vector<float> recurrence_;
+    std::vector<float> float_recurrence_;  // one of the two, by the number of bands
+    std::vector<double> double_recurrence_;
 };
 
 }  // namespace paim::sh

@@ -16,16 +16,21 @@ inline Vec3d random_direction(RandomStream& random) {
     return Vec3d(s * std::cos(phi), s * std::sin(phi), z).normalized();
 }
 
-// 96 uniform ones, 90 within 1e-12 … 1 of a pole, and the six axes: 192, a multiple of 16.
+// 96 uniform ones, 54 within 1e-20 … 1 of a pole, one 1e-3, 1e-4 … 1e-20 from each pole, and the six axes:
+// 192, a multiple of 16.
 inline std::vector<Vec3d> test_directions() {
     RandomStream random(stream_key(7, 0, 0));
     std::vector<Vec3d> directions;
-    for (int i = 0; i < 96; ++i) directions.push_back(random_direction(random));
-    for (int i = 0; i < 90; ++i) {
-        const double s = std::pow(10.0, -12.0 * random.uniform());
+    const auto add_near_pole = [&](double s, double pole) {
         const double phi = 2.0 * kPi * random.uniform();
-        directions.push_back(
-            Vec3d(s * std::cos(phi), s * std::sin(phi), i % 2 == 0 ? 1.0 : -1.0).normalized());
+        directions.push_back(Vec3d(s * std::cos(phi), s * std::sin(phi), pole).normalized());
+    };
+    for (int i = 0; i < 96; ++i) directions.push_back(random_direction(random));
+    for (int i = 0; i < 54; ++i) {
+        add_near_pole(std::pow(10.0, -20.0 * random.uniform()), i % 2 == 0 ? 1.0 : -1.0);
+    }
+    for (int exponent = -3; exponent >= -20; --exponent) {
+        for (const double pole : {1.0, -1.0}) add_near_pole(std::pow(10.0, exponent), pole);
     }
     for (int axis = 0; axis < 3; ++axis) {
         directions.push_back(Vec3d::Unit(axis));
