@@ -20,6 +20,7 @@ struct RawOptions {
     std::string geometry_components = "auto";
     std::string transfer_components = "auto";
     std::string precision = "f32";
+    std::string noise = "shrink";
     std::string auto_transfer_error = "1%";
     std::string transfer_error;
     std::string sampler = "cosine";
@@ -109,8 +110,13 @@ void add_encode_options(CLI::App& app, CompressOptions& options, RawOptions& raw
         ->capture_default_str();
     app.add_option("--auto-transfer-error", raw.auto_transfer_error,
                    "What 'auto' keeps the transfer's energy error below, a fraction or percentage; "
-                   "bake noise counts, so far below it nearly all components are kept (the "
-                   "geometry's is always 1 %)")
+                   "components that are nothing but bake noise are never kept (the geometry's is "
+                   "always 1 %)")
+        ->capture_default_str();
+    app.add_option("--noise", raw.noise,
+                   "Bake noise in the transfer's components: 'shrink' scales them down by what of "
+                   "them is noise, 'keep' leaves them ('all' components are always kept as baked)")
+        ->check(CLI::IsMember({"shrink", "keep"}))
         ->capture_default_str();
     app.add_option("--precision", raw.precision,
                    "How components are stored: f32 or f16 (half the size, relative rounding "
@@ -176,6 +182,7 @@ void apply(const RawOptions& raw, CompressOptions& options) {
     options.encode.transfer = parse_components(raw.transfer_components, "--transfer-components");
     options.encode.automatic_transfer_error =
         cli::parse_fraction(raw.auto_transfer_error, "--auto-transfer-error");
+    options.encode.noise = raw.noise == "keep" ? NoiseTreatment::keep : NoiseTreatment::shrink;
     options.encode.precision = raw.precision == "f16" ? Precision::f16 : Precision::f32;
     if (raw.encode_bands > 0) options.encode.bands = raw.encode_bands;
 }
@@ -213,6 +220,10 @@ std::optional<CompressOptions> parse_options(int argc, const char* const* argv, 
     app.get_option("--output")->required(false);
 
     CLI::App* bake = app.add_subcommand("bake", "Bake a pose sequence into a .bake directory");
+    bake->footer(
+        "What is odd about the mesh (open edges, faces that are there twice, ...) is counted in "
+        "warnings and in\n--json as 'mesh'. Meshes far from the world's origin are baked near it; "
+        "the bake keeps where they were.");
     add_input_options(*bake, options);
     bake->get_option("OBJ")->required();
     add_bake_options(*bake, options, raw);

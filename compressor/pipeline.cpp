@@ -11,6 +11,7 @@
 #include "compressor/bake/bake_sequence.h"
 #include "compressor/io/obj_files.h"
 #include "compressor/io/obj_sequence.h"
+#include "compressor/mesh_warnings.h"
 #include "compressor/scene/floor.h"
 #include "paim/base/error.h"
 #include "paim/base/file.h"
@@ -45,6 +46,10 @@ void check_paim_output(const std::filesystem::path& output) {
     }
 }
 
+void print_warnings(const std::vector<std::string>& warnings) {
+    for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
+}
+
 ordered_json bake(const CompressOptions& options, const std::filesystem::path& directory) {
     check_output(directory);
     const auto files = find_obj_files(options.inputs, options.keep_order);
@@ -56,9 +61,9 @@ ordered_json bake(const CompressOptions& options, const std::filesystem::path& d
     obj_options.on_file_checked = [&] { checking.advance(); };
     const ObjSequence sequence(files, obj_options);
     checking.finish();
-    for (const std::string& warning : sequence.warnings()) {
-        fmt::print(stderr, "warning: {}\n", warning);
-    }
+    print_warnings(sequence.warnings());
+    const TopologyReport topology = report_topology(sequence.topology());
+    print_warnings(mesh_warnings(topology));
 
     const auto [first, last] = parse_pose_range(options.poses, sequence.num_poses());
     Surroundings surroundings;
@@ -73,10 +78,9 @@ ordered_json bake(const CompressOptions& options, const std::filesystem::path& d
     for (const std::string& file : options.statics) {
         ObjOptions static_options;
         static_options.normals_from_file = obj_options.normals_from_file;
+        static_options.origin = sequence.origin();
         const ObjSequence still({file}, static_options);
-        for (const std::string& warning : still.warnings()) {
-            fmt::print(stderr, "warning: {}\n", warning);
-        }
+        print_warnings(still.warnings());
         surroundings.scenery.add(still);
     }
     const PoseSource& poses = on_floor ? static_cast<const PoseSource&>(*on_floor) : sequence;
@@ -88,6 +92,7 @@ ordered_json bake(const CompressOptions& options, const std::filesystem::path& d
         poses, options.bake, options.normals, directory, first, last,
         [&](uint32_t) { baking.advance(); }, surroundings);
     baking.finish();
+    print_warnings(mesh_warnings(summary.total.mesh));
 
     const double noise = summary.total.relative_noise();
     ordered_json json;
@@ -111,6 +116,7 @@ ordered_json bake(const CompressOptions& options, const std::filesystem::path& d
     json["rays_blocked"] = summary.total.blocked;
     json["vertices_without_normal"] = summary.total.zero_normals;
     json["relative_noise"] = noise;
+    json["mesh"] = mesh_json(topology, summary.total.mesh);
     if (!options.json) {
         fmt::print(
             "{}: {} vertices, {} triangles, poses {}-{} of {} ({} baked, {} found), {} bands\n",
@@ -172,6 +178,12 @@ ordered_json encode_to(const CompressOptions& options, const std::filesystem::pa
                                  summary.geometry_theory_error, summary.geometry_energy_error);
     json["transfer"] = part_json(summary.transfer_components, summary.transfer_rank,
                                  summary.transfer_theory_error, summary.transfer_energy_error);
+    json["transfer"]["above_noise"] = summary.transfer_above_noise;
+    json["transfer"]["signal_error"] = summary.transfer_signal_error;
+    json["transfer"]["shrunk"] = summary.shrunk;
+    json["transfer"]["expected_error"] = summary.expected_error();
+    json["transfer"]["expected_truncation_error"] = summary.expected_truncation_error;
+    json["transfer"]["expected_noise_error"] = summary.expected_noise_error;
     json["size_bytes"] = summary.size_bytes;
     if (!options.json) {
         fmt::print("{}: {:.2f} MB, {} bands\n", options.output.string(),
@@ -184,16 +196,18 @@ ordered_json encode_to(const CompressOptions& options, const std::filesystem::pa
             "  transfer: {} of {} components, energy error {:.3g} %, theoretical error {:.3g} %\n",
             summary.transfer_components, summary.transfer_rank,
             100.0 * summary.transfer_energy_error, 100.0 * summary.transfer_theory_error);
-    }
-    const bool keeps_nearly_all = summary.transfer_components > summary.transfer_rank * 4 / 5;
-    if (options.encode.transfer.kind == ComponentChoice::Kind::automatic && keeps_nearly_all &&
-        summary.transfer_rank > 10) {
         fmt::print(
-            stderr,
-            "note: 'auto' kept nearly all transfer components, mostly for the bake's noise "
-            "({:.1f} % of the transfer); --transfer-components 12 or --auto-transfer-error 10% "
-            "make it small, and paim-analyze shows what that costs\n",
-            100.0 * reader.total_statistics().relative_noise());
+            "  expected error of the transfer: {:.2g} % ({:.2g} % dropped components, {:.2g} % "
+            "bake "
+            "noise{})\n",
+            100.0 * summary.expected_error(), 100.0 * summary.expected_truncation_error,
+            100.0 * summary.expected_noise_error, summary.shrunk ? ", shrunk" : "");
+    }
+    if (summary.expected_noise_error > summary.expected_truncation_error && !options.quiet &&
+        !options.json) {
+        fmt::print(stderr,
+                   "note: most of the error is bake noise: more rays would help more than more "
+                   "components\n");
     }
     return json;
 }

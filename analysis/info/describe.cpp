@@ -41,6 +41,7 @@ ordered_json describe_paim(const std::filesystem::path& path) {
     json["frames_per_second"] = model.frames_per_second;
     json["bands"] = model.layout.bands;
     json["channels"] = model.layout.channels;
+    json["origin"] = {model.origin.x(), model.origin.y(), model.origin.z()};
     json["albedo"] = model.albedo.values.size() == 1 ? "uniform" : "per vertex";
     const double per_pose =
         static_cast<double>(model.topology.num_vertices) * static_cast<double>(model.num_poses());
@@ -83,6 +84,7 @@ ordered_json describe_bake(const std::filesystem::path& path) {
         json["scenery_vertices"] = bake.scenery()->topology.num_vertices;
         json["scenery_triangles"] = bake.scenery()->topology.triangles.size();
     }
+    json["origin"] = {identity.origin.x(), identity.origin.y(), identity.origin.z()};
     uint64_t size_bytes = 0;
     for (uint32_t p = 0; p < bake.num_poses(); ++p) {
         size_bytes += std::filesystem::file_size(bake_pose_file(path, p));
@@ -101,6 +103,12 @@ ordered_json describe_bake(const std::filesystem::path& path) {
     return json;
 }
 
+// In full where that is short, as coordinates of an origin are.
+std::string number_text(double value) {
+    std::string exact = fmt::format("{}", value);
+    return exact.size() <= 10 ? exact : fmt::format("{:.5g}", value);
+}
+
 void append_lines(const ordered_json& json, int indent, std::string& text) {
     for (const auto& [key, value] : json.items()) {
         std::string label = key;
@@ -114,8 +122,7 @@ void append_lines(const ordered_json& json, int indent, std::string& text) {
         } else if (value.is_array()) {
             for (const auto& entry : value) {
                 text += ' ';
-                text +=
-                    entry.is_number() ? fmt::format("{:.5g}", entry.get<double>()) : entry.dump();
+                text += entry.is_number() ? number_text(entry.get<double>()) : entry.dump();
             }
             text += '\n';
         } else {

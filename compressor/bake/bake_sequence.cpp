@@ -54,6 +54,7 @@ BakeIdentity bake_identity(const PoseSource& source, const BakeOptions& options,
     identity.num_vertices = source.topology().num_vertices;
     identity.num_triangles = static_cast<uint32_t>(source.topology().triangles.size());
     identity.mesh_xxh3 = mesh_checksum(source.topology(), source.albedo());
+    identity.origin = source.origin();
     for (uint32_t p = 0; p < source.num_poses(); ++p) {
         // The file's name alone, so that a bake does not depend on where the poses lie.
         const std::string name = std::filesystem::path(source.pose_name(p)).filename().string();
@@ -94,7 +95,8 @@ BakeSummary bake_sequence(const PoseSource& source, const BakeOptions& options,
         } else {
             const Pose pose = ahead.take(p);
             if (p < last && !writer.has_pose(p + 1)) ahead.start(p + 1);
-            const BakedPose baked = baker.bake(source.topology(), pose, p);
+            BakedPose baked = baker.bake(source.topology(), pose, p);
+            baked.statistics.mesh = report_pose(source.topology(), pose.positions);
             writer.write_pose(p, baked);
             statistics = baked.statistics;
             ++summary.baked;

@@ -5,33 +5,39 @@
 #include <limits>
 
 #include "paim/base/check.h"
+#include "paim/mesh/normals.h"
 
 namespace paim {
 
-std::vector<float> ray_offsets(const Topology& topology, std::span<const Vec3f> positions) {
+std::vector<float> ray_offsets(const Topology& topology, std::span<const Vec3f> positions,
+                               const RayOffsetRule& rule) {
     PAIM_CHECK_EQ(positions.size(), topology.num_vertices);
-    constexpr double kOfEdge = 1e-4;
-    constexpr float kOfCoordinate = 4.0f * std::numeric_limits<float>::epsilon();
-    std::vector<double> sums(positions.size(), 0.0);
-    std::vector<uint32_t> counts(positions.size(), 0);
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    std::vector<double> shortest(positions.size(), kNone);  // edge
+    std::vector<float> largest(positions.size(), 0.0f);     // coordinate
     for (const Triangle& t : topology.triangles) {
+        // A face without area says nothing about the detail of the surface, and cannot be hit.
+        if (face_normal(positions[t[0]], positions[t[1]], positions[t[2]]).isZero(0.0)) continue;
+        // All three corners of a face take part in where a ray crosses it.
+        float coordinate = 0.0f;
+        for (const uint32_t v : t) {
+            coordinate = std::max(coordinate, positions[v].cwiseAbs().maxCoeff());
+        }
         for (size_t corner = 0; corner < 3; ++corner) {
             const uint32_t a = t[corner];
             const uint32_t b = t[(corner + 1) % 3];
             const double length =
                 (positions[a].cast<double>() - positions[b].cast<double>()).stableNorm();
-            if (length == 0.0) continue;  // a collapsed edge says nothing about the detail
-            for (const uint32_t v : {a, b}) {
-                sums[v] += length;
-                ++counts[v];
-            }
+            for (const uint32_t v : {a, b}) shortest[v] = std::min(shortest[v], length);
+            largest[a] = std::max(largest[a], coordinate);
         }
     }
-    std::vector<float> offsets(positions.size());
+    std::vector<float> offsets(positions.size(), 0.0f);
     for (size_t v = 0; v < positions.size(); ++v) {
-        const double mean = counts[v] > 0 ? sums[v] / counts[v] : 0.0;
-        offsets[v] = std::max(static_cast<float>(kOfEdge * mean),
-                              kOfCoordinate * positions[v].cwiseAbs().maxCoeff());
+        if (shortest[v] == kNone) continue;
+        const double rounding = std::numeric_limits<float>::epsilon() * double{largest[v]};
+        offsets[v] =
+            static_cast<float>(std::max(rule.of_edge * shortest[v], rule.of_coordinate * rounding));
     }
     return offsets;
 }

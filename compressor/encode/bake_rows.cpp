@@ -14,8 +14,11 @@ void GeometryRows::read(uint64_t first, Eigen::MatrixXf& block) const {
     }
 }
 
-TransferRows::TransferRows(const BakeReader& bake, uint32_t bands)
-    : bake_(bake), layout_(bake.identity().layout), num_vertices_(bake.identity().num_vertices) {
+TransferRows::TransferRows(const BakeReader& bake, uint32_t bands, Content content)
+    : bake_(bake),
+      content_(content),
+      layout_(bake.identity().layout),
+      num_vertices_(bake.identity().num_vertices) {
     PAIM_CHECK(bands >= 1 && bands <= layout_.bands);
     layout_.bands = bands;
 }
@@ -30,8 +33,13 @@ void TransferRows::read(uint64_t first, Eigen::MatrixXf& block) const {
             const uint64_t channel = (first + done) / kept_per_channel;
             const uint64_t within = (first + done) % kept_per_channel;
             const uint64_t piece = std::min(count - done, kept_per_channel - within);
-            bake_.read_transfer_rows(p, channel * baked_per_channel + within, piece,
-                                     block.col(p).data() + done);
+            const uint64_t from = channel * baked_per_channel + within;
+            float* const to = block.col(p).data() + done;
+            if (content_ == Content::noise) {
+                bake_.read_noise_rows(p, from, piece, to);
+            } else {
+                bake_.read_transfer_rows(p, from, piece, to);
+            }
             done += piece;
         }
     }

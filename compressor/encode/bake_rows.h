@@ -22,8 +22,11 @@ class GeometryRows : public RowSource {
 // Rows (v, i[, channel]) of the first bands.
 class TransferRows : public RowSource {
   public:
+    // The transfer itself, or its noise (BakedPose::noise).
+    enum class Content { transfer, noise };
+
     // bands 1 … the bake's
-    TransferRows(const BakeReader& bake, uint32_t bands);
+    TransferRows(const BakeReader& bake, uint32_t bands, Content content = Content::transfer);
 
     uint64_t num_rows() const override { return layout_.num_planes() * num_vertices_; }
     uint32_t num_columns() const override { return bake_.num_poses(); }
@@ -31,6 +34,7 @@ class TransferRows : public RowSource {
 
   private:
     const BakeReader& bake_;
+    Content content_;
     TransferLayout layout_;  // with the bands that are kept
     uint64_t num_vertices_;
 };

@@ -8,8 +8,10 @@
 #include <algorithm>
 
 #include "compressor/encode/bake_rows.h"
+#include "compressor/encode/component_noise.h"
 #include "compressor/encode/playable_scenery.h"
 #include "compressor/encode/principal_components.h"
+#include "compressor/encode/shrinkage.h"
 #include "paim/base/file.h"
 #include "paim/format/paim_file.h"
 #include "paim/metrics/spectrum.h"
@@ -20,23 +22,27 @@ namespace {
 
 // Everything about a part but its mean and components, which are streamed later.
 LowRankMatrix start_matrix(const BakeReader& bake, const RowSource& rows,
-                           const PrincipalComponents& components, const ComponentChoice& choice,
-                           double automatic_error, const EncodeOptions& options) {
+                           const PrincipalComponents& components, uint32_t num_components,
+                           const EncodeOptions& options) {
     LowRankMatrix matrix;
     matrix.num_vertices = bake.identity().num_vertices;
     matrix.num_planes = static_cast<uint32_t>(rows.num_rows() / matrix.num_vertices);
     matrix.num_poses = bake.num_poses();
     matrix.precision = options.precision;
     matrix.singular_values = components.singular_values;
-    matrix.num_components =
-        choose_components(choice, matrix.singular_values, components.rank(), automatic_error);
+    matrix.num_components = num_components;
     matrix.weights = component_weights(components, matrix.num_components, rows.num_rows());
     return matrix;
 }
 
+// shrinkage  of the components, or none
 void stream(PaimWriter& writer, Part part, const RowSource& rows,
-            const PrincipalComponents& components, uint32_t num_components) {
-    for_each_encoded_block(rows, components, num_components, [&](const EncodedRows& block) {
+            const PrincipalComponents& components, uint32_t num_components,
+            const Shrinkage* shrinkage) {
+    uint64_t first = 0;
+    for_each_encoded_block(rows, components, num_components, [&](EncodedRows& block) {
+        if (shrinkage != nullptr) shrinkage->apply(first, block.components);
+        first += block.mean.size();
         writer.append_mean(part, block.mean);
         for (uint32_t k = 0; k < num_components; ++k) {
             writer.append_component({part, k}, block.components[k]);
@@ -44,7 +50,17 @@ void stream(PaimWriter& writer, Part part, const RowSource& rows,
     });
 }
 
-std::string provenance(const BakeReader& bake) {
+// Σ of squares of the bake's transfer in the first bands, over all rows and poses.
+double transfer_energy(const BakeReader& bake, const TransferLayout& layout) {
+    const std::vector<double> rms = bake.total_statistics().transfer_rms;
+    double energy = 0.0;
+    for (size_t l = 0; l < layout.bands; ++l) {
+        energy += static_cast<double>((2 * l + 1) * layout.channels) * rms[l] * rms[l];
+    }
+    return energy * bake.identity().num_vertices * bake.num_poses();
+}
+
+std::string provenance(const BakeReader& bake, const EncodeSummary& summary) {
     const BakeIdentity& identity = bake.identity();
     nlohmann::ordered_json json;
     json["bake_bands"] = identity.layout.bands;
@@ -53,29 +69,16 @@ std::string provenance(const BakeReader& bake) {
     json["normals"] = identity.normals;
     if (identity.bounces > 0) json["bounces"] = identity.bounces;
     json["bake_noise"] = bake.total_statistics().relative_noise();
+    json["noise"] = summary.shrunk ? "shrink" : "keep";
+    json["expected_transfer_error"] = summary.expected_error();
     return json.dump();
 }
 
 }  // namespace
 
-uint32_t choose_components(const ComponentChoice& choice, std::span<const double> singular_values,
-                           uint32_t rank, double automatic_energy_error) {
-    switch (choice.kind) {
-        case ComponentChoice::Kind::all:
-            return rank;
-        case ComponentChoice::Kind::number:
-            return std::min(choice.number, rank);
-        case ComponentChoice::Kind::automatic:
-            break;
-    }
-    uint32_t k = 0;
-    while (k < rank && energy_error(singular_values, k) >= automatic_energy_error) ++k;
-    return k;
-}
-
 uint64_t num_rows_to_read(const BakeReader& bake, const EncodeOptions& options) {
     const uint32_t bands = std::min(options.bands, bake.identity().layout.bands);
-    return 2 * (GeometryRows(bake).num_rows() + TransferRows(bake, bands).num_rows());
+    return 2 * GeometryRows(bake).num_rows() + 4 * TransferRows(bake, bands).num_rows();
 }
 
 EncodeSummary encode(const BakeReader& bake, const EncodeOptions& options,
@@ -88,30 +91,29 @@ EncodeSummary encode(const BakeReader& bake, const EncodeOptions& options,
     model.albedo = bake.albedo();
     model.layout = bake.identity().layout;
     model.layout.bands = std::min(options.bands, model.layout.bands);
+    model.origin = bake.identity().origin;
     model.frames_per_second = options.frames_per_second;
     model.name = options.name;
-    model.provenance_json = provenance(bake);
     model.scenery = playable_scenery(bake, model.layout.bands);
 
     const GeometryRows baked_geometry(bake);
     const TransferRows baked_transfer(bake, model.layout.bands);
     const ReportingRows geometry_rows(baked_geometry, on_rows);
+    const TransferRows baked_noise(bake, model.layout.bands, TransferRows::Content::noise);
     const ReportingRows transfer_rows(baked_transfer, on_rows);
+    const ReportingRows noise_rows(baked_noise, on_rows);
     const PrincipalComponents geometry = principal_components(geometry_rows);
     const PrincipalComponents transfer = principal_components(transfer_rows);
-    model.geometry = start_matrix(bake, geometry_rows, geometry, options.geometry,
-                                  options.automatic_geometry_error, options);
-    model.transfer = start_matrix(bake, transfer_rows, transfer, options.transfer,
-                                  options.automatic_transfer_error, options);
-
-    PaimWriter writer(output, model);
-    stream(writer, Part::geometry, geometry_rows, geometry, model.geometry.num_components);
-    stream(writer, Part::transfer, transfer_rows, transfer, model.transfer.num_components);
-    writer.commit();
+    const ComponentNoise noise =
+        measure_component_noise(transfer_rows, noise_rows, model.layout, transfer);
+    const Shrinkage shrinkage(noise);
 
     EncodeSummary summary;
-    summary.geometry_components = model.geometry.num_components;
-    summary.transfer_components = model.transfer.num_components;
+    summary.geometry_components =
+        choose_components(options.geometry, geometry.singular_values, geometry.rank(),
+                          options.automatic_geometry_error);
+    summary.transfer_components =
+        choose_components(options.transfer, noise, options.automatic_transfer_error);
     summary.geometry_rank = geometry.rank();
     summary.transfer_rank = transfer.rank();
     summary.bands = model.layout.bands;
@@ -123,6 +125,28 @@ EncodeSummary encode(const BakeReader& bake, const EncodeOptions& options,
         energy_error(geometry.singular_values, summary.geometry_components);
     summary.transfer_energy_error =
         energy_error(transfer.singular_values, summary.transfer_components);
+    summary.transfer_above_noise = noise.num_above_noise;
+    summary.transfer_signal_error = signal_error(noise, summary.transfer_components);
+    summary.shrunk = options.noise == NoiseTreatment::shrink &&
+                     options.transfer.kind != ComponentChoice::Kind::all;
+    const EncodedError error = summary.shrunk
+                                   ? shrinkage.expected_error(summary.transfer_components)
+                                   : expected_error_unshrunk(noise, summary.transfer_components);
+    if (const double energy = transfer_energy(bake, model.layout); energy > 0.0) {
+        summary.expected_truncation_error = std::sqrt(error.truncation / energy);
+        summary.expected_noise_error = std::sqrt(error.noise / energy);
+    }
+    model.provenance_json = provenance(bake, summary);
+    model.geometry =
+        start_matrix(bake, geometry_rows, geometry, summary.geometry_components, options);
+    model.transfer =
+        start_matrix(bake, transfer_rows, transfer, summary.transfer_components, options);
+
+    PaimWriter writer(output, model);
+    stream(writer, Part::geometry, geometry_rows, geometry, summary.geometry_components, nullptr);
+    stream(writer, Part::transfer, transfer_rows, transfer, summary.transfer_components,
+           summary.shrunk ? &shrinkage : nullptr);
+    writer.commit();
     summary.size_bytes = paim_size_bytes(model);
     return summary;
 }

@@ -2,6 +2,7 @@
 // Based on: Cardoso and Kry, Error Analysis of Precomputed Radiance Transfer for Deforming Geometry, 2012
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -9,15 +10,16 @@
 #include <span>
 #include <string>
 
+#include "compressor/encode/component_choice.h"
 #include "paim/codec/model.h"
 #include "paim/format/bake_directory.h"
 
 namespace paim {
 
-// How many components to keep.
-struct ComponentChoice {
-    enum class Kind { automatic, all, number } kind = Kind::automatic;
-    uint32_t number = 0;  // more than there are means all
+// What becomes of the bake's noise in the transfer's components.
+enum class NoiseTreatment : uint32_t {
+    shrink,  // components are scaled down by what of them is noise (shrinkage.h)
+    keep,    // they are those of the bake, noise and all
 };
 
 struct EncodeOptions {
@@ -27,6 +29,8 @@ struct EncodeOptions {
     double automatic_geometry_error = 0.01;
     double automatic_transfer_error = 0.01;
     uint32_t bands = std::numeric_limits<uint32_t>::max();  // more than the bake has means all
+    NoiseTreatment noise =
+        NoiseTreatment::shrink;  // `all` transfer components are always kept whole
     Precision precision = Precision::f32;
     float frames_per_second = 24.0f;
     std::string name;
@@ -42,14 +46,20 @@ struct EncodeSummary {
     double transfer_theory_error = 0.0;
     double geometry_energy_error = 0.0;  // √(Σ dropped s² / Σ s²)
     double transfer_energy_error = 0.0;
+    uint32_t transfer_above_noise = 0;   // components that stand out from the bake's noise
+    double transfer_signal_error = 0.0;  // transfer_energy_error without the noise in either sum
+    bool shrunk = false;
+    // Expected error of the decoded transfer against one without noise, relative to the bake's
+    // transfer in the bands that are kept.
+    double expected_truncation_error = 0.0;
+    double expected_noise_error = 0.0;
+    double expected_error() const {
+        return std::hypot(expected_truncation_error, expected_noise_error);
+    }
     uint64_t size_bytes = 0;
 };
 
-// The components that a choice keeps of this spectrum, at most `rank`.
-uint32_t choose_components(const ComponentChoice& choice, std::span<const double> singular_values,
-                           uint32_t rank, double automatic_energy_error);
-
-// Rows that encode() reads: every one twice.
+// Rows that encode() reads: every one twice, those of the transfer and of its noise once more.
 uint64_t num_rows_to_read(const BakeReader& bake, const EncodeOptions& options);
 
 // Encodes and writes, all or nothing. Memory grows with P² and the topology, not with V · P.

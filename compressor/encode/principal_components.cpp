@@ -81,7 +81,7 @@ std::vector<float> component_weights(const PrincipalComponents& components, uint
 
 void for_each_encoded_block(const RowSource& rows, const PrincipalComponents& components,
                             uint32_t num_components,
-                            const std::function<void(const EncodedRows&)>& on_block,
+                            const std::function<void(EncodedRows&)>& on_block,
                             uint32_t num_in_flight) {
     const LeftVectors left(rows, components, num_components, num_in_flight);
     const uint64_t block_rows = rows_per_block(rows.num_columns());
@@ -93,7 +93,7 @@ void for_each_encoded_block(const RowSource& rows, const PrincipalComponents& co
             encoded[j] = encode_block(rows, first, std::min(block_rows, rows.num_rows() - first),
                                       left, num_components);
         });
-        for (const EncodedRows& block : encoded) on_block(block);
+        for (EncodedRows& block : encoded) on_block(block);
     }
 }
 

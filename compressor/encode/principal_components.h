@@ -44,7 +44,7 @@ struct EncodedRows {
 // Calls on_block for consecutive blocks of rows, in order, from one thread.
 void for_each_encoded_block(const RowSource& rows, const PrincipalComponents& components,
                             uint32_t num_components,
-                            const std::function<void(const EncodedRows&)>& on_block,
+                            const std::function<void(EncodedRows&)>& on_block,
                             uint32_t num_in_flight = kMaxInFlight);
 
 }  // namespace paim

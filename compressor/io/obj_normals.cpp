@@ -7,7 +7,7 @@
 namespace paim {
 
 std::vector<Vec3f> obj_normals(const Topology& topology, const Polygons& faces,
-                               const ParsedObj& parsed) {
+                               const ParsedObj& parsed, std::span<const Vec3f> positions) {
     PAIM_CHECK_EQ(parsed.corner_normals.size(), faces.corners.size());
     // stableNormalized neither under- nor overflows and leaves zero as it is.
     std::vector<Vec3d> units(parsed.normals.size());
@@ -27,7 +27,7 @@ std::vector<Vec3f> obj_normals(const Topology& topology, const Polygons& faces,
             normals[v] = (sums[v] / length).cast<float>();
             continue;
         }
-        if (computed.empty()) computed = vertex_normals(topology, parsed.positions);
+        if (computed.empty()) computed = vertex_normals(topology, positions);
         normals[v] = computed[v];
     }
     return normals;

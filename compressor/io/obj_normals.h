@@ -1,6 +1,7 @@
 // Vertex normals from the vn lines of an OBJ file.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "compressor/io/obj_parse.h"
@@ -12,8 +13,9 @@ namespace paim {
 // The normalised average of the unit vn at the corners round each vertex. A vn of length 0 does not
 // count. Where no direction remains (they are all 0, or cancel out), the vertex gets what
 // mesh/normals.h computes from its triangles, and so do vertices without faces: zero.
-// returns  [V] unit or zero
+// positions  [V] scene units, from any origin
+// returns    [V] unit or zero
 std::vector<Vec3f> obj_normals(const Topology& topology, const Polygons& faces,
-                               const ParsedObj& parsed);
+                               const ParsedObj& parsed, std::span<const Vec3f> positions);
 
 }  // namespace paim

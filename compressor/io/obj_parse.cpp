@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "compressor/io/obj_text.h"
+#include "paim/base/check.h"
 #include "paim/base/error.h"
 #include "paim/base/file.h"
 
@@ -137,13 +138,8 @@ ParsedObj parse_obj(const std::string& name, std::span<char> text, const ObjScan
                         name);
     }
 
-    for (const Vec3d& position : to_vectors(attributes.vertices)) {
-        parsed.positions.push_back(position.cast<float>());
-        if (!parsed.positions.back().allFinite()) {
-            throw_bad_input("{}: tinyobjloader read a coordinate of vertex {} as not finite", name,
-                            parsed.positions.size());
-        }
-    }
+    PAIM_CHECK_EQ(scan.positions.size(), size_t{scan.num_vertices});
+    parsed.positions = scan.positions;
     parsed.normals = to_vectors(attributes.normals);
     if (scan.has_colors) parsed.colors = to_vectors(attributes.colors);
     if (options.read_materials) {

@@ -14,7 +14,7 @@
 namespace paim {
 
 struct ParsedObj {
-    std::vector<Vec3f> positions;         // [V] scene units
+    std::vector<Vec3d> positions;         // [V] scene units, those of the scan
     std::vector<Vec3d> colors;            // [V] r g b as written, or empty unless all have one
     std::vector<Vec3d> normals;           // vn lines as written
     std::vector<int32_t> corner_normals;  // per corner: index into normals, or -1
@@ -29,7 +29,8 @@ struct ObjParseOptions {
     std::filesystem::path material_folder;
 };
 
-// text  rewritten by scan_obj, which gave `scan`
+// text  rewritten by scan_obj, which gave `scan` with positions; tinyobjloader's are not used, for they may
+//       be some roundings off
 // Unreadable material libraries give warnings. Errors (bad input) if tinyobjloader refuses the file
 // or reads it otherwise than the scan did.
 ParsedObj parse_obj(const std::string& name, std::span<char> text, const ObjScan& scan,

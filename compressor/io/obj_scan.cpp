@@ -88,13 +88,19 @@ class Scanner {
   private:
     void vertex() {
         int num_values = 0;
+        Vec3d position = Vec3d::Zero();
         for (; text_.find_word(); ++num_values) {
-            text_.skip_number(num_values < 3 ? "vertex coordinate" : "vertex attribute");
+            if (num_values < 3 && options_.read_positions) {
+                position[num_values] = text_.read_number("vertex coordinate");
+            } else {
+                text_.skip_number(num_values < 3 ? "vertex coordinate" : "vertex attribute");
+            }
         }
         if (num_values < 3) {
             text_.fail(fmt::format("vertex coordinate: expected 3 numbers, got {}", num_values));
         }
         if (num_values < 6) scan_.has_colors = false;
+        if (options_.read_positions) scan_.positions.push_back(position);
         if (++vertices_.num_elements > kMaxIndex) {
             text_.fail(fmt::format("expected at most {} vertices", kMaxIndex));
         }

@@ -12,12 +12,14 @@
 #include <vector>
 
 #include "compressor/io/polygons.h"
+#include "paim/base/vector.h"
 
 namespace paim {
 
 struct ObjScan {
     uint32_t num_vertices = 0;
     Polygons faces;                 // in the order of the file, all objects and groups together
+    std::vector<Vec3d> positions;   // [V] scene units, within float's range; if asked for
     bool has_colors = false;        // every vertex is x y z r g b
     uint64_t num_small_faces = 0;   // faces of fewer than 3 corners, which are left out
     uint64_t num_other_shapes = 0;  // points and lines, which are left out
@@ -34,6 +36,7 @@ struct ObjScanOptions {
     // needs a normal at one of its corners. Otherwise vn are blanked.
     bool check_normals = false;
     const ObjReference* reference = nullptr;
+    bool read_positions = false;  // to the nearest double
 };
 
 // name  of the file, for messages

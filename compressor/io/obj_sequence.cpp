@@ -15,7 +15,9 @@
 #include "paim/base/file.h"
 #include "paim/base/hash.h"
 #include "paim/base/parallel.h"
+#include "paim/mesh/mesh_report.h"
 #include "paim/mesh/normals.h"
+#include "paim/mesh/origin.h"
 
 namespace paim {
 
@@ -40,12 +42,15 @@ ObjSequence::ObjSequence(std::vector<std::filesystem::path> files, const ObjOpti
 
 void ObjSequence::check_files() {
     checksums_.resize(files_.size());
+    std::vector<BoundsD> bounds(files_.size());
     const auto check = [&](size_t i) {
         std::vector<char> text = read_file(files_[i], kMaxFileBytes);
         checksums_[i] = xxh3(text.data(), text.size());
         const ObjReference reference{reference_name(files_[0], files_[i]), first_};
         ObjScan scan = scan_obj(files_[i].string(), text,
-                                {options_.normals_from_file, i > 0 ? &reference : nullptr});
+                                {options_.normals_from_file, i > 0 ? &reference : nullptr, true});
+        for (const uint32_t v : scan.faces.corners) bounds[i].extend(scan.positions[v]);
+        scan.positions = {};
         if (i == 0) first_ = std::move(scan);
         if (options_.on_file_checked) options_.on_file_checked();
     };
@@ -67,6 +72,15 @@ void ObjSequence::check_files() {
     });
     const size_t failed = first_failed.load();
     if (failed < files_.size()) std::rethrow_exception(failures[failed]);
+    for (size_t i = 1; i < bounds.size(); ++i) bounds[0].extend(bounds[i]);
+    origin_ = options_.origin.value_or(choose_origin(bounds[0]));
+}
+
+// Counted from the origin while they are still in double.
+std::vector<Vec3f> ObjSequence::local(const std::vector<Vec3d>& positions) const {
+    std::vector<Vec3f> moved(positions.size());
+    for (size_t v = 0; v < moved.size(); ++v) moved[v] = (positions[v] - origin_).cast<float>();
+    return moved;
 }
 
 ParsedObj ObjSequence::parse(uint32_t p, bool with_materials) const {
@@ -76,7 +90,7 @@ ParsedObj ObjSequence::parse(uint32_t p, bool with_materials) const {
         throw_bad_input("{}: changed since the sequence was opened", name);
     }
     // Scanned again for the sake of the clean text that it leaves; it costs a tenth of the parsing.
-    const ObjScan scan = scan_obj(name, text, {options_.normals_from_file, nullptr});
+    const ObjScan scan = scan_obj(name, text, {options_.normals_from_file, nullptr, true});
     return parse_obj(name, text, scan, {with_materials, files_[p].parent_path()});
 }
 
@@ -86,21 +100,18 @@ void ObjSequence::build_from_first() {
     const std::string name = pose_name(0);
     warnings_ = std::move(parsed.warnings);
 
-    Triangulation cut = triangulate(first_.faces, parsed.positions);
+    Triangulation cut = triangulate(first_.faces, local(parsed.positions));
     if (cut.triangles.empty()) {
         throw_bad_input("{}: no faces with three different vertices", name);
     }
     topology_ = {first_.num_vertices, std::move(cut.triangles)};
+    distinct_ = without_duplicate_faces(topology_);
     albedo_ = options_.albedo ? Albedo{{*options_.albedo}}
                               : obj_albedo(name, first_.faces, parsed, warnings_);
 
-    std::vector<bool> used(first_.num_vertices, false);
-    for (const uint32_t v : first_.faces.corners) used[v] = true;
     const auto warn = [&](uint64_t count, const char* what) {
         if (count > 0) warnings_.push_back(fmt::format("{}: {} {}", name, count, what));
     };
-    warn(static_cast<uint64_t>(std::count(used.begin(), used.end(), false)),
-         "vertices belong to no face");
     warn(first_.num_small_faces, "faces of fewer than 3 vertices ignored");
     warn(first_.num_other_shapes, "points and lines ignored");
     warn(cut.num_repeating, "faces name a vertex twice");
@@ -119,11 +130,13 @@ uint64_t ObjSequence::pose_checksum(uint32_t p) const {
 
 Pose ObjSequence::load_pose(uint32_t p) const {
     PAIM_CHECK_LT(p, num_poses());
-    ParsedObj parsed = parse(p, false);
-    std::vector<Vec3f> normals = options_.normals_from_file
-                                     ? obj_normals(topology_, first_.faces, parsed)
-                                     : vertex_normals(topology_, parsed.positions);
-    return {std::move(parsed.positions), std::move(normals)};
+    const ParsedObj parsed = parse(p, false);
+    Pose pose;
+    pose.positions = local(parsed.positions);
+    pose.normals = options_.normals_from_file
+                       ? obj_normals(distinct_, first_.faces, parsed, pose.positions)
+                       : vertex_normals(distinct_, pose.positions);
+    return pose;
 }
 
 }  // namespace paim

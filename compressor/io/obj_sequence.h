@@ -19,6 +19,8 @@ struct ObjOptions {
     bool normals_from_file = false;
     // Overrides the colours and materials of the file; linear, 0..1.
     std::optional<Vec3f> albedo;
+    // What positions are counted from, instead of what mesh/origin.h chooses.
+    std::optional<Vec3d> origin;
     // Called each time that another file was checked, from several threads at once.
     std::function<void()> on_file_checked;
 };
@@ -37,6 +39,8 @@ class ObjSequence : public PoseSource {
     const Topology& topology() const override { return topology_; }
     const Albedo& albedo() const override { return albedo_; }
     uint32_t num_poses() const override { return static_cast<uint32_t>(files_.size()); }
+    // As the options say, or from the bounds of all poses (mesh/origin.h).
+    Vec3d origin() const override { return origin_; }
     std::string pose_name(uint32_t p) const override;   // the path as given
     uint64_t pose_checksum(uint32_t p) const override;  // of the bytes of the file
     // Error (bad input) if the file is not what it was when the sequence was opened.
@@ -49,12 +53,15 @@ class ObjSequence : public PoseSource {
     void check_files();
     void build_from_first();
     ParsedObj parse(uint32_t p, bool with_materials) const;
+    std::vector<Vec3f> local(const std::vector<Vec3d>& positions) const;
 
     std::vector<std::filesystem::path> files_;
     ObjOptions options_;
     ObjScan first_;  // what the scan of the first file gave
     std::vector<uint64_t> checksums_;
+    Vec3d origin_ = Vec3d::Zero();
     Topology topology_;
+    Topology distinct_;  // without duplicate faces, for the normals
     Albedo albedo_;
     std::vector<std::string> warnings_;
 };

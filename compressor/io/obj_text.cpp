@@ -142,6 +142,15 @@ void ObjText::skip_number(const char* what) {
     }
 }
 
+double ObjText::read_number(const char* what) {
+    const char* start = at_;
+    skip_number(what);
+    if (*start == '+') ++start;  // from_chars takes none
+    double value = 0.0;
+    std::from_chars(start, at_, value);  // leaves 0 where a number is too small for a double
+    return value;
+}
+
 void ObjText::skip_unusual_number(char* start, const char* what) {
     while (!at_word_end()) ++at_;
     const std::string_view word(start, static_cast<size_t>(at_ - start));

@@ -40,6 +40,8 @@ class ObjText {
     // small for float become 0 in the text.
     // what  is named in the error (bad input) if the word is anything else
     void skip_number(const char* what);
+    // The same, and the number as a double.
+    double read_number(const char* what);
     // An integer, up to where the digits end. False if it exceeds 64 bits, in which case the digits
     // are skipped. Error (bad input) if there is none; `what` is named.
     bool read_integer(const char* what, int64_t& value);

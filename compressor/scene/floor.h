@@ -47,6 +47,7 @@ class PosesOnFloor : public PoseSource {
     const Topology& topology() const override { return topology_; }
     const Albedo& albedo() const override { return albedo_; }
     uint32_t num_poses() const override { return source_.num_poses(); }
+    Vec3d origin() const override { return source_.origin(); }
     std::string pose_name(uint32_t p) const override { return source_.pose_name(p); }
     uint64_t pose_checksum(uint32_t p) const override;  // of the source's and the floor's positions
     Pose load_pose(uint32_t p) const override;

@@ -56,6 +56,9 @@ struct Model {
     LowRankMatrix geometry;  // 3 planes: x, y, z
     LowRankMatrix transfer;  // layout.num_planes() planes
     Scenery scenery;
+    // What the geometry is counted from, scene units: adding it, in double, gives scene coordinates.
+    // Zero unless the mesh was far from the world's origin; whoever shows one model alone may ignore it.
+    Vec3d origin = Vec3d::Zero();
     float frames_per_second = 24.0f;
     std::string name;
     std::string provenance_json;  // a JSON object: how it was made, for people and paim-info

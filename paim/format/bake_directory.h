@@ -31,7 +31,8 @@ struct BakeIdentity {
     std::string floor;            // what ground was put under the poses; empty if none
     uint32_t num_vertices = 0;
     uint32_t num_triangles = 0;
-    uint64_t mesh_xxh3 = 0;  // of triangles and albedo
+    uint64_t mesh_xxh3 = 0;        // of triangles and albedo
+    Vec3d origin = Vec3d::Zero();  // what positions are counted from, scene units
     struct Source {
         std::string name;
         uint64_t xxh3 = 0;

@@ -34,6 +34,10 @@ uint64_t parse_hex(const std::string& text, const std::string& file, const char*
     return value;
 }
 
+std::string shown(const Vec3d& point) {
+    return fmt::format("({}, {}, {})", point.x(), point.y(), point.z());
+}
+
 // Of two lists of the same length.
 std::string first_difference(const char* what, const std::vector<BakeIdentity::Source>& there,
                              const std::vector<BakeIdentity::Source>& wanted) {
@@ -72,6 +76,8 @@ std::string manifest_text(const BakeIdentity& identity) {
     json["num_vertices"] = identity.num_vertices;
     json["num_triangles"] = identity.num_triangles;
     json["mesh_xxh3"] = hex(identity.mesh_xxh3);
+    // JSON numbers are written with all the digits that bring the same double back.
+    if (const Vec3d& o = identity.origin; !o.isZero(0.0)) json["origin"] = {o.x(), o.y(), o.z()};
     ordered_json poses = ordered_json::array();
     for (const auto& pose : identity.poses) {
         poses.push_back({{"name", pose.name}, {"xxh3", hex(pose.xxh3)}});
@@ -114,6 +120,7 @@ BakeIdentity read_manifest(const std::filesystem::path& path) {
     identity.num_vertices = metadata.integer("num_vertices", 1, kMaxCount);
     identity.num_triangles = metadata.integer("num_triangles", 1, kMaxCount);
     identity.mesh_xxh3 = parse_hex(metadata.text("mesh_xxh3"), file, "mesh_xxh3");
+    identity.origin = metadata.point("origin");
     const auto poses = metadata.root().find("poses");
     if (poses == metadata.root().end() || !poses->is_array() || poses->empty()) {
         throw_bad_input("{}: 'poses': expected a list of at least one pose", file);
@@ -154,6 +161,7 @@ std::string first_difference(const BakeIdentity& there, const BakeIdentity& want
           differ("vertices", there.num_vertices, wanted.num_vertices),
           differ("triangles", there.num_triangles, wanted.num_triangles),
           differ("poses", there.num_poses(), wanted.num_poses()),
+          differ("origin", shown(there.origin), shown(wanted.origin)),
           differ("static files", there.scenery.size(), wanted.scenery.size()),
           differ("checksum of faces and albedo", hex(there.mesh_xxh3), hex(wanted.mesh_xxh3))}) {
         if (!difference.empty()) return difference;

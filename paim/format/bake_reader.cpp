@@ -49,6 +49,8 @@ PoseStatistics read_statistics_of(const ContainerReader& reader, uint64_t identi
     }
     statistics.transfer_rms = metadata.numbers("transfer_rms", bands, 0.0, kMax);
     statistics.noise_rms = metadata.numbers("noise_rms", bands, 0.0, kMax);
+    statistics.mesh.zero_area_faces = metadata.count("zero_area_faces");
+    statistics.mesh.coincident_faces = metadata.count("coincident_faces");
     return statistics;
 }
 

@@ -29,6 +29,8 @@ std::string pose_metadata(uint64_t bake, uint32_t p, const PoseStatistics& stati
     if (statistics.back_hits > 0) json["back_hits"] = statistics.back_hits;
     json["transfer_rms"] = statistics.transfer_rms;
     json["noise_rms"] = statistics.noise_rms;
+    json["zero_area_faces"] = statistics.mesh.zero_area_faces;
+    json["coincident_faces"] = statistics.mesh.coincident_faces;
     return json.dump(2) + "\n";
 }
 

@@ -1,6 +1,8 @@
 // Checked access to the JSON that Paim files carry.
 #include "paim/format/metadata.h"
 
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "paim/base/error.h"
@@ -97,6 +99,29 @@ std::string Metadata::text(const char* key) const {
         throw_bad_input("{}: metadata: '{}': expected text, got {}", file_, key, shown(value));
     }
     return value.get<std::string>();
+}
+
+uint32_t Metadata::count(const char* key) const {
+    return json_.contains(key) ? integer(key, 0, std::numeric_limits<uint32_t>::max()) : 0;
+}
+
+Vec3d Metadata::point(const char* key) const {
+    Vec3d result = Vec3d::Zero();
+    const auto found = json_.find(key);
+    if (found == json_.end()) return result;
+    // Float's range, and half a step of an origin at its end (mesh/origin.h).
+    constexpr double kMax = 4e38;
+    bool good = found->is_array() && found->size() == 3;
+    for (size_t i = 0; good && i < 3; ++i) {
+        const json& value = (*found)[i];
+        good = value.is_number() && std::abs(value.get<double>()) <= kMax;
+        if (good) result[static_cast<Eigen::Index>(i)] = value.get<double>();
+    }
+    if (!good) {
+        throw_bad_input("{}: metadata: '{}': expected three numbers, got {}", file_, key,
+                        shown(*found));
+    }
+    return result;
 }
 
 std::string Metadata::object_text(const char* key) const {

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "paim/base/vector.h"
+
 namespace paim {
 
 // A JSON object whose members are read with their type and range checked. Errors (bad input) name
@@ -23,6 +25,8 @@ class Metadata {
     double number(const char* key, double lowest, double highest) const;
     std::vector<double> numbers(const char* key, size_t count, double lowest, double highest) const;
     std::string text(const char* key) const;
+    uint32_t count(const char* key) const;  // up to 2^32 - 1; 0 if absent
+    Vec3d point(const char* key) const;     // of three numbers up to ±4e38; zero if absent
     std::string object_text(const char* key) const;  // "{}" if absent
     const nlohmann::json& root() const { return json_; }
 

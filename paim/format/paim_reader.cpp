@@ -105,6 +105,7 @@ Model read_paim(const std::filesystem::path& path) {
                           metadata.text("transfer_kind"));
     }
     model.frames_per_second = static_cast<float>(metadata.number("frames_per_second", 1e-3, 1e6));
+    model.origin = metadata.point("origin");
     model.name = metadata.text("name");
     model.provenance_json = metadata.object_text("provenance");
     model.topology = read_triangles(reader, num_vertices);

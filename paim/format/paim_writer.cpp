@@ -31,6 +31,7 @@ std::string metadata(const Model& model) {
     json["num_vertices"] = model.topology.num_vertices;
     json["num_poses"] = model.num_poses();
     json["frames_per_second"] = model.frames_per_second;
+    if (const Vec3d& o = model.origin; !o.isZero(0.0)) json["origin"] = {o.x(), o.y(), o.z()};
     json["transfer_kind"] = "diffuse";
     json["bands"] = model.layout.bands;
     json["channels"] = model.layout.channels;

@@ -66,6 +66,8 @@ PoseStatistics combine(std::span<const PoseStatistics> poses) {
         total.back_hits += pose.back_hits;
         total.zero_normals += pose.zero_normals;
         total.above_target += pose.above_target;
+        total.mesh.zero_area_faces += pose.mesh.zero_area_faces;
+        total.mesh.coincident_faces += pose.mesh.coincident_faces;
     }
     total.transfer_rms = combine_rms(poses, &PoseStatistics::transfer_rms);
     total.noise_rms = combine_rms(poses, &PoseStatistics::noise_rms);

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "paim/mesh/mesh_report.h"
 #include "paim/transfer/layout.h"
 
 namespace paim {
@@ -18,6 +19,7 @@ struct PoseStatistics {
     // [bands] over the vertices, channels and coefficients of a band.
     std::vector<double> transfer_rms;
     std::vector<double> noise_rms;  // estimated standard error of the transfer, from its halves
+    PoseReport mesh{};              // 0 in bakes from before it was counted
     // Rays whose light would have bounced off the back of a face: it did not.
     uint64_t back_hits = 0;
 

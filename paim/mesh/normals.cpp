@@ -9,13 +9,10 @@
 
 namespace paim {
 
-namespace {
-
-// Unit normal in double, or zero for a face without area. Edges are scaled by their largest entry
-// so that neither tiny nor huge meshes under- or overflow.
 Vec3d face_normal(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
     Vec3d ab = b.cast<double>() - a.cast<double>();
     Vec3d ac = c.cast<double>() - a.cast<double>();
+    // Scaled by their largest entry, so that neither tiny nor huge meshes under- or overflow.
     const double scale = std::max(ab.cwiseAbs().maxCoeff(), ac.cwiseAbs().maxCoeff());
     if (!(scale > 0.0)) return Vec3d::Zero();
     ab /= scale;
@@ -26,8 +23,6 @@ Vec3d face_normal(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
     if (length <= 1e-15) return Vec3d::Zero();
     return normal / length;
 }
-
-}  // namespace
 
 std::vector<Vec3f> vertex_normals(const Topology& topology, std::span<const Vec3f> positions) {
     PAIM_CHECK_EQ(positions.size(), topology.num_vertices);

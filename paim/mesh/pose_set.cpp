@@ -5,12 +5,16 @@
 
 #include "paim/base/check.h"
 #include "paim/base/hash.h"
+#include "paim/mesh/mesh_report.h"
 #include "paim/mesh/normals.h"
 
 namespace paim {
 
 PoseSet::PoseSet(Topology topology, std::vector<std::vector<Vec3f>> positions, Albedo albedo)
-    : topology_(std::move(topology)), positions_(std::move(positions)), albedo_(std::move(albedo)) {
+    : topology_(std::move(topology)),
+      distinct_(without_duplicate_faces(topology_)),
+      positions_(std::move(positions)),
+      albedo_(std::move(albedo)) {
     PAIM_CHECK(!positions_.empty());
     for (const auto& pose : positions_) PAIM_CHECK_EQ(pose.size(), topology_.num_vertices);
     PAIM_CHECK(albedo_.values.size() == 1 || albedo_.values.size() == topology_.num_vertices);
@@ -26,7 +30,7 @@ uint64_t PoseSet::pose_checksum(uint32_t p) const {
 
 Pose PoseSet::load_pose(uint32_t p) const {
     PAIM_CHECK_LT(p, num_poses());
-    return {positions_[p], vertex_normals(topology_, positions_[p])};
+    return {positions_[p], vertex_normals(distinct_, positions_[p])};
 }
 
 }  // namespace paim

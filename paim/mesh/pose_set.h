@@ -23,6 +23,7 @@ class PoseSet : public PoseSource {
 
   private:
     Topology topology_;
+    Topology distinct_;  // without duplicate faces, for the normals
     std::vector<std::vector<Vec3f>> positions_;
     Albedo albedo_;
 };

@@ -11,7 +11,7 @@
 namespace paim {
 
 struct Pose {
-    std::vector<Vec3f> positions;  // [V] scene units
+    std::vector<Vec3f> positions;  // [V] scene units, counted from the sequence's origin
     std::vector<Vec3f> normals;    // [V] unit; zero where a vertex has no face of any area
 };
 
@@ -22,6 +22,10 @@ class PoseSource {
     virtual const Topology& topology() const = 0;
     virtual const Albedo& albedo() const = 0;
     virtual uint32_t num_poses() const = 0;
+
+    // Positions of all poses are counted from here: adding it, in double, gives scene coordinates. Zero
+    // unless the mesh is far from the world's origin (mesh/origin.h).
+    virtual Vec3d origin() const { return Vec3d::Zero(); }
 
     // A name for messages and manifests: a file name, or what made the pose.
     virtual std::string pose_name(uint32_t p) const = 0;

@@ -13,6 +13,7 @@
 
 #include "paim/base/check.h"
 #include "paim/base/error.h"
+#include "paim/mesh/normals.h"
 #include "paim/trace/embree.h"
 
 namespace paim {
@@ -91,6 +92,18 @@ float unit_scale(std::span<const Vec3f> positions, std::span<const Vec3f> more_p
     return largest > 0.0f ? std::ldexp(1.0f, std::clamp(-exponent, -126, 126)) : 1.0f;
 }
 
+// Triangles without area as points, which no ray hits. Of those that are lines, rounding may leave enough for
+// a ray to hit.
+std::vector<Triangle> without_needles(const Topology& topology, std::span<const Vec3f> positions) {
+    std::vector<Triangle> triangles = topology.triangles;
+    for (Triangle& t : triangles) {
+        if (face_normal(positions[t[0]], positions[t[1]], positions[t[2]]).isZero(0.0)) {
+            t = {t[0], t[0], t[0]};
+        }
+    }
+    return triangles;
+}
+
 }  // namespace
 
 struct Scene::Impl {
@@ -106,8 +119,9 @@ struct Scene::Impl {
         const RTCGeometry geometry = rtcNewGeometry(device.handle(), RTC_GEOMETRY_TYPE_TRIANGLE);
         set_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, scaled.data(),
                    scaled.size());
-        set_buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, topology.triangles.data(),
-                   topology.triangles.size());
+        const std::vector<Triangle> triangles = without_needles(topology, positions);
+        set_buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, triangles.data(),
+                   triangles.size());
         rtcCommitGeometry(geometry);
         rtcAttachGeometryByID(scene, geometry, id);
         rtcReleaseGeometry(geometry);

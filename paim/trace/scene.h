@@ -22,7 +22,7 @@ struct Hit {
 };
 
 // An acceleration structure over one pose. Built on construction; all queries are thread-safe. Both
-// sides of a triangle are hit. Answers do not depend on the number of threads: traversal is Embree's
+// sides of a triangle are hit, triangles without area (mesh/normals.h) never. Answers do not depend on the number of threads: traversal is Embree's
 // conservative ("robust") one, so that it is the triangle tests alone that decide.
 class Scene {
   public:

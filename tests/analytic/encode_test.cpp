@@ -36,6 +36,7 @@ class Encode : public testing::Test {
         EncodeOptions options;
         options.geometry = geometry;
         options.transfer = transfer;
+        options.noise = NoiseTreatment::keep;
         encode(BakeReader(directory_ / "x.bake"), options, directory_ / "x.paim");
         return read_paim(directory_ / "x.paim");
     }

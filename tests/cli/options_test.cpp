@@ -86,13 +86,18 @@ TEST_F(Options, ComponentsAreCountedAllOrChosen) {
     EXPECT_LT(json["transfer"]["energy_error"], 1e-12);
     json = encode(bake, {"--transfer-components", "1000"});
     EXPECT_EQ(json["transfer"]["components"], 3);
-    json = encode(bake, {"--transfer-components", "auto", "--geometry-components", "auto"});
+    const auto report = [&](const std::string& components) {
+        return parse_object(compress(
+            {"encode", bake, "-o", path("x.paim"), "--json", "--transfer-components", components}));
+    };
+    json = report("auto");
     EXPECT_EQ(json["geometry"]["components"], 1);
-    EXPECT_LT(json["transfer"]["energy_error"], 0.01);
+    EXPECT_LT(json["transfer"]["signal_error"], 0.01);
+    EXPECT_LE(json["transfer"]["components"], json["transfer"]["above_noise"]);
     const int chosen = json["transfer"]["components"];
     ASSERT_GT(chosen, 0);
     const std::string fewer = std::to_string(chosen - 1);
-    EXPECT_GE(encode(bake, {"--transfer-components", fewer})["transfer"]["energy_error"], 0.01);
+    EXPECT_GE(report(fewer)["transfer"]["signal_error"], 0.01);
 }
 
 TEST_F(Options, HalfPrecisionHalvesTheComponents) {

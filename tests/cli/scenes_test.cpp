@@ -44,6 +44,19 @@ TEST_F(Scenes, FloorIsPartOfTheMeshAndOfTheIdentity) {
     EXPECT_EQ(read_paim(path("x.paim")).topology.num_vertices, json["num_vertices"]);
 }
 
+TEST_F(Scenes, FarFromTheWorldsOriginAllCountFromOnePlace) {
+    write("pose.obj", "v 1000000 0 0\nv 1000001 0 0\nv 1000000 1 0.25\nf 1 2 3\n");
+    write("wall.obj", "v 1000000.125 3 0\nv 1000001 3 0\nv 1000000 4 0\nf 1 2 3\n");
+    expect_success(compress({"bake", path("pose.obj"), "-o", path("x.bake"), "--rays", "2",
+                             "--floor", "--static", path("wall.obj")}));
+    const BakeReader reader(path("x.bake"));
+    const double origin = reader.identity().origin.x();
+    EXPECT_NEAR(origin, 1e6, 1.0);
+    const BakedPose pose = reader.read_pose(0);
+    EXPECT_EQ(pose.positions[0], static_cast<float>(1e6 - origin));
+    EXPECT_EQ(reader.scenery()->pose.positions[0], static_cast<float>(1000000.125 - origin));
+}
+
 TEST_F(Scenes, FloorOptionsNeedAFloorAndSenseOfScale) {
     make_poses("box", 1, 50);
     expect_failure(bake("x.bake", {"--floor-albedo", "1"}), 1, {"--floor-albedo", "--floor"});

@@ -46,7 +46,7 @@ BakedPose make_pose(uint32_t p) {
     BakedPose pose{fill(12), fill(12), fill(16), fill(16), {}};
     // Noise is stored in half precision.
     for (float& value : pose.noise) value = std::round(value * 1024.0f) / 1024.0f;
-    pose.statistics = {256, 17 + p, 1, 2, {0.25, 0.5}, {0.125 / (p + 1), 0.0}, 3};
+    pose.statistics = {256, 17 + p, 1, 2, {0.25, 0.5}, {0.125 / (p + 1), 0.0}, {5 + p, 6 + p}, 3};
     return pose;
 }
 
@@ -107,6 +107,8 @@ TEST_F(BakeDirectory, RoundTrips) {
             EXPECT_EQ(statistics.above_target, expected.statistics.above_target);
             EXPECT_EQ(statistics.transfer_rms, expected.statistics.transfer_rms);
             EXPECT_EQ(statistics.noise_rms, expected.statistics.noise_rms);
+            EXPECT_EQ(statistics.mesh.zero_area_faces, 5 + p);
+            EXPECT_EQ(statistics.mesh.coincident_faces, 6 + p);
         }
         // Rows, as the encoder streams them.
         std::vector<float> rows(5);
@@ -243,6 +245,28 @@ TEST_F(BakeDirectory, KeepsSceneryAndRefusesOthersByName) {
 
     // A bake without has none, whatever lies in the folder.
     EXPECT_FALSE(manifest_text(make_identity()).find("static") != std::string::npos);
+}
+
+TEST_F(BakeDirectory, KeepsTheOriginToTheLastDigit) {
+    BakeIdentity identity = make_identity();
+    // Without one the manifest is what it was before there was an origin.
+    EXPECT_EQ(manifest_text(identity).find("origin"), std::string::npos);
+    identity.origin = Vec3d(1.0 / 3.0, -1e30, 0x1.fffffffffffffp-40);
+    const BakeWriter first = writer(identity);
+    for (uint32_t p = 0; p < 3; ++p) first.write_pose(p, make_pose(p));
+    EXPECT_EQ(BakeReader(bake_).identity(), identity);
+    BakeIdentity other = identity;
+    other.origin.x() = 0.0;
+    expect_contains(complaint([&] { writer(other); }), "(origin: (0.3333333333333333, -1e+30, ");
+
+    const std::string text = text_of("manifest.json");
+    for (const std::string wrong : {"7", "[1, 2]", "[1, 2, \"3\"]", "[1, 2, 1e300]", "[]"}) {
+        std::string changed = text;
+        const size_t at = changed.find('[', changed.find("\"origin\""));
+        changed.replace(at, changed.find(']', at) + 1 - at, wrong);
+        write_file(bake_ / "manifest.json", changed);
+        expect_contains(reading_complaint(), "'origin': expected three numbers, got ");
+    }
 }
 
 TEST_F(BakeDirectory, NamesThatAreNotTextStillResume) {

@@ -106,6 +106,21 @@ TEST(PaimFile, SceneryIsWholeOrAbsent) {
     EXPECT_TRUE(read_paim(path).scenery.empty());
 }
 
+TEST(PaimFile, KeepsTheOriginToTheLastDigit) {
+    const TemporaryDirectory directory;
+    Model model = make_example_model();
+    EXPECT_EQ(model.origin, Vec3d::Zero());
+    const uint64_t size_bytes = paim_size_bytes(model);
+    model.origin = Vec3d(1.0 / 3.0, -1e30, 0x1.fffffffffffffp-40);
+    write_paim(directory / "x.paim", model);
+    EXPECT_EQ(read_paim(directory / "x.paim").origin, model.origin);
+    // Zero is not written, so that ordinary files are what they were before there was an origin.
+    model.origin = Vec3d::Zero();
+    write_paim(directory / "x.paim", model);
+    EXPECT_EQ(read_paim(directory / "x.paim").origin, Vec3d::Zero());
+    EXPECT_EQ(std::filesystem::file_size(directory / "x.paim"), size_bytes);
+}
+
 TEST(PaimFile, HalfComponentsAreRoundedToNearest) {
     const TemporaryDirectory directory;
     Model model = make_example_model();

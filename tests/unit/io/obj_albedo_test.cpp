@@ -44,8 +44,7 @@ TEST(ObjAlbedo, AveragesMaterialsOverTheFacesRoundAVertex) {
     const Vec3f mixed(1.0f / 3.0f, 2.0f / 3.0f, 0);
     EXPECT_EQ(sequence.albedo().values,
               (Values{Albedo().values[0], mixed, {1, 0, 0}, mixed, {0, 1, 0}}));
-    EXPECT_EQ(files.warnings(sequence),
-              (std::vector<std::string>{"0.obj: 1 vertices belong to no face"}));
+    EXPECT_TRUE(sequence.warnings().empty());
 }
 
 TEST(ObjAlbedo, IsOneValueWhereAllFacesAgree) {

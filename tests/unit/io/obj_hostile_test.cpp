@@ -113,7 +113,7 @@ TEST(HostileObj, Garbage) {
             const ObjScan* scan = nullptr;
             ObjScan result;
             const std::string message = bad_input_of([&] {
-                result = scan_obj("x", text, {normals, nullptr});
+                result = scan_obj("x", text, {normals, nullptr, true});
                 scan = &result;
             });
             // What the scan lets pass, the parser reads the same way.

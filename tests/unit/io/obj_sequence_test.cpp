@@ -150,7 +150,6 @@ TEST(ObjSequence, CountsWhatIsOdd) {
          "f 1 2 3\nf 1 2\nl 1 2\np 4\nf 1 1 2 3\nf 2 5 6 7\n"});
     EXPECT_EQ(files.warnings(ObjSequence(files.files())),
               (std::vector<std::string>{
-                  "0.obj: 1 vertices belong to no face",
                   "0.obj: 1 faces of fewer than 3 vertices ignored",
                   "0.obj: 2 points and lines ignored",
                   "0.obj: 1 faces name a vertex twice",

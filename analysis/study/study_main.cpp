@@ -1,0 +1,75 @@
+// paim-study: the measurements on which the defaults rest.
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <memory>
+
+#include "analysis/study/studies.h"
+#include "compressor/io/obj_files.h"
+#include "compressor/io/obj_sequence.h"
+#include "paim/cli/run_main.h"
+#include "poses/octopus.h"
+#include "poses/shapes.h"
+
+namespace {
+
+using namespace paim;
+
+std::unique_ptr<PoseSource> open_source(const std::vector<std::string>& inputs,
+                                        uint32_t num_vertices, uint32_t num_poses) {
+    if (inputs == std::vector<std::string>{"octopus"}) {
+        return std::make_unique<PoseSet>(poses::make_octopus(num_vertices, num_poses));
+    }
+    if (inputs == std::vector<std::string>{"bowl"}) {
+        return std::make_unique<PoseSet>(
+            poses::make_pose_set(*poses::make_bowl_sequence(num_vertices), num_poses));
+    }
+    return std::make_unique<ObjSequence>(find_obj_files(inputs, false));
+}
+
+int run(int argc, char** argv) {
+    CLI::App app(
+        "Measures what bakes cost and how true they are; writes CSV on stdout.\n\n"
+        "  noise     encoded transfer: rays, random streams, components, shrinkage\n"
+        "  samplers  the bake itself: rays and samplers\n"
+        "  targets   error targets against fixed counts of rays\n",
+        "paim-study");
+    std::string study;
+    std::vector<std::string> inputs;
+    study::StudyOptions options;
+    uint32_t num_vertices = 6000;
+    options.num_poses = 24;
+    options.rays = {64, 256, 1024};
+    options.targets = {0.1, 0.05, 0.02, 0.01};
+    app.add_option("STUDY", study, "noise, samplers or targets")
+        ->required()
+        ->check(CLI::IsMember({"noise", "samplers", "targets"}));
+    app.add_option("OBJ", inputs, "OBJ files, patterns, folders; or 'octopus' or 'bowl'")
+        ->required();
+    app.add_option("--name", options.name, "Name in the CSV; default: the first input");
+    app.add_option("--poses", options.num_poses, "The first so many poses")->capture_default_str();
+    app.add_option("--vertices", num_vertices, "Of the octopus or the bowl")->capture_default_str();
+    app.add_option("--bands", options.bands, "Bands")->capture_default_str();
+    app.add_option("--truth-rays", options.truth_rays, "Rays of what counts as true (seed 77)")
+        ->capture_default_str();
+    app.add_option("--rays", options.rays, "Rays to try (seed 1)")->delimiter(',');
+    app.add_option("--targets", options.targets, "Error targets to try")->delimiter(',');
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 1;
+    }
+    if (options.name.empty()) options.name = inputs.front();
+    const auto source = open_source(inputs, num_vertices, options.num_poses);
+    options.num_poses = std::min(options.num_poses, source->num_poses());
+    if (study == "noise") study_noise(*source, options);
+    if (study == "samplers") study_samplers(*source, options);
+    if (study == "targets") study_targets(*source, options);
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return paim::cli::run_main("paim-study", [&] { return run(argc, argv); });
+}

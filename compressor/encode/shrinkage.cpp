@@ -1,0 +1,88 @@
+// Scales components down by what of them is noise.
+// Based on: Wiener 1949; Efron and Morris 1973 (see the header)
+#include "compressor/encode/shrinkage.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "paim/base/check.h"
+#include "paim/base/parallel.h"
+
+namespace paim {
+
+using Eigen::Index;
+
+EncodedError expected_error_unshrunk(const ComponentNoise& noise, uint32_t num_components) {
+    PAIM_CHECK_LE(num_components, static_cast<uint64_t>(noise.energy.cols()));
+    const Index dropped = noise.energy.cols() - static_cast<Index>(num_components);
+    const double left = (noise.energy - noise.noise).rightCols(dropped).sum();
+    return {std::max(0.0, left),
+            noise.mean_noise + noise.noise.leftCols(static_cast<Index>(num_components)).sum()};
+}
+
+Shrinkage::Shrinkage(const ComponentNoise& noise)
+    : layout_(noise.layout),
+      num_vertices_(noise.num_vertices),
+      mean_noise_(noise.mean_noise),
+      signal_(noise.vertex_energy),
+      noise_(noise.vertex_noise),
+      signal_share_((noise.energy - noise.noise).cwiseMax(0.0)),
+      noise_share_(noise.noise),
+      component_signal_((noise.energy - noise.noise).colwise().sum()) {
+    for (size_t j = 0; j < signal_.size(); ++j) {
+        signal_[j] = std::max(0.0, signal_[j] - noise_[j]);
+    }
+    for (Index l = 0; l < signal_share_.rows(); ++l) {
+        const double signal = signal_share_.row(l).sum();
+        if (signal > 0.0) signal_share_.row(l) /= signal;
+        const auto first = noise_.begin() + l * static_cast<Index>(num_vertices_);
+        const double all = std::accumulate(first, first + static_cast<Index>(num_vertices_), 0.0);
+        if (all > 0.0) noise_share_.row(l) /= all;
+    }
+}
+
+double Shrinkage::factor(uint32_t band, size_t v, uint32_t k) const {
+    const auto l = static_cast<Index>(band);
+    const double noise = noise_[band * num_vertices_ + v] * noise_share_(l, k);
+    if (noise <= 0.0) return 1.0;
+    const double signal = signal_[band * num_vertices_ + v] * signal_share_(l, k);
+    return signal / (signal + noise);
+}
+
+void Shrinkage::apply(uint64_t first, std::vector<std::vector<float>>& components) const {
+    PAIM_CHECK_LE(components.size(), static_cast<uint64_t>(signal_share_.cols()));
+    parallel_for(components.size(), 1, [&](size_t k, size_t) {
+        std::vector<float>& rows = components[k];
+        for (size_t r = 0; r < rows.size();) {
+            const uint64_t plane = (first + r) / num_vertices_;
+            const auto i = static_cast<int>(plane % layout_.num_coefficients());
+            const auto band = static_cast<uint32_t>(sh::band_of(i));
+            const size_t end = std::min(rows.size(), (plane + 1) * num_vertices_ - first);
+            for (; r < end; ++r) {
+                const size_t v = (first + r) % num_vertices_;
+                rows[r] *= static_cast<float>(factor(band, v, static_cast<uint32_t>(k)));
+            }
+        }
+    });
+}
+
+EncodedError Shrinkage::expected_error(uint32_t num_components) const {
+    const Index kept = static_cast<Index>(num_components);
+    PAIM_CHECK_LE(kept, component_signal_.size());
+    EncodedError error;
+    error.truncation = std::max(0.0, component_signal_.tail(component_signal_.size() - kept).sum());
+    error.noise = mean_noise_;
+    for (uint32_t l = 0; l < layout_.bands; ++l) {
+        for (size_t v = 0; v < num_vertices_; ++v) {
+            const size_t at = l * num_vertices_ + v;
+            if (noise_[at] <= 0.0) continue;
+            for (uint32_t k = 0; k < num_components; ++k) {
+                // With the Wiener factor w, w² noise + (1 − w)² signal is w · noise.
+                error.noise += factor(l, v, k) * noise_[at] * noise_share_(l, k);
+            }
+        }
+    }
+    return error;
+}
+
+}  // namespace paim

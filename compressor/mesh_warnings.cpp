@@ -1,0 +1,66 @@
+// What paim-compress says about odd meshes.
+#include "compressor/mesh_warnings.h"
+
+#include <fmt/format.h>
+
+namespace paim {
+
+namespace {
+
+struct Kind {
+    uint64_t count;
+    const char* what;
+    const char* meaning;
+};
+
+std::vector<std::string> lines(std::initializer_list<Kind> kinds) {
+    std::vector<std::string> texts;
+    for (const Kind& kind : kinds) {
+        if (kind.count == 0) continue;
+        texts.push_back(fmt::format("mesh: {} {}: {}", kind.count, kind.what, kind.meaning));
+    }
+    return texts;
+}
+
+}  // namespace
+
+std::vector<std::string> mesh_warnings(const TopologyReport& report) {
+    return lines({
+        {report.isolated_vertices, "vertices belong to no face", "their transfer is 0"},
+        {report.duplicate_faces, "faces have the vertices of an earlier one",
+         "they count once for normals"},
+        {report.back_faces, "faces are the back of an earlier one, with its vertices",
+         "only the side of the first is lit; give the back vertices of its own to light both"},
+        {report.boundary_edges, "edges belong to one face",
+         "open sheets are lit on their front side only; light passes through seams that do not "
+         "meet"},
+        {report.flipped_edges, "edges join two faces that face opposite sides",
+         "vertex normals there average both and light is wrong; make the orientation consistent"},
+        {report.non_manifold_edges, "edges join three or more faces",
+         "vertex normals there average them all"},
+    });
+}
+
+std::vector<std::string> mesh_warnings(const PoseReport& total) {
+    return lines({
+        {total.zero_area_faces, "faces (over all poses) have no area",
+         "they have no normal and block nothing"},
+        {total.coincident_faces, "faces (over all poses) lie exactly on another",
+         "neither shadows the other, each is lit on its own side"},
+    });
+}
+
+nlohmann::ordered_json mesh_json(const TopologyReport& report, const PoseReport& total) {
+    nlohmann::ordered_json json;
+    json["isolated_vertices"] = report.isolated_vertices;
+    json["duplicate_faces"] = report.duplicate_faces;
+    json["back_faces"] = report.back_faces;
+    json["boundary_edges"] = report.boundary_edges;
+    json["flipped_edges"] = report.flipped_edges;
+    json["non_manifold_edges"] = report.non_manifold_edges;
+    json["zero_area_faces"] = total.zero_area_faces;
+    json["coincident_faces"] = total.coincident_faces;
+    return json;
+}
+
+}  // namespace paim

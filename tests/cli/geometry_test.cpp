@@ -1,0 +1,81 @@
+// Odd and far-away meshes as a user meets them: what is said about them, and that the origin travels along.
+#include "tests/cli/tool_test.h"
+
+namespace paim {
+namespace {
+
+class Geometry : public ToolTest {
+  protected:
+    // Two poses of a sheet of two triangles at x = 1e6, with a face that is there twice, one on its back, one
+    // without area in the second pose only, one on the first by vertices of its own, and a stray vertex.
+    void write_odd_poses() const {
+        std::filesystem::create_directory(directory_ / "odd");
+        const std::string faces = "f 1 2 3\nf 1 3 4\nf 2 3 1\nf 4 3 1\nf 1 2 5\nf 6 7 8\n";
+        const std::string start =
+            "v 1000000.1 0 0\nv 1000001.1 0 0\nv 1000001.1 1 0\nv 1000000.1 1 0\n";
+        const std::string end = "v 1000000.1 0 0\nv 1000001.1 0 0\nv 1000001.1 1 0\nv 9 9 9\n";
+        write("odd/0.obj", start + "v 1000000.6 0 -1\n" + end + faces);
+        write("odd/1.obj", start + "v 1000000.6 0 0\n" + end + faces);
+    }
+};
+
+TEST_F(Geometry, OddMeshesAreCountedAndExplained) {
+    write_odd_poses();
+    const Arguments bake{"bake", path("odd"), "-o", path("x.bake"), "--rays", "2", "--bands", "1"};
+    const ToolResult first = compress(bake);
+    expect_success(first);
+    for (const char* line : {
+             "warning: mesh: 1 vertices belong to no face: their transfer is 0\n",
+             "warning: mesh: 1 faces have the vertices of an earlier one: ",
+             "warning: mesh: 1 faces are the back of an earlier one, with its vertices: ",
+             "warning: mesh: 8 edges belong to one face: open sheets are lit on their front side "
+             "only",
+             "warning: mesh: 1 edges join two faces that face opposite sides: ",
+             "warning: mesh: 1 faces (over all poses) have no area: ",
+             "warning: mesh: 2 faces (over all poses) lie exactly on another: ",
+         }) {
+        EXPECT_TRUE(contains(first.err, line)) << line << " is not in: " << first.err;
+    }
+    EXPECT_FALSE(contains(first.err, "three or more"));
+
+    // A bake that goes on knows what its poses were like.
+    Arguments again = bake;
+    again.push_back("--json");
+    const auto json = parse_object(compress(again));
+    EXPECT_EQ(json["poses_resumed"], 2);
+    const nlohmann::json expected{
+        {"isolated_vertices", 1}, {"duplicate_faces", 1},  {"back_faces", 1},
+        {"boundary_edges", 8},    {"flipped_edges", 1},    {"non_manifold_edges", 0},
+        {"zero_area_faces", 1},   {"coincident_faces", 2},
+    };
+    EXPECT_EQ(json["mesh"], expected);
+}
+
+TEST_F(Geometry, NothingIsSaidOfCleanMeshes) {
+    const std::string sphere = make_poses("sphere", 1, 50);
+    const ToolResult result =
+        compress({"bake", sphere, "-o", path("x.bake"), "--rays", "2", "--json", "--quiet"});
+    EXPECT_EQ(result.err, "");
+    for (const auto& [kind, count] : parse_object(result)["mesh"].items()) {
+        EXPECT_EQ(count, 0) << kind;
+    }
+}
+
+TEST_F(Geometry, TheOriginTravelsFromFilesToThePaim) {
+    write_odd_poses();
+    expect_success(compress({path("odd"), "-o", path("x.paim"), "--rays", "2", "--bands", "1"}));
+    // Bounds 1000000.1 … 1000001.1, 0 … 1, -1 … 0: diagonal 1.7, so the centre rounded to whole numbers.
+    for (const char* file : {"x.bake", "x.paim"}) {
+        const ToolResult text = info({path(file)});
+        expect_success(text);
+        EXPECT_TRUE(contains(text.out, "origin: 1000001 1 -1\n")) << text.out;
+        EXPECT_EQ(parse_object(info({path(file), "--json"}))["origin"],
+                  (std::vector<double>{1000001, 1, -1}));
+    }
+    // Zero where single precision is enough.
+    expect_success(compress({make_poses("sphere", 1, 50), "-o", path("near.paim"), "--rays", "2"}));
+    EXPECT_TRUE(contains(info({path("near.paim")}).out, "origin: 0 0 0\n"));
+}
+
+}  // namespace
+}  // namespace paim

@@ -1,0 +1,79 @@
+// Meshes far from the world's origin: digits that float would lose, on any number of threads.
+#include "paim/base/parallel.h"
+#include "tests/unit/io/obj_test_files.h"
+
+namespace paim {
+namespace {
+
+TEST(ObjOrigin, ScanReadsPositionsToTheNearestDouble) {
+    std::string text =
+        "v +1 -2.5 3e0\nv 1e-999 0 \\\n -7\nv 4.25 .1 -5. 9 9 9\n"
+        "v 80000.300000000003 0.30000000000000004 123456789.12345678\nf 1 2 3\n";
+    const ObjScan scan = scan_obj("x.obj", text, {false, nullptr, true});
+    EXPECT_EQ(
+        scan.positions,
+        (std::vector<Vec3d>{
+            {1, -2.5, 3}, {0, 0, -7}, {4.25, 0.1, -5}, {80000.3, 0.1 + 0.2, 123456789.12345678}}));
+    EXPECT_TRUE(scan_text(kTriangleObj).positions.empty());
+}
+
+TEST(ObjOrigin, KeepsTheDigitsOfMeshesFarAway) {
+    // 0.1 is lost in float at 1e6: steps are 0.0625 there. Bounds of both poses: 1000000 … 1000004 and
+    // 0 … 2, diagonal 4.5, so the origin is the centre rounded to a multiple of 4.
+    const std::string faces = "f 1 2 3\n";
+    const ObjTestFiles files({"v 1000000.1 0 0\nv 1000001.1 0 0\nv 1000000.1 2 0\n" + faces,
+                              "v 1000000 0 0\nv 1000004 0 0\nv 1000003.3 2 0\n" + faces});
+    const ObjSequence sequence(files.files());
+    EXPECT_EQ(sequence.origin(), Vec3d(1000004, 0, 0));
+    // Doubles near a million are 1.2e-10 apart.
+    const Pose pose = sequence.load_pose(0);
+    EXPECT_NEAR(pose.positions[0].x(), -3.9, 1e-6);
+    EXPECT_NEAR(pose.positions[1].x(), -2.9, 1e-6);
+    EXPECT_NEAR(sequence.load_pose(1).positions[2].x(), -0.7, 1e-6);
+    EXPECT_EQ(pose.normals[0], Vec3f(0, 0, 1));
+    // Alone, the second pose has another origin; a vertex without a face does not count.
+    EXPECT_EQ(ObjSequence({files.files()[1]}).origin(), Vec3d(1000004, 0, 0));
+    const ObjTestFiles stray(
+        {"v 1000000.1 0 0\nv 1000001.1 0 0\nv 1000000.1 2 0\nv 0 0 0\n" + faces});
+    EXPECT_EQ(ObjSequence(stray.files()).origin(), Vec3d(1000000, 2, 0));
+}
+
+TEST(ObjOrigin, IsZeroWhereFloatsAreEnough) {
+    const ObjTestFiles files({"v 10 0 0\nv 11 0 0\nv 10 1 0\nf 1 2 3\n"});
+    EXPECT_EQ(ObjSequence(files.files()).origin(), Vec3d::Zero());
+}
+
+TEST(ObjOrigin, DoesNotDependOnThreads) {
+    std::vector<std::string> contents;
+    for (int i = 0; i < 30; ++i) {
+        const std::string x = std::to_string(5000 + i * i % 17) + ".3";
+        contents.push_back("v " + x + " 0 0\nv 5001.7 0 0\nv 5002 1 0\nf 1 2 3\n");
+    }
+    const ObjTestFiles files(contents);
+    const auto origin = [&](int num_threads) {
+        const ThreadLimit limit(num_threads);
+        return ObjSequence(files.files()).origin();
+    };
+    EXPECT_EQ(origin(1), Vec3d(5008, 0, 0));
+    for (const int num_threads : {2, 8}) EXPECT_EQ(origin(num_threads), origin(1));
+}
+
+TEST(ObjOrigin, TriangulatesByTheNearDigits) {
+    // A kite whose shorter diagonal is 1 3: in float at 4e7 (steps of 4) no shape would be left.
+    const auto kite = [](double x) {
+        std::string text;
+        for (const Vec3d& p : {Vec3d(0, 0, 0), Vec3d(1, -2, 0), Vec3d(2, 0, 0), Vec3d(1, 2, 0)}) {
+            text += fmt::format("v {} {} 0\n", p.x() + x, p.y());
+        }
+        return text + "f 1 2 3 4\n";
+    };
+    const ObjTestFiles files({kite(0), kite(4e7)});
+    EXPECT_EQ(ObjSequence({files.files()[0]}).topology(),
+              ObjSequence({files.files()[1]}).topology());
+    const ObjSequence far({files.files()[1]});
+    EXPECT_EQ(far.load_pose(0).normals[0], Vec3f(0, 0, 1));
+    EXPECT_TRUE(far.warnings().empty());
+}
+
+}  // namespace
+}  // namespace paim
