@@ -11,6 +11,8 @@ namespace paim {
 
 namespace {
 
+constexpr uint64_t kMinMemoryBytes = 64'000'000;
+
 // The options as text, where their form needs checking after parsing.
 struct RawOptions {
     std::string albedo;
@@ -22,6 +24,7 @@ struct RawOptions {
     std::string precision = "f32";
     std::string noise = "shrink";
     std::string auto_transfer_error = "1%";
+    std::string memory = "1G";
     std::string transfer_error;
     std::string sampler = "cosine";
     std::string streams = "per-pose";
@@ -123,6 +126,12 @@ void add_encode_options(CLI::App& app, CompressOptions& options, RawOptions& raw
                    "0.05 %); means and weights are always f32")
         ->check(CLI::IsMember({"f32", "f16"}))
         ->capture_default_str();
+    app.add_option(
+           "--memory", raw.memory,
+           "Memory that encoding stays below, bytes or with K, M, G or T for powers of 1000; "
+           "at least 64M, and 100 bytes times the square of the number of poses; the result "
+           "is the same for any")
+        ->capture_default_str();
     app.add_option("--fps", options.encode.frames_per_second,
                    "Poses per second at which the animation plays, 0.001 to 1000000")
         ->check(cli::in_range(1e-3, 1e6))
@@ -183,6 +192,10 @@ void apply(const RawOptions& raw, CompressOptions& options) {
     options.encode.automatic_transfer_error =
         cli::parse_fraction(raw.auto_transfer_error, "--auto-transfer-error");
     options.encode.noise = raw.noise == "keep" ? NoiseTreatment::keep : NoiseTreatment::shrink;
+    options.encode.memory_bytes = cli::parse_bytes(raw.memory, "--memory");
+    if (options.encode.memory_bytes < kMinMemoryBytes) {
+        throw_usage("--memory: expected at least 64M, got '{}'", raw.memory);
+    }
     options.encode.precision = raw.precision == "f16" ? Precision::f16 : Precision::f32;
     if (raw.encode_bands > 0) options.encode.bands = raw.encode_bands;
 }

@@ -155,6 +155,7 @@ ordered_json encode_to(const CompressOptions& options, const std::filesystem::pa
     const BakeReader reader(directory);
     EncodeOptions encode_options = options.encode;
     encode_options.name = options.output.stem().string();
+    check_memory(reader, encode_options);
     reader.verify_all();
     cli::Progress encoding("encoding", "rows", num_rows_to_read(reader, encode_options),
                            options.quiet || options.json);

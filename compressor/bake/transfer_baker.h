@@ -19,7 +19,7 @@
 namespace paim {
 
 // Raised whenever the same options give other bytes, so that bakes of different builds do not mix.
-constexpr uint32_t kBakerVersion = 2;
+constexpr uint32_t kBakerVersion = 3;
 
 // Every vertex shoots two independent halves of its rays (half_sums.h). Their mean is the transfer,
 // half their difference its noise. With a fixed count all rays of a vertex are shot at once; with an

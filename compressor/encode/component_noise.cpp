@@ -18,9 +18,6 @@ using Eigen::MatrixXf;
 
 namespace {
 
-// Blocks that are measured at once before they are added up in order.
-constexpr uint64_t kBlocksPerRound = 8;
-
 // Of one block of rows.
 struct BlockEnergies {
     MatrixXd energy, noise;          // [bands][K]
@@ -116,7 +113,8 @@ double ComponentNoise::num_independent() const {
 
 ComponentNoise measure_component_noise(const RowSource& transfer, const RowSource& noise,
                                        const TransferLayout& layout,
-                                       const PrincipalComponents& components) {
+                                       const PrincipalComponents& components,
+                                       uint32_t num_in_flight) {
     PAIM_CHECK_EQ(transfer.num_rows(), noise.num_rows());
     PAIM_CHECK_EQ(transfer.num_columns(), noise.num_columns());
     PAIM_CHECK_EQ(transfer.num_rows() % layout.num_planes(), 0u);
@@ -131,8 +129,9 @@ ComponentNoise measure_component_noise(const RowSource& transfer, const RowSourc
 
     const uint64_t block_rows = rows_per_block(transfer.num_columns());
     const uint64_t num_blocks = (transfer.num_rows() + block_rows - 1) / block_rows;
-    for (uint64_t round = 0; round < num_blocks; round += kBlocksPerRound) {
-        std::vector<BlockEnergies> blocks(std::min(kBlocksPerRound, num_blocks - round));
+    const uint64_t at_once = std::min(num_in_flight, kMaxMeasuredAtOnce);
+    for (uint64_t round = 0; round < num_blocks; round += at_once) {
+        std::vector<BlockEnergies> blocks(std::min(at_once, num_blocks - round));
         parallel_for(blocks.size(), 1, [&](size_t j, size_t) {
             const uint64_t first = (round + j) * block_rows;
             blocks[j] =

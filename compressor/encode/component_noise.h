@@ -39,8 +39,12 @@ struct ComponentNoise {
 };
 
 // transfer, noise  rows of the bake, plane-major, a column a pose
+// num_in_flight    blocks of rows that are worked on at once; at most kMaxMeasuredAtOnce are
 ComponentNoise measure_component_noise(const RowSource& transfer, const RowSource& noise,
                                        const TransferLayout& layout,
-                                       const PrincipalComponents& components);
+                                       const PrincipalComponents& components,
+                                       uint32_t num_in_flight = kMaxInFlight);
+
+constexpr uint32_t kMaxMeasuredAtOnce = 8;
 
 }  // namespace paim

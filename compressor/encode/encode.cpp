@@ -9,6 +9,7 @@
 
 #include "compressor/encode/bake_rows.h"
 #include "compressor/encode/component_noise.h"
+#include "compressor/encode/memory_plan.h"
 #include "compressor/encode/playable_scenery.h"
 #include "compressor/encode/principal_components.h"
 #include "compressor/encode/shrinkage.h"
@@ -38,16 +39,17 @@ LowRankMatrix start_matrix(const BakeReader& bake, const RowSource& rows,
 // shrinkage  of the components, or none
 void stream(PaimWriter& writer, Part part, const RowSource& rows,
             const PrincipalComponents& components, uint32_t num_components,
-            const Shrinkage* shrinkage) {
+            const Shrinkage* shrinkage, uint32_t num_in_flight) {
     uint64_t first = 0;
-    for_each_encoded_block(rows, components, num_components, [&](EncodedRows& block) {
+    const auto append = [&](EncodedRows& block) {
         if (shrinkage != nullptr) shrinkage->apply(first, block.components);
         first += block.mean.size();
         writer.append_mean(part, block.mean);
         for (uint32_t k = 0; k < num_components; ++k) {
             writer.append_component({part, k}, block.components[k]);
         }
-    });
+    };
+    for_each_encoded_block(rows, components, num_components, append, num_in_flight);
 }
 
 // Σ of squares of the bake's transfer in the first bands, over all rows and poses.
@@ -81,9 +83,16 @@ uint64_t num_rows_to_read(const BakeReader& bake, const EncodeOptions& options) 
     return 2 * GeometryRows(bake).num_rows() + 4 * TransferRows(bake, bands).num_rows();
 }
 
+void check_memory(const BakeReader& bake, const EncodeOptions& options) {
+    choose_num_in_flight(encode_size(bake, options), options.memory_bytes,
+                         bake.directory().string());
+}
+
 EncodeSummary encode(const BakeReader& bake, const EncodeOptions& options,
                      const std::filesystem::path& output,
                      const std::function<void(uint64_t)>& on_rows) {
+    const uint32_t in_flight = choose_num_in_flight(
+        encode_size(bake, options), options.memory_bytes, bake.directory().string());
     remove_abandoned_files(std::filesystem::absolute(output).parent_path(),
                            output.filename().string() + ".");
     Model model;
@@ -102,10 +111,10 @@ EncodeSummary encode(const BakeReader& bake, const EncodeOptions& options,
     const TransferRows baked_noise(bake, model.layout.bands, TransferRows::Content::noise);
     const ReportingRows transfer_rows(baked_transfer, on_rows);
     const ReportingRows noise_rows(baked_noise, on_rows);
-    const PrincipalComponents geometry = principal_components(geometry_rows);
-    const PrincipalComponents transfer = principal_components(transfer_rows);
+    const PrincipalComponents geometry = principal_components(geometry_rows, in_flight);
+    const PrincipalComponents transfer = principal_components(transfer_rows, in_flight);
     const ComponentNoise noise =
-        measure_component_noise(transfer_rows, noise_rows, model.layout, transfer);
+        measure_component_noise(transfer_rows, noise_rows, model.layout, transfer, in_flight);
     const Shrinkage shrinkage(noise);
 
     EncodeSummary summary;
@@ -143,9 +152,10 @@ EncodeSummary encode(const BakeReader& bake, const EncodeOptions& options,
         start_matrix(bake, transfer_rows, transfer, summary.transfer_components, options);
 
     PaimWriter writer(output, model);
-    stream(writer, Part::geometry, geometry_rows, geometry, summary.geometry_components, nullptr);
+    stream(writer, Part::geometry, geometry_rows, geometry, summary.geometry_components, nullptr,
+           in_flight);
     stream(writer, Part::transfer, transfer_rows, transfer, summary.transfer_components,
-           summary.shrunk ? &shrinkage : nullptr);
+           summary.shrunk ? &shrinkage : nullptr, in_flight);
     writer.commit();
     summary.size_bytes = paim_size_bytes(model);
     return summary;

@@ -32,6 +32,8 @@ struct EncodeOptions {
     NoiseTreatment noise =
         NoiseTreatment::shrink;  // `all` transfer components are always kept whole
     Precision precision = Precision::f32;
+    uint64_t memory_bytes =
+        1'000'000'000;  // that the process stays below; the bytes do not depend on it
     float frames_per_second = 24.0f;
     std::string name;
 };
@@ -62,10 +64,13 @@ struct EncodeSummary {
 // Rows that encode() reads: every one twice, those of the transfer and of its noise once more.
 uint64_t num_rows_to_read(const BakeReader& bake, const EncodeOptions& options);
 
+// Error (unsupported), saying what is needed, if this bake cannot be encoded in options.memory_bytes.
+void check_memory(const BakeReader& bake, const EncodeOptions& options);
+
 // Encodes and writes, all or nothing. Memory grows with P² and the topology, not with V · P.
 // bake     verified (BakeReader::verify_all)
 // on_rows  called with a number of rows whenever they have been read, from any thread
-// Errors: bad input for a bake that changes meanwhile, output failed.
+// Errors: unsupported as check_memory(); bad input for a bake that changes meanwhile; output failed.
 EncodeSummary encode(const BakeReader& bake, const EncodeOptions& options,
                      const std::filesystem::path& output,
                      const std::function<void(uint64_t)>& on_rows = {});

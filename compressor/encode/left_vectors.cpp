@@ -15,11 +15,13 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-// The columns are corrected where s_k / s_0 is below this, for P poses: products u_j · A' v_k, which
-// should vanish, are off by up to P/3 · 2^-52 s_0 (measured, 6 to 103 poses), so above it U is orthonormal to
-// 1e-12 without.
-double correct_below(Index num_poses) {
-    return static_cast<double>(num_poses) * std::numeric_limits<double>::epsilon() / 1e-12;
+// How far from zero products of columns of A' V S⁻¹ may be, for P poses: they are u_j · A' v_k / s_k, and
+// u_j · A' v_k is off by up to P/3 · 2^-52 s_0 (measured, 6 to 103 poses).
+double uncorrected(const PrincipalComponents& components, uint32_t num_components) {
+    const double ratio =
+        components.singular_values[0] / components.singular_values[num_components - 1];
+    return static_cast<double>(components.v.rows()) * std::numeric_limits<double>::epsilon() *
+           ratio;
 }
 
 // √rows R⁻¹ with a positive diagonal, R the triangular factor of columns of unit RMS.
@@ -36,14 +38,13 @@ MatrixXd inverse_factor(const MatrixXd& factor, double length) {
 }  // namespace
 
 LeftVectors::LeftVectors(const RowSource& rows, const PrincipalComponents& components,
-                         uint32_t num_components, uint32_t num_in_flight)
+                         uint32_t num_components, double orthonormal_to, uint32_t num_in_flight)
     : projection_(components.v.leftCols(num_components)) {
     PAIM_CHECK_LE(num_components, components.rank());
     const double length = std::sqrt(static_cast<double>(rows.num_rows()));
     const auto& s = components.singular_values;
     for (uint32_t k = 0; k < num_components; ++k) projection_.col(k) *= length / s[k];
-    if (num_components == 0 || s[num_components - 1] >= correct_below(components.v.rows()) * s[0])
-        return;
+    if (num_components == 0 || uncorrected(components, num_components) <= orthonormal_to) return;
     const MatrixXd factor = triangular_factor(
         rows.silent(), num_components,
         [&](const MatrixXd& centred, MatrixXd& scores) {

@@ -8,16 +8,18 @@
 
 namespace paim {
 
-// A' V S⁻¹ alone is orthonormal only to the roundings of A' V, which are of the size of s_0: to about
-// 2^-52 s_0/s_k. Where a component is small enough for that to show, the triangular factor of those very
-// columns is computed in another pass over the rows, and U = (A' V S⁻¹) R⁻¹. The change of U S Vᵀ is a
-// rounding of s_0.
+// A' V S⁻¹ alone is orthonormal only to the roundings of R and V, which are of the size of s_0: to some
+// P · 2^-52 s_0/s_k. Where that is more than is asked for, the triangular factor of those very columns is
+// computed in another pass over the rows, and U = (A' V S⁻¹) R⁻¹, orthonormal to a few 2^-53. The change of
+// U S Vᵀ is a rounding of s_0.
 class LeftVectors {
   public:
     // rows            read through only if a correction is needed
     // num_components  at most components.rank()
+    // orthonormal_to  the most that an entry of UᵀU − 1 may be, 1e-12 or more
     LeftVectors(const RowSource& rows, const PrincipalComponents& components,
-                uint32_t num_components, uint32_t num_in_flight = kMaxInFlight);
+                uint32_t num_components, double orthonormal_to = 1e-12,
+                uint32_t num_in_flight = kMaxInFlight);
 
     bool corrected() const { return correction_.size() > 0; }
 

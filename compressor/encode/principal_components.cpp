@@ -83,11 +83,15 @@ void for_each_encoded_block(const RowSource& rows, const PrincipalComponents& co
                             uint32_t num_components,
                             const std::function<void(EncodedRows&)>& on_block,
                             uint32_t num_in_flight) {
-    const LeftVectors left(rows, components, num_components, num_in_flight);
+    // A 64th of what the rounding to float does, so that it cannot show: the pass that 1e-12 takes would be
+    // for nothing.
+    constexpr double kAsStored = 0x1p-30;
+    const LeftVectors left(rows, components, num_components, kAsStored, num_in_flight);
     const uint64_t block_rows = rows_per_block(rows.num_columns());
     const uint64_t num_blocks = (rows.num_rows() + block_rows - 1) / block_rows;
-    for (uint64_t round = 0; round < num_blocks; round += num_in_flight) {
-        std::vector<EncodedRows> encoded(std::min<uint64_t>(num_in_flight, num_blocks - round));
+    const uint64_t at_once = std::min(num_in_flight, kMaxBlocksWaiting);
+    for (uint64_t round = 0; round < num_blocks; round += at_once) {
+        std::vector<EncodedRows> encoded(std::min(at_once, num_blocks - round));
         parallel_for(encoded.size(), 1, [&](size_t j, size_t) {
             const uint64_t first = (round + j) * block_rows;
             encoded[j] = encode_block(rows, first, std::min(block_rows, rows.num_rows() - first),

@@ -35,6 +35,9 @@ PrincipalComponents principal_components(const RowSource& rows,
 std::vector<float> component_weights(const PrincipalComponents& components, uint32_t num_components,
                                      uint64_t num_rows);
 
+// Blocks that for_each_encoded_block() works on before it hands them on in order; at most that many.
+constexpr uint32_t kMaxBlocksWaiting = 16;
+
 // What a block of rows becomes: its mean and its rows of the first K components (unit RMS).
 struct EncodedRows {
     std::vector<float> mean;                     // [rows of the block]

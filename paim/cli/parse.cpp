@@ -2,6 +2,7 @@
 #include "paim/cli/parse.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <system_error>
@@ -52,6 +53,26 @@ double parse_fraction(const std::string& text, const std::string& option) {
         throw_usage("{}: expected a fraction such as 0.05 or 5%, got '{}'", option, text);
     }
     return percent ? value / 100.0 : value;
+}
+
+uint64_t parse_bytes(const std::string& text, const std::string& option) {
+    constexpr std::string_view kUnits = "KMGT";
+    std::string_view number = text;
+    double unit = 1.0;
+    if (!number.empty()) {
+        const char letter =
+            static_cast<char>(std::toupper(static_cast<unsigned char>(text.back())));
+        const size_t power = kUnits.find(letter);
+        if (power != std::string_view::npos) {
+            unit = std::pow(1000.0, static_cast<double>(power + 1));
+            number.remove_suffix(1);
+        }
+    }
+    double value = 0.0;
+    if (!parse_number(number, value) || value * unit < 1.0 || value * unit >= 0x1p63) {
+        throw_usage("{}: expected bytes such as 1000000, 512M or 1.5G, got '{}'", option, text);
+    }
+    return static_cast<uint64_t>(value * unit);
 }
 
 Vec3f parse_color(const std::string& text, const std::string& option) {

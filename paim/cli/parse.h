@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <charconv>
+#include <cstdint>
 #include <string>
 #include <system_error>
 
@@ -35,6 +36,10 @@ CLI::Validator in_range(T lowest, T highest) {
 
 // "0.05" or "5%" as 0.05. Throws Error(usage) naming the option unless it is a finite number >= 0.
 double parse_fraction(const std::string& text, const std::string& option);
+
+// "1000000", "512M", "1.5G" in bytes: K, M, G and T (or k, m, g, t) are powers of 1000. Throws Error(usage)
+// naming the option unless it is a number from 1 byte to 2^63 bytes; fractions of a byte are dropped.
+uint64_t parse_bytes(const std::string& text, const std::string& option);
 
 // "R,G,B" or one number for all three, each in [0, 1]. Throws Error(usage) naming the option.
 Vec3f parse_color(const std::string& text, const std::string& option);

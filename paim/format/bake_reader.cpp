@@ -1,4 +1,5 @@
 // Reads .bake directories.
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -52,6 +53,19 @@ PoseStatistics read_statistics_of(const ContainerReader& reader, uint64_t identi
     statistics.mesh.zero_area_faces = metadata.count("zero_area_faces");
     statistics.mesh.coincident_faces = metadata.count("coincident_faces");
     return statistics;
+}
+
+// What read_pose() checks, without the whole section in memory.
+void verify_planes(const ContainerReader& reader, const Section& section) {
+    reader.verify(section);
+    constexpr uint64_t kPiece = 1 << 18;  // 1 MB
+    const uint64_t num_values = section.spec.num_values();
+    std::vector<float> piece;
+    for (uint64_t first = 0; first < num_values; first += piece.size()) {
+        piece.resize(std::min(kPiece, num_values - first));
+        reader.read_range(section, first, piece.size(), piece.data());
+        check_finite(reader, section.spec.tag, piece, first);
+    }
 }
 
 }  // namespace
@@ -141,7 +155,19 @@ PoseStatistics BakeReader::total_statistics() const {
 }
 
 void BakeReader::verify_all() const {
-    parallel_for(num_poses(), 1, [&](size_t p, size_t) { read_pose(static_cast<uint32_t>(p)); });
+    parallel_for(num_poses(), 1, [&](size_t index, size_t) {
+        const auto p = static_cast<uint32_t>(index);
+        const ContainerReader reader(bake_pose_file(directory_, p), section::kKindPose);
+        const auto verify = [&](Tag tag, uint32_t num_planes, ScalarType type = ScalarType::f32) {
+            verify_planes(reader,
+                          require_planes(reader, tag, num_planes, identity_.num_vertices, type));
+        };
+        read_statistics_of(reader, identity_checksum_, p, identity_.layout.bands);
+        verify(section::kPositions, 3);
+        verify(section::kNormals, 3);
+        verify(section::kTransfer, identity_.layout.num_planes());
+        verify(section::kNoise, identity_.layout.num_planes(), ScalarType::f16);
+    });
 }
 
 void BakeReader::read_position_rows(uint32_t p, uint64_t first, uint64_t count, float* out) const {

@@ -86,12 +86,13 @@ uint32_t count_vertices(const ContainerReader& reader, Tag tag) {
     return count;
 }
 
-void check_finite(const ContainerReader& reader, Tag tag, const std::vector<float>& values) {
+void check_finite(const ContainerReader& reader, Tag tag, std::span<const float> values,
+                  uint64_t first) {
     const auto bad =
         std::find_if(values.begin(), values.end(), [](float x) { return !std::isfinite(x); });
     if (bad != values.end()) {
         throw_bad_input("{}: section {}: value {} is {}, expected a finite number", reader.path(),
-                        tag.str(), bad - values.begin(), *bad);
+                        tag.str(), first + static_cast<uint64_t>(bad - values.begin()), *bad);
     }
 }
 

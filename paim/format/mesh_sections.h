@@ -1,7 +1,7 @@
 // Triangles and albedo as sections, the same in .paim and .bake.
 #pragma once
 
-#include <vector>
+#include <span>
 
 #include "paim/format/container_reader.h"
 #include "paim/format/container_writer.h"
@@ -32,7 +32,8 @@ std::vector<float> read_planes(const ContainerReader& reader, Tag tag, uint32_t 
 uint32_t count_vertices(const ContainerReader& reader, Tag tag);
 
 // Error (bad input) naming the file, the section and the place of the first value that is not
-// finite.
-void check_finite(const ContainerReader& reader, Tag tag, const std::vector<float>& values);
+// finite; the values are those from `first` on.
+void check_finite(const ContainerReader& reader, Tag tag, std::span<const float> values,
+                  uint64_t first = 0);
 
 }  // namespace paim

@@ -173,5 +173,32 @@ TEST_F(Encode, StillAnimationsNeedNoComponents) {
     }
 }
 
+TEST_F(Encode, PosesThatAreAllTheSameNeedNoneAndLoseNothing) {
+    // Five times what pose 0 baked to: tracing again would differ by its noise.
+    const BakeReader moving(directory_ / "x.bake");
+    const BakedPose pose = moving.read_pose(0);
+    BakeIdentity identity = moving.identity();
+    identity.poses.resize(5);
+    const BakeWriter writer(directory_ / "same.bake", identity, moving.topology(), moving.albedo());
+    for (uint32_t p = 0; p < 5; ++p) writer.write_pose(p, pose);
+    for (const auto kind : {ComponentChoice::Kind::all, ComponentChoice::Kind::automatic}) {
+        EncodeOptions options;
+        options.geometry = options.transfer = {kind, 0};
+        const EncodeSummary summary =
+            encode(BakeReader(directory_ / "same.bake"), options, directory_ / "same.paim");
+        EXPECT_EQ(summary.geometry_rank + summary.transfer_rank, 0u);
+        // Not NaN, although nothing is divided by nothing.
+        for (const double error : {summary.geometry_theory_error, summary.transfer_theory_error,
+                                   summary.geometry_energy_error, summary.transfer_energy_error}) {
+            EXPECT_EQ(error, 0.0);
+        }
+        const Model model = read_paim(directory_ / "same.paim");
+        EXPECT_EQ(model.geometry.mean, pose.positions);
+        EXPECT_EQ(model.transfer.mean, pose.transfer);
+        EXPECT_EQ(theory_error(model.transfer.singular_values, 0), 0.0);
+        EXPECT_EQ(energy_error(model.geometry.singular_values, 0), 0.0);
+    }
+}
+
 }  // namespace
 }  // namespace paim

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
 
 #include <filesystem>
 #include <map>
@@ -88,9 +90,9 @@ class BackgroundTool {
     void kill() const { ::kill(child_, SIGKILL); }
 
     // The exit code, -N if signal N ended it.
-    int wait() {
+    int wait(rusage* usage = nullptr) {
         int status = 0;
-        ::waitpid(child_, &status, 0);
+        ::wait4(child_, &status, 0, usage);
         child_ = 0;
         return WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status);
     }

@@ -67,6 +67,8 @@ TEST_F(Usage, Compress) {
         {{"--precision", "i7"}, {"--precision", "i7"}},
         {{"--fps", "0"}, {"--fps", "0"}},
         {{"--fps", "nan"}, {"--fps"}},
+        {{"--memory", "63M"}, {"--memory: expected at least 64M, got '63M'"}},
+        {{"--memory", "much"}, {"--memory: expected bytes", "'much'"}},
         {{"--rays", "16"}, {"--rays"}},  // of bake
     };
     for (const auto& [options, parts] : encode_cases) {

@@ -17,6 +17,20 @@ TEST(ParseFraction, TakesFractionsAndPercent) {
     }
 }
 
+TEST(ParseBytes, TakesPlainBytesAndPowersOfAThousand) {
+    EXPECT_EQ(parse_bytes("1", "--memory"), 1u);
+    EXPECT_EQ(parse_bytes("64000000", "--memory"), 64'000'000u);
+    EXPECT_EQ(parse_bytes("2K", "--memory"), 2'000u);
+    EXPECT_EQ(parse_bytes("512M", "--memory"), 512'000'000u);
+    EXPECT_EQ(parse_bytes("512m", "--memory"), 512'000'000u);
+    EXPECT_EQ(parse_bytes("1.5G", "--memory"), 1'500'000'000u);
+    EXPECT_EQ(parse_bytes("3T", "--memory"), 3'000'000'000'000u);
+    for (const char* bad : {"", "M", "0", "0G", "-1G", "1e30", "9223373T", "nan", "inf", "1 G",
+                            "1GB", "2X", "0x10", " 1M"}) {
+        EXPECT_THROW(parse_bytes(bad, "--memory"), Error) << bad;
+    }
+}
+
 TEST(ParseColor, TakesThreeOrOne) {
     EXPECT_EQ(parse_color("0.5", "--albedo"), Vec3f(0.5f, 0.5f, 0.5f));
     EXPECT_EQ(parse_color("1,0,0.25", "--albedo"), Vec3f(1.0f, 0.0f, 0.25f));

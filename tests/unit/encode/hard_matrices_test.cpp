@@ -8,6 +8,12 @@
 #include "paim/metrics/spectrum.h"
 
 namespace paim {
+
+// GoogleTest shows the name, not the bytes.
+void PrintTo(const HardMatrix& hard, std::ostream* out) {
+    *out << hard.name;
+}
+
 namespace {
 
 using Eigen::Index;
@@ -62,6 +68,27 @@ TEST_P(HardMatrices, BothSetsOfVectorsAreOrthonormal) {
     // LeftVectors lets pass. V: Jacobi's own tolerance √P · 2^-52.
     EXPECT_LT(off_orthonormal(d.u), 1e-12);
     EXPECT_LT(off_orthonormal(d.components.v.leftCols(d.rank)), 1e-12);
+}
+
+TEST_P(HardMatrices, StoredComponentsAreOrthonormalToTheirRounding) {
+    const MatrixXf& matrix = GetParam().matrix;
+    const MatrixRows rows(matrix);
+    const PrincipalComponents components = principal_components(rows);
+    const uint32_t rank = components.rank();
+    MatrixXd u(matrix.rows(), static_cast<Index>(rank));
+    Index first = 0;
+    for_each_encoded_block(rows, components, rank, [&](const EncodedRows& block) {
+        const auto size = static_cast<Index>(block.mean.size());
+        for (Index k = 0; k < u.cols(); ++k) {
+            const auto& stored = block.components[static_cast<size_t>(k)];
+            u.col(k).middleRows(first, size) =
+                Eigen::Map<const Eigen::VectorXf>(stored.data(), size).cast<double>();
+        }
+        first += size;
+    });
+    u /= std::sqrt(static_cast<double>(matrix.rows()));
+    // Each entry is off by 2^-24 of itself, so each product of unit columns by twice that at most.
+    EXPECT_LT(off_orthonormal(u), 0x1p-23 + 0x1p-30);
 }
 
 TEST_P(HardMatrices, ProductIsTheMatrix) {

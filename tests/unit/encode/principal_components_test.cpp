@@ -5,8 +5,12 @@
 
 #include <Eigen/SVD>
 
+#include <cmath>
+
+#include "compressor/encode/left_vectors.h"
 #include "compressor/encode/tsqr.h"
 #include "paim/base/parallel.h"
+#include "paim/base/seed.h"
 
 namespace paim {
 namespace {
@@ -127,6 +131,59 @@ TEST(PrincipalComponents, AreTheSameOnAnyNumberOfThreads) {
         return values;
     };
     EXPECT_EQ(run(1), run(2));
+}
+
+// Rows that are computed where they are asked for.
+class EndlessRows : public RowSource {
+  public:
+    EndlessRows(uint64_t num_rows, uint32_t num_columns)
+        : num_rows_(num_rows), num_columns_(num_columns) {}
+    uint64_t num_rows() const override { return num_rows_; }
+    uint32_t num_columns() const override { return num_columns_; }
+    void read(uint64_t first, MatrixXf& block) const override {
+        for (Eigen::Index p = 0; p < block.cols(); ++p) {
+            for (Eigen::Index row = 0; row < block.rows(); ++row) {
+                const uint64_t bits =
+                    stream_key(first + static_cast<uint64_t>(row), 0, static_cast<uint64_t>(p));
+                // Columns fall off, so that the third pass is needed, too.
+                block(row, p) =
+                    std::ldexp(static_cast<float>(bits >> 40), -12 * static_cast<int>(p));
+            }
+        }
+    }
+
+  private:
+    uint64_t num_rows_;
+    uint32_t num_columns_;
+};
+
+TEST(PrincipalComponents, AreTheSameForAnyNumberInFlight) {
+    constexpr uint32_t kColumns = 4;
+    const uint64_t block = rows_per_block(kColumns);
+    // Trees of 32 runs, of one less, of an odd number, of one; the last block is not full.
+    for (const uint64_t num_blocks : {33, 31, 5, 1}) {
+        const EndlessRows rows(num_blocks * block - 100, kColumns);
+        const auto run = [&](uint32_t num_in_flight) {
+            const PrincipalComponents components = principal_components(rows, num_in_flight);
+            EXPECT_EQ(components.rank(), 3u);
+            EXPECT_TRUE(LeftVectors(rows, components, 3, 0x1p-30, num_in_flight).corrected());
+            std::vector<double> values = components.singular_values;
+            values.insert(values.end(), components.v.data(),
+                          components.v.data() + components.v.size());
+            for_each_encoded_block(
+                rows, components, 3,
+                [&](const EncodedRows& encoded) {
+                    for (const auto& component : encoded.components) {
+                        values.push_back(component.front());
+                        values.push_back(component.back());
+                    }
+                },
+                num_in_flight);
+            return values;
+        };
+        const std::vector<double> all = run(kMaxInFlight);
+        for (const uint32_t fewer : {1, 2, 16}) EXPECT_EQ(run(fewer), all) << num_blocks;
+    }
 }
 
 }  // namespace

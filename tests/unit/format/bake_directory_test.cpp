@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "paim/base/error.h"
 #include "paim/base/file.h"
@@ -120,6 +121,17 @@ TEST_F(BakeDirectory, RoundTrips) {
         EXPECT_TRUE(std::equal(rows.begin(), rows.end(), expected.noise.begin() + 11));
     }
     reader.verify_all();
+}
+
+TEST_F(BakeDirectory, NamesTheFirstValueThatIsNoNumber) {
+    write_all();
+    BakedPose pose = make_pose(2);
+    pose.transfer[9] = std::nanf("");
+    pose.transfer[13] = std::nanf("");
+    writer().write_pose(2, pose);
+    const std::string complaint = reading_complaint();
+    expect_contains(complaint, bake_pose_file(bake_, 2).string());
+    expect_contains(complaint, "value 9 is nan, expected a finite number");
 }
 
 TEST_F(BakeDirectory, GoesOnWhereItStopped) {

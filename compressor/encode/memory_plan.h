@@ -1,0 +1,31 @@
+// How much memory encoding takes, and how much may be worked on at once below a limit.
+#pragma once
+
+#include <cstdint>
+
+#include "compressor/encode/encode.h"
+
+namespace paim {
+
+// What encoding's memory depends on. Rows are streamed: vertices matter for albedo and for what is known
+// of their noise alone.
+struct EncodeSize {
+    uint64_t num_triangles = 0;
+    uint64_t num_colours = 1;
+    uint64_t num_poses = 0;
+    uint64_t num_components = 0;  // the larger part's, at most num_poses
+    uint64_t num_threads = 1;
+    uint64_t num_noises = 0;  // vertices times bands
+};
+
+EncodeSize encode_size(const BakeReader& bake, const EncodeOptions& options);
+
+// Peak memory of the process, an upper bound: with `num_in_flight` runs of rows factored side by side.
+uint64_t encode_memory_bytes(const EncodeSize& size, uint32_t num_in_flight);
+
+// The most runs in flight, a power of two, that stay below limit_bytes.
+// Error (unsupported) naming `what` and the memory that one alone would need.
+uint32_t choose_num_in_flight(const EncodeSize& size, uint64_t limit_bytes,
+                              const std::string& what);
+
+}  // namespace paim
