@@ -129,7 +129,7 @@ void add_encode_options(CLI::App& app, CompressOptions& options, RawOptions& raw
     app.add_option(
            "--memory", raw.memory,
            "Memory that encoding stays below, bytes or with K, M, G or T for powers of 1000; "
-           "at least 64M, and 100 bytes times the square of the number of poses; the result "
+           "at least 64M, and 130 bytes times the square of the number of poses; the result "
            "is the same for any")
         ->capture_default_str();
     app.add_option("--fps", options.encode.frames_per_second,
@@ -191,11 +191,11 @@ void apply(const RawOptions& raw, CompressOptions& options) {
     options.encode.transfer = parse_components(raw.transfer_components, "--transfer-components");
     options.encode.automatic_transfer_error =
         cli::parse_fraction(raw.auto_transfer_error, "--auto-transfer-error");
-    options.encode.noise = raw.noise == "keep" ? NoiseTreatment::keep : NoiseTreatment::shrink;
     options.encode.memory_bytes = cli::parse_bytes(raw.memory, "--memory");
     if (options.encode.memory_bytes < kMinMemoryBytes) {
         throw_usage("--memory: expected at least 64M, got '{}'", raw.memory);
     }
+    options.encode.noise = raw.noise == "keep" ? NoiseTreatment::keep : NoiseTreatment::shrink;
     options.encode.precision = raw.precision == "f16" ? Precision::f16 : Precision::f32;
     if (raw.encode_bands > 0) options.encode.bands = raw.encode_bands;
 }

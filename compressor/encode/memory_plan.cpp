@@ -20,11 +20,12 @@ struct Need {
     static constexpr uint64_t kDouble = sizeof(double);
 
     // Rows in double while they are centred, mapped and folded or projected, and as they were read.
-    uint64_t working_bytes() const {
+    uint64_t working_bytes() const { return working_bytes(in_flight); }
+    uint64_t working_bytes(uint64_t blocks) const {
         const uint64_t block = rows_per_block(static_cast<uint32_t>(poses)) * poses * sizeof(float);
         const auto at_once = static_cast<uint64_t>(kRowsAtOnce);
         const uint64_t rows = at_once * (2 * poses + 2 * components) * kDouble;
-        return std::min(threads, in_flight) * (block + rows);
+        return std::min(threads, blocks) * (block + rows);
     }
 
     // Those in flight, and those that wait for their neighbours in the tree.
@@ -35,6 +36,13 @@ struct Need {
 
     // jacobi_svd(): the factor, its rows, the work space, V.
     uint64_t decomposing_bytes() const { return 4 * poses * poses * kDouble; }
+
+    // measure_component_noise(): a copy of V, the energies of the blocks, and the blocks.
+    uint64_t measuring_bytes(uint64_t bands) const {
+        constexpr uint64_t kBlocksMeasured = 8;
+        return poses * poses * kDouble + 2 * (kBlocksMeasured + 1) * bands * poses * kDouble +
+               working_bytes(kBlocksMeasured);
+    }
 
     // V S⁻¹, the correction with its temporaries, and either its factors or blocks that are done.
     uint64_t output_bytes() const {
@@ -63,8 +71,8 @@ EncodeSize encode_size(const BakeReader& bake, const EncodeOptions& options) {
             bake.num_poses(),
             std::max(components(options.geometry), components(options.transfer)),
             static_cast<uint64_t>(max_parallelism()),
-            uint64_t{bake.identity().num_vertices} *
-                std::min(options.bands, bake.identity().layout.bands)};
+            bake.identity().num_vertices,
+            std::min(options.bands, bake.identity().layout.bands)};
 }
 
 uint64_t encode_memory_bytes(const EncodeSize& size, uint32_t num_in_flight) {
@@ -74,15 +82,16 @@ uint64_t encode_memory_bytes(const EncodeSize& size, uint32_t num_in_flight) {
     // part keeps its V and its weights.
     const uint64_t mesh = 2 * (size.num_triangles + size.num_colours) * 12;
     const uint64_t names = 512 * size.num_poses;
-    // Energy and noise, as they are measured and as shrinkage keeps them.
-    const uint64_t noise = 4 * size.num_noises * sizeof(double);
     const uint64_t kept = 2 * size.num_poses *
                           (size.num_poses * sizeof(double) + size.num_components * sizeof(float));
+    // Energy and noise of each vertex and band, measured and as the shrinkage keeps them.
+    const uint64_t vertices = 4 * size.bands * size.num_vertices * sizeof(double);
     const Need need{size.num_poses, size.num_components, size.num_threads, num_in_flight};
-    const uint64_t streamed = std::max({need.factors_bytes(size.num_poses) + need.working_bytes(),
-                                        need.decomposing_bytes(), need.output_bytes()});
+    const uint64_t streamed =
+        std::max({need.factors_bytes(size.num_poses) + need.working_bytes(),
+                  need.decomposing_bytes(), need.measuring_bytes(size.bands), need.output_bytes()});
     // The allocator keeps some of what was freed: a quarter more.
-    return kProgram + (mesh + names + noise + kept + streamed) / 4 * 5;
+    return kProgram + (mesh + names + kept + vertices + streamed) / 4 * 5;
 }
 
 uint32_t choose_num_in_flight(const EncodeSize& size, uint64_t limit_bytes,

@@ -7,15 +7,15 @@
 
 namespace paim {
 
-// What encoding's memory depends on. Rows are streamed: vertices matter for albedo and for what is known
-// of their noise alone.
+// What encoding's memory depends on. Rows are streamed; vertices matter for albedo and for noise.
 struct EncodeSize {
     uint64_t num_triangles = 0;
     uint64_t num_colours = 1;
     uint64_t num_poses = 0;
     uint64_t num_components = 0;  // the larger part's, at most num_poses
     uint64_t num_threads = 1;
-    uint64_t num_noises = 0;  // vertices times bands
+    uint64_t num_vertices = 0;
+    uint64_t bands = 1;
 };
 
 EncodeSize encode_size(const BakeReader& bake, const EncodeOptions& options);

@@ -1,7 +1,9 @@
 // Bakes that are shared, interrupted and gone on with: the same bytes, whoever baked what when.
 #include <chrono>
+#include <map>
 #include <thread>
 
+#include "paim/base/seed.h"
 #include "tests/cli/tool_test.h"
 
 namespace paim {
@@ -65,6 +67,48 @@ TEST_F(Resume, KilledBakeGoesOnToTheSameBytes) {
     expect_same(contents_of(path("killed.bake")), contents_of(path("whole.bake")));
 }
 
+// Finished poses are never lost nor baked again: their files stay those they were.
+TEST_F(Resume, KilledTwentyTimesItLosesNothingButThePoseInFlight) {
+    namespace fs = std::filesystem;
+    const std::string poses = make_poses("octopus", 30, 1000);
+    const Arguments slow{"--rays", "1024", "--bands", "3"};
+    const Arguments command = bake_command(poses, path("killed.bake"), slow);
+    const auto start = std::chrono::steady_clock::now();
+    expect_success(compress(bake_command(poses, path("whole.bake"), slow)));
+    const std::chrono::duration<double> whole_s = std::chrono::steady_clock::now() - start;
+    std::map<std::string, fs::file_time_type> finished;
+    RandomStream random(20);
+    int num_killed = 0;
+    for (int round = 0; round < 20; ++round) {
+        BackgroundTool tool(with_tool(command));
+        std::this_thread::sleep_for(
+            std::chrono::duration<double>(0.2 * random.uniform() * whole_s.count()));
+        tool.kill();
+        if (tool.wait() == -SIGKILL) ++num_killed;
+        std::map<std::string, fs::file_time_type> found;
+        if (fs::exists(path("killed.bake"))) {
+            for (const auto& entry : fs::directory_iterator(path("killed.bake"))) {
+                const std::string name = entry.path().filename().string();
+                const bool is_pose = name.starts_with("pose_") && name.ends_with(".bin");
+                if (is_pose) found[name] = entry.last_write_time();
+            }
+        }
+        for (const auto& [name, time] : finished) {
+            ASSERT_TRUE(found.count(name)) << name;
+            EXPECT_EQ(found[name], time) << name << " was baked again in round " << round;
+        }
+        finished = found;
+    }
+    // Twenty rounds of a tenth of the whole on average, less what each needs to start: where starting
+    // takes no time at all, half of them still find something to do.
+    EXPECT_GE(num_killed, 10);
+    EXPECT_FALSE(finished.empty());
+    const ToolResult resumed = compress(command);
+    EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+    EXPECT_TRUE(contains(resumed.out, std::to_string(finished.size()) + " found")) << resumed.out;
+    expect_same(contents_of(path("killed.bake")), contents_of(path("whole.bake")));
+}
+
 TEST_F(Resume, KilledBeforeTheManifestGoesOnToo) {
     const std::string poses = make_poses("plates", 2, 60);
     expect_success(compress(bake_command(poses, path("a.bake"), kQuick)));
@@ -123,6 +167,9 @@ TEST_F(Resume, OtherOptionsAreRefusedByName) {
     refused({"--rays", "32", "--bands", "3"}, "rays: 16 there, 32 asked for)");
     refused({"--rays", "16", "--bands", "4"}, "bands: 3 there, 4 asked for)");
     refused(quick({"--seed", "2"}), "seed: 1 there, 2 asked for)");
+    refused(quick({"--sampler", "uniform"}), "sampler: cosine there, uniform asked for)");
+    refused(quick({"--streams", "shared"}), "streams: per-pose there, shared asked for)");
+    refused(quick({"--transfer-error", "10%"}), "transfer error: 0 there, 0.1 asked for)");
     refused(quick({"--albedo", "0.5"}), "checksum of faces and albedo: ");
     const auto file = directory_ / "plates" / "plates_0002.obj";
     const auto text = read_file(file, 1 << 20);

@@ -14,7 +14,7 @@ namespace {
 constexpr uint64_t kGigabyte = 1'000'000'000;
 
 // An animation of the paper's size, all components.
-constexpr EncodeSize kPaper{208000, 1, 103, 103, 2};
+constexpr EncodeSize kPaper{208000, 1, 103, 103, 2, 104000, 5};
 
 EncodeSize with_poses(uint64_t num_poses) {
     EncodeSize size = kPaper;
@@ -24,7 +24,7 @@ EncodeSize with_poses(uint64_t num_poses) {
 
 TEST(MemoryPlan, ThePapersAnimationFitsTheLeastThatMayBeAsked) {
     EXPECT_EQ(choose_num_in_flight(kPaper, kGigabyte, "x.bake"), kMaxInFlight);
-    EXPECT_LT(encode_memory_bytes(kPaper, 1), 64'000'000u);
+    EXPECT_LE(encode_memory_bytes(kPaper, 1), 64'000'000u);
 }
 
 TEST(MemoryPlan, GrowsWithWhatIsInFlightAndWithPoses) {
