@@ -104,5 +104,24 @@ TEST(StaticMesh, IsBakedOnceAloneAndFoundAgain) {
     EXPECT_EQ(read_file(bake_scenery_file(bake), 1 << 20), bytes);
 }
 
+TEST(StaticMesh, BouncesTheSameLightIntoPosesThatAreBakedLater) {
+    const PoseSet both = poses::make_pose_set(*poses::make_plates_sequence(200), 1);
+    const TemporaryDirectory directory;
+    const auto bake = directory / "x.bake";
+    BakeOptions options{2, 64, 1};
+    options.bounces = 2;
+    Surroundings surroundings;
+    surroundings.scenery.add(plate(both, true));
+    const PoseSet lower = plate(both, false);
+    const auto run = [&] {
+        bake_sequence(
+            lower, options, "faces", bake, 0, 0, [](uint32_t) {}, surroundings);
+        return read_file(bake_pose_file(bake, 0), 1 << 20);
+    };
+    const auto bytes = run();
+    std::filesystem::remove(bake_pose_file(bake, 0));
+    EXPECT_EQ(run(), bytes);  // the scenery's file is there, its bounces are not
+}
+
 }  // namespace
 }  // namespace paim
