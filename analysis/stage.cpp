@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "paim/codec/sequence_bounds.h"
 #include "paim/image/exr.h"
 #include "paim/light/environment.h"
 #include "paim/light/sky.h"
@@ -42,13 +43,22 @@ Camera stage_camera(const BakeReader& bake, double azimuth_rad, double elevation
         bake.read_position_rows(p, 0, planes.size(), planes.data());
         bounds.extend(from_planes(planes));
     }
+    if (bake.scenery()) bounds = framed_bounds(bounds, bake.scenery()->pose.positions);
     return frame_bounds(bounds, 1.0f, static_cast<float>(azimuth_rad),
                         static_cast<float>(elevation_rad));
 }
 
 Stage::Stage(const BakeReader& bake, std::vector<NamedLight> lights, const Camera& camera,
              int size_pixels, uint32_t num_poses)
-    : bake_(bake), lights_(std::move(lights)), camera_(camera), size_pixels_(size_pixels) {
+    : bake_(bake),
+      lights_(std::move(lights)),
+      camera_(camera),
+      size_pixels_(size_pixels),
+      topology_(bake.topology()) {
+    if (bake.scenery()) {
+        topology_.append(bake.scenery()->topology);
+        scenery_positions_ = from_planes(bake.scenery()->pose.positions);
+    }
     const uint32_t count = std::min(num_poses, bake.num_poses());
     for (uint32_t j = 0; j < count; ++j) {
         poses_.push_back(static_cast<uint32_t>(uint64_t{j} * bake.num_poses() / count));
@@ -56,13 +66,22 @@ Stage::Stage(const BakeReader& bake, std::vector<NamedLight> lights, const Camer
 }
 
 std::vector<Image> Stage::render_pose(const DecodedPose& pose) const {
-    const std::vector<Vec3f> positions = from_planes(pose.positions);
+    std::vector<Vec3f> positions = from_planes(pose.positions);
+    positions.insert(positions.end(), scenery_positions_.begin(), scenery_positions_.end());
     std::vector<std::vector<Vec3f>> radiance(lights_.size());
     for (size_t j = 0; j < lights_.size(); ++j) {
-        shade(pose.layout, pose.transfer, bake_.albedo(), lights_[j].coefficients, radiance[j]);
+        const LightCoefficients& light = lights_[j].coefficients;
+        shade(pose.layout, pose.transfer, bake_.albedo(), light, radiance[j]);
+        if (!bake_.scenery()) continue;
+        // With as many bands as the pose has.
+        LightCoefficients kept = light;
+        kept.bands = std::min(light.bands, static_cast<int>(pose.layout.bands));
+        std::vector<Vec3f> scenery;
+        shade(bake_.identity().layout, bake_.scenery()->pose.transfer, bake_.scenery()->albedo,
+              kept, scenery);
+        radiance[j].insert(radiance[j].end(), scenery.begin(), scenery.end());
     }
-    return render_images(bake_.topology(), positions, radiance, camera_, size_pixels_,
-                         size_pixels_);
+    return render_images(topology_, positions, radiance, camera_, size_pixels_, size_pixels_);
 }
 
 }  // namespace paim

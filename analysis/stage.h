@@ -43,6 +43,8 @@ class Stage {
     Camera camera_;
     int size_pixels_;
     std::vector<uint32_t> poses_;
+    Topology topology_;  // of the poses and, after them, the scenery
+    std::vector<Vec3f> scenery_positions_;
 };
 
 // Camera that sees the whole sequence.

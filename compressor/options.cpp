@@ -16,6 +16,9 @@ constexpr uint64_t kMinMemoryBytes = 64'000'000;
 // The options as text, where their form needs checking after parsing.
 struct RawOptions {
     std::string albedo;
+    bool floor = false;
+    std::string floor_albedo;
+    uint32_t floor_vertices = FloorOptions().num_vertices;
     std::string geometry_components = "auto";
     std::string transfer_components = "auto";
     std::string precision = "f32";
@@ -69,6 +72,33 @@ void add_bake_options(CLI::App& app, CompressOptions& options, RawOptions& raw) 
     app.add_option("--albedo", raw.albedo,
                    "Diffuse reflectance R,G,B (or one number), linear, 0 to 1; default: vertex "
                    "colours, else Kd of the materials, else 0.8");
+    app.add_option(
+           "--bounces", options.bake.bounces,
+           fmt::format("How often light may bounce before it reaches a vertex, 0 to {}; with "
+                       "colours a bake that bounces is three times as large",
+                       kMaxBounces))
+        ->check(cli::in_range(uint32_t{0}, kMaxBounces))
+        ->capture_default_str();
+    CLI::Option* floor =
+        app.add_flag("--floor", raw.floor,
+                     "Put a ground under the poses, just below the lowest point of all: it gets "
+                     "their shadow and is lit and compressed with them");
+    app.add_option("--floor-albedo", raw.floor_albedo,
+                   "Diffuse reflectance R,G,B (or one number) of the floor, linear, 0 to 1; "
+                   "default: 0.8")
+        ->needs(floor);
+    app.add_option("--floor-vertices", raw.floor_vertices,
+                   fmt::format("The most vertices that the floor may have, {} to {}; more make its "
+                               "shadows sharper",
+                               kMinFloorVertices, kMaxFloorVertices))
+        ->check(cli::in_range(kMinFloorVertices, kMaxFloorVertices))
+        ->capture_default_str()
+        ->needs(floor);
+    app.add_option("--static", options.statics,
+                   "An OBJ file of scenery, which blocks and bounces the poses' light but is "
+                   "stored once; may be "
+                   "given several times. The poses cast no shadow on it: for that there is --floor")
+        ->allow_extra_args(false);
     app.add_option("--seed", options.bake.seed, "Seed of the random streams, 0 to 2^64 - 1")
         ->check(cli::in_range(uint64_t{0}, std::numeric_limits<uint64_t>::max()))
         ->capture_default_str();
@@ -132,6 +162,12 @@ ComponentChoice parse_components(const std::string& text, const std::string& opt
 
 void apply(const RawOptions& raw, CompressOptions& options) {
     if (!raw.albedo.empty()) options.albedo = cli::parse_color(raw.albedo, "--albedo");
+    if (raw.floor) {
+        options.floor.emplace().num_vertices = raw.floor_vertices;
+        if (!raw.floor_albedo.empty()) {
+            options.floor->albedo = cli::parse_color(raw.floor_albedo, "--floor-albedo");
+        }
+    }
     if (!raw.transfer_error.empty()) {
         options.bake.transfer_error = cli::parse_fraction(raw.transfer_error, "--transfer-error");
         if (!(options.bake.transfer_error > 0.0)) {

@@ -9,6 +9,7 @@
 
 #include "compressor/bake/transfer_baker.h"
 #include "compressor/encode/encode.h"
+#include "compressor/scene/floor.h"
 
 namespace paim {
 
@@ -21,7 +22,9 @@ struct CompressOptions {
     BakeOptions bake;
     std::string normals = "faces";
     std::optional<Vec3f> albedo;
-    std::string poses;  // "A-B", empty for all
+    std::optional<FloorOptions> floor;
+    std::vector<std::string> statics;  // OBJ files of scenery
+    std::string poses;                 // "A-B", empty for all
     bool discard_bake = false;
 
     // Encode.

@@ -6,11 +6,13 @@
 #include <cerrno>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "compressor/bake/bake_sequence.h"
 #include "compressor/io/obj_files.h"
 #include "compressor/io/obj_sequence.h"
 #include "compressor/mesh_warnings.h"
+#include "compressor/scene/floor.h"
 #include "paim/base/error.h"
 #include "paim/base/file.h"
 #include "paim/base/parallel.h"
@@ -64,10 +66,31 @@ ordered_json bake(const CompressOptions& options, const std::filesystem::path& d
     print_warnings(mesh_warnings(topology));
 
     const auto [first, last] = parse_pose_range(options.poses, sequence.num_poses());
-    const uint32_t num_vertices = sequence.topology().num_vertices;
+    Surroundings surroundings;
+    std::optional<PosesOnFloor> on_floor;
+    if (options.floor) {
+        cli::Progress measuring("measuring", "poses", sequence.num_poses(), quiet);
+        const Bounds bounds = bounds_of(sequence, [&] { measuring.advance(); });
+        measuring.finish();
+        on_floor.emplace(sequence, bounds, *options.floor);
+        surroundings.floor = on_floor->description();
+    }
+    for (const std::string& file : options.statics) {
+        ObjOptions static_options;
+        static_options.normals_from_file = obj_options.normals_from_file;
+        static_options.origin = sequence.origin();
+        const ObjSequence still({file}, static_options);
+        print_warnings(still.warnings());
+        surroundings.scenery.add(still);
+    }
+    const PoseSource& poses = on_floor ? static_cast<const PoseSource&>(*on_floor) : sequence;
+    const TransferLayout baked_layout =
+        TransferBaker::bake_layout(options.bake, poses.albedo(), surroundings.scenery);
+    const uint32_t num_vertices = poses.topology().num_vertices;
     cli::Progress baking("baking", "poses", last - first + 1, quiet);
-    const BakeSummary summary = bake_sequence(sequence, options.bake, options.normals, directory,
-                                              first, last, [&](uint32_t) { baking.advance(); });
+    const BakeSummary summary = bake_sequence(
+        poses, options.bake, options.normals, directory, first, last,
+        [&](uint32_t) { baking.advance(); }, surroundings);
     baking.finish();
     print_warnings(mesh_warnings(summary.total.mesh));
 
@@ -75,12 +98,20 @@ ordered_json bake(const CompressOptions& options, const std::filesystem::path& d
     ordered_json json;
     json["bake"] = directory.string();
     json["num_vertices"] = num_vertices;
-    json["num_triangles"] = sequence.topology().triangles.size();
+    json["num_triangles"] = poses.topology().triangles.size();
     json["num_poses"] = sequence.num_poses();
+    if (!surroundings.floor.empty()) json["floor"] = surroundings.floor;
+    const StaticMesh& scenery = surroundings.scenery;
+    if (!scenery.empty()) {
+        json["scenery_vertices"] = scenery.topology.num_vertices;
+        json["scenery_triangles"] = scenery.topology.triangles.size();
+    }
     json["poses_baked"] = summary.baked;
     json["poses_resumed"] = summary.resumed;
     json["bands"] = options.bake.bands;
     json["rays"] = options.bake.rays;
+    json["bounces"] = options.bake.bounces;
+    json["channels"] = baked_layout.channels;
     json["rays_traced"] = summary.total.rays;
     json["rays_blocked"] = summary.total.blocked;
     json["vertices_without_normal"] = summary.total.zero_normals;
@@ -89,7 +120,7 @@ ordered_json bake(const CompressOptions& options, const std::filesystem::path& d
     if (!options.json) {
         fmt::print(
             "{}: {} vertices, {} triangles, poses {}-{} of {} ({} baked, {} found), {} bands\n",
-            directory.string(), num_vertices, sequence.topology().triangles.size(), first, last,
+            directory.string(), num_vertices, poses.topology().triangles.size(), first, last,
             sequence.num_poses(), summary.baked, summary.resumed, options.bake.bands);
         fmt::print(
             "  {} rays a vertex, {:.1f} % blocked; estimated noise {:.2f} % of the transfer\n",
@@ -98,6 +129,19 @@ ordered_json bake(const CompressOptions& options, const std::filesystem::path& d
                                          static_cast<double>(summary.total.rays)
                                    : 0.0,
             100.0 * noise);
+        if (options.bake.bounces > 0) {
+            fmt::print("  {} bounces in {}; {:.2g} % of the rays ended on the back of a face\n",
+                       options.bake.bounces, baked_layout.channels == 3 ? "colour" : "grey",
+                       summary.total.rays > 0
+                           ? 100.0 * static_cast<double>(summary.total.back_hits) /
+                                 static_cast<double>(summary.total.rays)
+                           : 0.0);
+        }
+        if (!surroundings.floor.empty()) fmt::print("  on a floor of {}\n", surroundings.floor);
+        if (!scenery.empty()) {
+            fmt::print("  among scenery of {} vertices and {} triangles\n",
+                       scenery.topology.num_vertices, scenery.topology.triangles.size());
+        }
         if (summary.total.zero_normals > 0) {
             fmt::print("  {} vertices (over all poses) have no normal; their transfer is 0\n",
                        summary.total.zero_normals);

@@ -83,7 +83,8 @@ void run_bench(const Options& options, const Scene& scene) {
     const auto context = gl::make_headless_context();
     const int samples = options.supersample.value_or(1);
     Frame frame = first_frame(options, scene);
-    frame.bounds = scene.bounds;
+    frame.bounds.extend(scene.bounds.lower);  // of every pose
+    frame.bounds.extend(scene.bounds.upper);
     SceneRenderer renderer(scene.model, scene.environment, options.limits);
     const gl::Target target(options.size.first * samples, options.size.second * samples);
     const gl::Target pixel(1, 1);  // leaves hardly anything to do but the vertices

@@ -42,4 +42,18 @@ inline Model make_example_model(uint32_t bands = 2, uint32_t channels = 1, uint3
     return model;
 }
 
+// Two triangles of three colours.
+inline Scenery make_example_scenery(const TransferLayout& layout) {
+    RandomStream random(8);
+    Scenery scenery;
+    scenery.topology = {4, {{0, 1, 2}, {1, 3, 2}}};
+    scenery.albedo.values = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.5f, 0.5f, 0.5f}};
+    const auto number = [&] { return static_cast<float>(2.0 * random.uniform() - 1.0); };
+    scenery.positions.resize(size_t{3} * 4);
+    scenery.transfer.resize(size_t{layout.num_planes()} * 4);
+    std::generate(scenery.positions.begin(), scenery.positions.end(), number);
+    std::generate(scenery.transfer.begin(), scenery.transfer.end(), number);
+    return scenery;
+}
+
 }  // namespace paim

@@ -47,6 +47,10 @@ ordered_json describe_paim(const std::filesystem::path& path) {
         static_cast<double>(model.topology.num_vertices) * static_cast<double>(model.num_poses());
     json["bits_per_vertex_per_pose"] =
         per_pose > 0.0 ? 8.0 * json["size_bytes"].get<double>() / per_pose : 0.0;
+    if (!model.scenery.empty()) {
+        json["scenery_vertices"] = model.scenery.topology.num_vertices;
+        json["scenery_triangles"] = model.scenery.topology.triangles.size();
+    }
     json["geometry"] = describe_part(model.geometry);
     json["transfer"] = describe_part(model.transfer);
     json["provenance"] = ordered_json::parse(model.provenance_json);
@@ -73,6 +77,13 @@ ordered_json describe_bake(const std::filesystem::path& path) {
     if (identity.transfer_error > 0.0) json["transfer_error"] = identity.transfer_error;
     json["seed"] = fmt::format("{:016x}", identity.seed);
     json["normals"] = identity.normals;
+    json["bounces"] = identity.bounces;
+    if (!identity.floor.empty()) json["floor"] = identity.floor;
+    for (const auto& source : identity.scenery) json["static"].push_back(source.name);
+    if (bake.scenery()) {
+        json["scenery_vertices"] = bake.scenery()->topology.num_vertices;
+        json["scenery_triangles"] = bake.scenery()->topology.triangles.size();
+    }
     json["origin"] = {identity.origin.x(), identity.origin.y(), identity.origin.z()};
     uint64_t size_bytes = 0;
     for (uint32_t p = 0; p < bake.num_poses(); ++p) {

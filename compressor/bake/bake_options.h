@@ -26,6 +26,7 @@ struct BakeOptions {
     double transfer_error = 0.0;
     SamplerKind sampler = SamplerKind::cosine;
     Streams streams = Streams::per_pose;
+    uint32_t bounces = 0;  // of light between vertices, 0 … kMaxBounces (bounces.h)
 };
 
 // The key of the rays of one half (0 or 1) of a vertex.

@@ -1,7 +1,9 @@
 // Bakes a whole sequence, pose by pose.
 #include "compressor/bake/bake_sequence.h"
 
+#include <algorithm>
 #include <future>
+#include <ranges>
 
 #include "paim/base/check.h"
 #include "paim/base/parallel.h"
@@ -36,16 +38,19 @@ class ReadAhead {
 }  // namespace
 
 BakeIdentity bake_identity(const PoseSource& source, const BakeOptions& options,
-                           const std::string& normals) {
+                           const std::string& normals, const Surroundings& surroundings) {
     BakeIdentity identity;
     identity.baker = kBakerVersion;
-    identity.layout = {TransferKind::diffuse, options.bands, 1};
+    identity.layout = TransferBaker::bake_layout(options, source.albedo(), surroundings.scenery);
+    identity.bounces = options.bounces;
     identity.sampler = sampler_name(options.sampler);
     identity.streams = streams_name(options.streams);
     identity.rays = options.rays;
     identity.transfer_error = options.transfer_error;
     identity.seed = options.seed;
     identity.normals = normals;
+    identity.floor = surroundings.floor;
+    identity.scenery = surroundings.scenery.sources;
     identity.num_vertices = source.topology().num_vertices;
     identity.num_triangles = static_cast<uint32_t>(source.topology().triangles.size());
     identity.mesh_xxh3 = mesh_checksum(source.topology(), source.albedo());
@@ -61,12 +66,24 @@ BakeIdentity bake_identity(const PoseSource& source, const BakeOptions& options,
 BakeSummary bake_sequence(const PoseSource& source, const BakeOptions& options,
                           const std::string& normals, const std::filesystem::path& directory,
                           uint32_t first, uint32_t last,
-                          const std::function<void(uint32_t)>& on_pose) {
+                          const std::function<void(uint32_t)>& on_pose,
+                          const Surroundings& surroundings) {
     PAIM_CHECK_LE(first, last);
     PAIM_CHECK_LT(last, source.num_poses());
-    const BakeIdentity identity = bake_identity(source, options, normals);
+    const BakeIdentity identity = bake_identity(source, options, normals, surroundings);
     const BakeWriter writer(directory, identity, source.topology(), source.albedo());
-    const TransferBaker baker(options);
+    TransferBaker baker(options, source.albedo(), surroundings.scenery);
+    const auto lacks = [&](uint32_t p) { return !writer.has_pose(p); };
+    if (const StaticMesh& scenery = surroundings.scenery; !scenery.empty()) {
+        const bool found = writer.has_scenery();
+        // Poses need its light where that bounces.
+        const auto poses = std::views::iota(first, last + 1);
+        const bool needed = options.bounces > 0 && std::any_of(poses.begin(), poses.end(), lacks);
+        if (!found || needed) {
+            const BakedPose baked = baker.bake_scenery();
+            if (!found) writer.write_scenery({scenery.topology, scenery.albedo, baked});
+        }
+    }
     ReadAhead ahead(source);
     BakeSummary summary;
     std::vector<PoseStatistics> poses;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "compressor/bake/transfer_baker.h"
+#include "compressor/scene/static_mesh.h"
 #include "paim/format/bake_directory.h"
 #include "paim/mesh/pose_source.h"
 
@@ -17,16 +18,23 @@ struct BakeSummary {
     PoseStatistics total;  // of all poses in range; RMS values over all of them
 };
 
+// What a sequence stands on and among.
+struct Surroundings {
+    std::string floor;   // description of the ground that the poses have got; empty if none
+    StaticMesh scenery;  // blocks and bounces the poses' light; baked once, without the poses
+};
+
 // What decides the bytes of the bake of this sequence with these options.
 BakeIdentity bake_identity(const PoseSource& source, const BakeOptions& options,
-                           const std::string& normals);
+                           const std::string& normals, const Surroundings& surroundings = {});
 
-// Bakes poses first … last (inclusive) that are not there yet.
+// Bakes poses first … last (inclusive), and scenery, that are not there yet.
 // on_pose   called after each pose, found or baked, with its number
 // Errors: those of BakeWriter, of the source and of Scene. Finished poses stay whatever happens.
 BakeSummary bake_sequence(const PoseSource& source, const BakeOptions& options,
                           const std::string& normals, const std::filesystem::path& directory,
                           uint32_t first, uint32_t last,
-                          const std::function<void(uint32_t)>& on_pose);
+                          const std::function<void(uint32_t)>& on_pose,
+                          const Surroundings& surroundings = {});
 
 }  // namespace paim

@@ -62,27 +62,34 @@ using Halves = std::array<HalfSums, 2>;
 // The bake of one pose while it lasts.
 class TransferBaker::PoseBake {
   public:
-    PoseBake(const TransferBaker& baker, const Topology& topology, const Pose& pose, uint32_t p)
+    // scenery  with scenery_terms, if light bounces
+    PoseBake(const TransferBaker& baker, const Topology& topology, const Pose& pose, uint32_t p,
+             const Albedo& albedo, const StaticMesh& scenery)
         : baker_(baker),
           options_(baker.options_),
           topology_(topology),
           pose_(pose),
           p_(p),
-          scene_(topology, pose.positions),
+          albedo_(albedo),
+          scenery_(scenery),
+          scene_(topology, pose.positions, scenery.topology, scenery.pose.positions),
           offsets_(ray_offsets(topology, pose.positions)),
           lobe_(cosine_lobe_by_coefficient(options_.bands)),
           num_rays_(topology.num_vertices),
           num_blocked_(topology.num_vertices),
+          num_batches_(topology.num_vertices, 0),
           noise_energy_(topology.num_vertices) {
         for (auto& half : halves_) half.resize(lobe_.size() * topology.num_vertices, 0.0f);
     }
 
-    BakedPose run() {
+    // terms  of the bounces, if they are asked for
+    BakedPose run(BounceTerms* terms) {
         if (options_.transfer_error > 0.0) {
             bake_to_target();
         } else {
             bake_at_once();
         }
+        if (options_.bounces > 0) bounce(terms);
         return finish();
     }
 
@@ -138,6 +145,7 @@ class TransferBaker::PoseBake {
             energy += 0.25 * (a - b) * (a - b);
         }
         noise_energy_[v] = energy;
+        ++num_batches_[v];
         num_rays_[v] = halves[0].num_rays + halves[1].num_rays;
         num_blocked_[v] = halves[0].num_blocked + halves[1].num_blocked;
     }
@@ -184,6 +192,43 @@ class TransferBaker::PoseBake {
         num_above_target_ += static_cast<uint32_t>(active.size());
     }
 
+    // Adds light that bounces to the halves, by the same rays that they were made of.
+    void bounce(BounceTerms* terms) {
+        Topology topology = topology_;
+        topology.append(scenery_.topology);
+        std::vector<Vec3f> positions = pose_.positions;
+        positions.insert(positions.end(), scenery_.pose.positions.begin(),
+                         scenery_.pose.positions.end());
+        std::vector<uint32_t> num_back_hits[2];
+        for (auto& counts : num_back_hits) counts.resize(topology_.num_vertices, 0);
+        BounceScene scene;
+        scene.layout = baker_.layout();
+        scene.num_vertices = topology_.num_vertices;
+        scene.albedo = albedo_;
+        scene.num_scenery_vertices = scenery_.topology.num_vertices;
+        scene.scenery_albedo = scenery_.albedo;
+        scene.scenery_terms = &baker_.scenery_terms_;
+        scene.make_row = [&](size_t v, size_t half, HitRow& row) {
+            row.clear();
+            if (num_blocked_[v] == 0) return;
+            const Vec3f& normal = pose_.normals[v];
+            const Vec3f origin = pose_.positions[v] + offsets_[v] * normal;
+            const uint64_t key =
+                half_key(options_, p_, static_cast<uint32_t>(v), static_cast<uint32_t>(half));
+            HitTracer tracer(scene_, topology, positions);
+            for (size_t b = 0; b < num_batches_[v]; ++b) {
+                tracer.trace(origin, normal, *baker_.batches_[b], key);
+            }
+            num_back_hits[half][v] = tracer.num_back_hits();
+            tracer.end(row);
+        };
+        BounceTerms bounced = add_bounces(scene, options_.bounces, halves_, terms != nullptr);
+        if (terms != nullptr) *terms = std::move(bounced);
+        for (const auto& counts : num_back_hits) {
+            num_all_back_hits_ = std::accumulate(counts.begin(), counts.end(), num_all_back_hits_);
+        }
+    }
+
     // The halves become their mean and half their difference.
     BakedPose finish() {
         BakedPose baked;
@@ -204,6 +249,7 @@ class TransferBaker::PoseBake {
             statistics.zero_normals += has_normal(v) ? 0 : 1;
         }
         statistics.above_target = num_above_target_;
+        statistics.back_hits = num_all_back_hits_;
         const TransferLayout layout = baker_.layout();
         statistics.transfer_rms = rms_by_band(layout, baked.transfer);
         statistics.noise_rms = rms_by_band(layout, baked.noise);
@@ -215,25 +261,47 @@ class TransferBaker::PoseBake {
     const Topology& topology_;
     const Pose& pose_;
     const uint32_t p_;
+    const Albedo& albedo_;
+    const StaticMesh& scenery_;
     const Scene scene_;
     const std::vector<float> offsets_;
-    const std::vector<double> lobe_;     // [C]
-    std::vector<float> halves_[2];       // [C][V] the estimates of both halves
+    const std::vector<double> lobe_;  // [C]
+    // [planes][V] the estimates of both halves; until light bounces of one channel
+    std::array<std::vector<float>, 2> halves_;
     std::vector<uint64_t> num_rays_;     // [V]
     std::vector<uint64_t> num_blocked_;  // [V]
-    std::vector<double> noise_energy_;   // [V] Σ_i (half the difference of the halves)²
+    std::vector<uint8_t> num_batches_;   // [V] of rays
+    uint64_t num_all_back_hits_ = 0;
+    std::vector<double> noise_energy_;  // [V] Σ_i (half the difference of the halves)²
     uint32_t num_above_target_ = 0;
 };
 
-TransferBaker::TransferBaker(const BakeOptions& options)
-    : options_(options), batches_(make_batches(options)), basis_(static_cast<int>(options.bands)) {
+TransferBaker::TransferBaker(const BakeOptions& options, Albedo albedo, StaticMesh scenery)
+    : options_(options),
+      albedo_(std::move(albedo)),
+      scenery_(std::move(scenery)),
+      batches_(make_batches(options)),
+      basis_(static_cast<int>(options.bands)) {
     PAIM_CHECK(options.rays >= 2 && options.rays % 2 == 0);
+    PAIM_CHECK_LE(options.bounces, kMaxBounces);
+}
+
+TransferLayout TransferBaker::bake_layout(const BakeOptions& options, const Albedo& albedo,
+                                          const StaticMesh& scenery) {
+    const bool coloured = is_coloured(albedo) || (!scenery.empty() && is_coloured(scenery.albedo));
+    return {TransferKind::diffuse, options.bands, options.bounces > 0 && coloured ? 3u : 1u};
+}
+
+BakedPose TransferBaker::bake_scenery() {
+    const StaticMesh nothing;
+    return PoseBake(*this, scenery_.topology, scenery_.pose, kSceneryPose, scenery_.albedo, nothing)
+        .run(&scenery_terms_);
 }
 
 BakedPose TransferBaker::bake(const Topology& topology, const Pose& pose, uint32_t p) const {
     PAIM_CHECK_EQ(pose.positions.size(), topology.num_vertices);
     PAIM_CHECK_EQ(pose.normals.size(), topology.num_vertices);
-    return PoseBake(*this, topology, pose, p).run();
+    return PoseBake(*this, topology, pose, p, albedo_, scenery_).run(nullptr);
 }
 
 }  // namespace paim

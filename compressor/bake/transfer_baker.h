@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "compressor/bake/bake_options.h"
+#include "compressor/bake/bounces.h"
 #include "compressor/bake/direction_sampler.h"
+#include "compressor/scene/static_mesh.h"
 #include "paim/format/bake_directory.h"
 #include "paim/mesh/pose_source.h"
 #include "paim/sh/basis.h"
@@ -22,22 +24,35 @@ constexpr uint32_t kBakerVersion = 3;
 // Every vertex shoots two independent halves of its rays (half_sums.h). Their mean is the transfer,
 // half their difference its noise. With a fixed count all rays of a vertex are shot at once; with an
 // error target they are shot in batches, each as many as all before, until the vertex's own noise and
-// the mean over its neighbours are below the target.
+// the mean over its neighbours are below the target. Light that bounces is added to the halves
+// afterwards (bounces.h): the target is one for the light that comes straight from the sky.
 class TransferBaker {
   public:
-    explicit TransferBaker(const BakeOptions& options);
+    // albedo   of the meshes to bake; counts only where light bounces
+    // scenery  blocks light too, and bounces it
+    explicit TransferBaker(const BakeOptions& options, Albedo albedo = {}, StaticMesh scenery = {});
+
+    // The scenery, without anything else. Light bounces off it in poses only once this was called.
+    BakedPose bake_scenery();
 
     // pose     positions [V] finite, normals [V] unit or zero (transfer 0)
     // p        the pose's number, which keys the random streams
     // Deterministic on any number of threads. Errors: those of Scene.
     BakedPose bake(const Topology& topology, const Pose& pose, uint32_t p) const;
 
-    TransferLayout layout() const { return {TransferKind::diffuse, options_.bands, 1}; }
+    // Three channels where light bounces off colours, one otherwise.
+    TransferLayout layout() const { return bake_layout(options_, albedo_, scenery_); }
+
+    static TransferLayout bake_layout(const BakeOptions& options, const Albedo& albedo,
+                                      const StaticMesh& scenery);
 
   private:
     class PoseBake;
 
     BakeOptions options_;
+    Albedo albedo_;
+    StaticMesh scenery_;
+    BounceTerms scenery_terms_;  // if light bounces
     // The rays of a half come in batches, one sampler each; one batch if the count is fixed.
     std::vector<std::unique_ptr<DirectionSampler>> batches_;
     sh::BatchBasis basis_;

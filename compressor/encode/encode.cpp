@@ -10,6 +10,7 @@
 #include "compressor/encode/bake_rows.h"
 #include "compressor/encode/component_noise.h"
 #include "compressor/encode/memory_plan.h"
+#include "compressor/encode/playable_scenery.h"
 #include "compressor/encode/principal_components.h"
 #include "compressor/encode/shrinkage.h"
 #include "paim/base/file.h"
@@ -68,6 +69,7 @@ std::string provenance(const BakeReader& bake, const EncodeSummary& summary) {
     json["rays"] = identity.rays;
     json["seed"] = fmt::format("{:016x}", identity.seed);
     json["normals"] = identity.normals;
+    if (identity.bounces > 0) json["bounces"] = identity.bounces;
     json["bake_noise"] = bake.total_statistics().relative_noise();
     json["noise"] = summary.shrunk ? "shrink" : "keep";
     json["expected_transfer_error"] = summary.expected_error();
@@ -101,6 +103,7 @@ EncodeSummary encode(const BakeReader& bake, const EncodeOptions& options,
     model.origin = bake.identity().origin;
     model.frames_per_second = options.frames_per_second;
     model.name = options.name;
+    model.scenery = playable_scenery(bake, model.layout.bands);
 
     const GeometryRows baked_geometry(bake);
     const TransferRows baked_transfer(bake, model.layout.bands);

@@ -73,7 +73,7 @@ void ObjSequence::check_files() {
     const size_t failed = first_failed.load();
     if (failed < files_.size()) std::rethrow_exception(failures[failed]);
     for (size_t i = 1; i < bounds.size(); ++i) bounds[0].extend(bounds[i]);
-    origin_ = choose_origin(bounds[0]);
+    origin_ = options_.origin.value_or(choose_origin(bounds[0]));
 }
 
 // Counted from the origin while they are still in double.

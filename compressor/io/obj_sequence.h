@@ -19,6 +19,8 @@ struct ObjOptions {
     bool normals_from_file = false;
     // Overrides the colours and materials of the file; linear, 0..1.
     std::optional<Vec3f> albedo;
+    // What positions are counted from, instead of what mesh/origin.h chooses.
+    std::optional<Vec3d> origin;
     // Called each time that another file was checked, from several threads at once.
     std::function<void()> on_file_checked;
 };
@@ -37,7 +39,7 @@ class ObjSequence : public PoseSource {
     const Topology& topology() const override { return topology_; }
     const Albedo& albedo() const override { return albedo_; }
     uint32_t num_poses() const override { return static_cast<uint32_t>(files_.size()); }
-    // From the bounds of all poses (mesh/origin.h).
+    // As the options say, or from the bounds of all poses (mesh/origin.h).
     Vec3d origin() const override { return origin_; }
     std::string pose_name(uint32_t p) const override;   // the path as given
     uint64_t pose_checksum(uint32_t p) const override;  // of the bytes of the file

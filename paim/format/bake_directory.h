@@ -4,6 +4,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +27,8 @@ struct BakeIdentity {
     std::string sampler;          // "cosine", "uniform" or "uniform-sobol"
     std::string streams;          // "per-pose", "shared" or "mixed"
     std::string normals;          // "faces" or "file"
+    uint32_t bounces = 0;         // of light between vertices
+    std::string floor;            // what ground was put under the poses; empty if none
     uint32_t num_vertices = 0;
     uint32_t num_triangles = 0;
     uint64_t mesh_xxh3 = 0;        // of triangles and albedo
@@ -34,7 +38,8 @@ struct BakeIdentity {
         uint64_t xxh3 = 0;
         bool operator==(const Source&) const = default;
     };
-    std::vector<Source> poses;  // [P]
+    std::vector<Source> poses;    // [P]
+    std::vector<Source> scenery;  // what stands still among them, checksums of all that was read
 
     uint32_t num_poses() const { return static_cast<uint32_t>(poses.size()); }
     bool operator==(const BakeIdentity&) const = default;
@@ -54,10 +59,25 @@ struct BakedPose {
     PoseStatistics statistics;
 };
 
+// The number of the scenery where poses have theirs: in random streams and in metadata.
+constexpr uint32_t kSceneryPose = std::numeric_limits<uint32_t>::max();
+
+// What stands still among the poses, baked once, without them.
+struct BakedScenery {
+    Topology topology;
+    Albedo albedo;
+    BakedPose pose;
+};
+
 // What the bake of pose p found out about itself. Errors (bad input) name the file: damaged, or of
 // another pose or bake than the one with this checksum (bake_manifest.h) and number of bands.
 PoseStatistics read_bake_statistics(const std::filesystem::path& directory,
                                     uint64_t identity_checksum, uint32_t p, uint32_t bands);
+
+// The scenery of a bake. Errors (bad input) name the file: missing, damaged, of another bake, or shapes,
+// indices or numbers that make no sense.
+BakedScenery read_bake_scenery(const std::filesystem::path& directory, uint64_t identity_checksum,
+                               const TransferLayout& layout);
 
 // Writes a bake, possibly one that was begun before.
 class BakeWriter {
@@ -78,6 +98,10 @@ class BakeWriter {
     // All or nothing; may be called from several threads.
     void write_pose(uint32_t p, const BakedPose& pose) const;
 
+    // The same for the scenery of a bake whose identity names some.
+    bool has_scenery() const;
+    void write_scenery(const BakedScenery& scenery) const;
+
   private:
     std::filesystem::path directory_;
     BakeIdentity identity_;
@@ -95,6 +119,9 @@ class BakeReader {
     const Topology& topology() const { return topology_; }
     const Albedo& albedo() const { return albedo_; }
     uint32_t num_poses() const { return identity_.num_poses(); }
+
+    // Nothing if the bake has none.
+    const std::optional<BakedScenery>& scenery() const { return scenery_; }
 
     // Reads every byte of pose p and checks it. May be called from several threads.
     BakedPose read_pose(uint32_t p) const;
@@ -120,8 +147,10 @@ class BakeReader {
     uint64_t identity_checksum_;
     Topology topology_;
     Albedo albedo_;
+    std::optional<BakedScenery> scenery_;
 };
 
 std::filesystem::path bake_pose_file(const std::filesystem::path& directory, uint32_t p);
+std::filesystem::path bake_scenery_file(const std::filesystem::path& directory);
 
 }  // namespace paim

@@ -38,6 +38,17 @@ std::string shown(const Vec3d& point) {
     return fmt::format("({}, {}, {})", point.x(), point.y(), point.z());
 }
 
+// Of two lists of the same length.
+std::string first_difference(const char* what, const std::vector<BakeIdentity::Source>& there,
+                             const std::vector<BakeIdentity::Source>& wanted) {
+    for (size_t j = 0; j < wanted.size(); ++j) {
+        if (there[j] == wanted[j]) continue;
+        return fmt::format("{} {}: {} ({}) there, {} ({}) asked for", what, j, there[j].name,
+                           hex(there[j].xxh3), wanted[j].name, hex(wanted[j].xxh3));
+    }
+    return {};
+}
+
 }  // namespace
 
 std::string as_manifest_text(const std::string& text) {
@@ -60,6 +71,8 @@ std::string manifest_text(const BakeIdentity& identity) {
     json["transfer_error"] = identity.transfer_error;
     json["seed"] = hex(identity.seed);
     json["normals"] = identity.normals;
+    if (identity.bounces > 0) json["bounces"] = identity.bounces;
+    if (!identity.floor.empty()) json["floor"] = identity.floor;
     json["num_vertices"] = identity.num_vertices;
     json["num_triangles"] = identity.num_triangles;
     json["mesh_xxh3"] = hex(identity.mesh_xxh3);
@@ -70,6 +83,9 @@ std::string manifest_text(const BakeIdentity& identity) {
         poses.push_back({{"name", pose.name}, {"xxh3", hex(pose.xxh3)}});
     }
     json["poses"] = std::move(poses);
+    for (const auto& source : identity.scenery) {
+        json["static"].push_back({{"name", source.name}, {"xxh3", hex(source.xxh3)}});
+    }
     return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
@@ -97,6 +113,10 @@ BakeIdentity read_manifest(const std::filesystem::path& path) {
         metadata.number("transfer_error", 0.0, std::numeric_limits<double>::max());
     identity.seed = parse_hex(metadata.text("seed"), file, "seed");
     identity.normals = metadata.text("normals");
+    if (metadata.root().contains("bounces")) {
+        identity.bounces = metadata.integer("bounces", 0, kMaxCount);
+    }
+    if (metadata.root().contains("floor")) identity.floor = metadata.text("floor");
     identity.num_vertices = metadata.integer("num_vertices", 1, kMaxCount);
     identity.num_triangles = metadata.integer("num_triangles", 1, kMaxCount);
     identity.mesh_xxh3 = parse_hex(metadata.text("mesh_xxh3"), file, "mesh_xxh3");
@@ -108,10 +128,18 @@ BakeIdentity read_manifest(const std::filesystem::path& path) {
     if (poses->size() > kMaxPoses) {
         throw_unsupported("{}: {} poses, expected at most {}", file, poses->size(), kMaxPoses);
     }
-    for (const nlohmann::json& entry : *poses) {
-        const Metadata pose = Metadata::part(entry, file);
-        identity.poses.push_back({pose.text("name"), parse_hex(pose.text("xxh3"), file, "xxh3")});
+    const auto source_of = [&](const nlohmann::json& entry) {
+        const Metadata source = Metadata::part(entry, file);
+        return BakeIdentity::Source{source.text("name"),
+                                    parse_hex(source.text("xxh3"), file, "xxh3")};
+    };
+    for (const nlohmann::json& entry : *poses) identity.poses.push_back(source_of(entry));
+    const auto scenery = metadata.root().find("static");
+    if (scenery == metadata.root().end()) return identity;
+    if (!scenery->is_array() || scenery->empty()) {
+        throw_bad_input("{}: 'static': expected a list of at least one file", file);
     }
+    for (const nlohmann::json& entry : *scenery) identity.scenery.push_back(source_of(entry));
     return identity;
 }
 
@@ -119,28 +147,28 @@ std::string first_difference(const BakeIdentity& there, const BakeIdentity& want
     const auto differ = [](const char* what, const auto& a, const auto& b) {
         return a == b ? std::string() : fmt::format("{}: {} there, {} asked for", what, a, b);
     };
+    const auto or_none = [](const std::string& text) { return text.empty() ? "none" : text; };
     for (const std::string& difference :
          {differ("baker", there.baker, wanted.baker),
+          differ("bounces", there.bounces, wanted.bounces),
           differ("bands", there.layout.bands, wanted.layout.bands),
           differ("channels", there.layout.channels, wanted.layout.channels),
           differ("sampler", there.sampler, wanted.sampler),
           differ("streams", there.streams, wanted.streams), differ("rays", there.rays, wanted.rays),
           differ("transfer error", there.transfer_error, wanted.transfer_error),
           differ("seed", there.seed, wanted.seed), differ("normals", there.normals, wanted.normals),
+          differ("floor", or_none(there.floor), or_none(wanted.floor)),
           differ("vertices", there.num_vertices, wanted.num_vertices),
           differ("triangles", there.num_triangles, wanted.num_triangles),
           differ("poses", there.num_poses(), wanted.num_poses()),
           differ("origin", shown(there.origin), shown(wanted.origin)),
+          differ("static files", there.scenery.size(), wanted.scenery.size()),
           differ("checksum of faces and albedo", hex(there.mesh_xxh3), hex(wanted.mesh_xxh3))}) {
         if (!difference.empty()) return difference;
     }
-    for (uint32_t p = 0; p < wanted.num_poses(); ++p) {
-        if (there.poses[p] == wanted.poses[p]) continue;
-        return fmt::format("pose {}: {} ({}) there, {} ({}) asked for", p, there.poses[p].name,
-                           hex(there.poses[p].xxh3), wanted.poses[p].name,
-                           hex(wanted.poses[p].xxh3));
-    }
-    return {};
+    const std::string difference = first_difference("pose", there.poses, wanted.poses);
+    if (!difference.empty()) return difference;
+    return first_difference("static file", there.scenery, wanted.scenery);
 }
 
 uint64_t identity_checksum(const BakeIdentity& identity) {

@@ -45,6 +45,9 @@ PoseStatistics read_statistics_of(const ContainerReader& reader, uint64_t identi
         metadata.integer("zero_normals", 0, std::numeric_limits<int32_t>::max());
     statistics.above_target =
         metadata.integer("above_target", 0, std::numeric_limits<int32_t>::max());
+    if (metadata.root().contains("back_hits")) {
+        statistics.back_hits = static_cast<uint64_t>(metadata.number("back_hits", 0.0, kMaxExact));
+    }
     statistics.transfer_rms = metadata.numbers("transfer_rms", bands, 0.0, kMax);
     statistics.noise_rms = metadata.numbers("noise_rms", bands, 0.0, kMax);
     statistics.mesh.zero_area_faces = metadata.count("zero_area_faces");
@@ -86,6 +89,9 @@ BakeReader::BakeReader(std::filesystem::path directory) : directory_(std::move(d
     if (mesh_checksum(topology_, albedo_) != identity_.mesh_xxh3) {
         throw_bad_input("{}: not the mesh that the manifest names", mesh.path());
     }
+    if (!identity_.scenery.empty()) {
+        scenery_ = read_bake_scenery(directory_, identity_checksum_, identity_.layout);
+    }
     uint32_t num_missing = 0;
     uint32_t first_missing = 0;
     for (uint32_t p = num_poses(); p-- > 0;) {
@@ -107,10 +113,7 @@ BakeReader::BakeReader(std::filesystem::path directory) : directory_(std::move(d
 BakedPose BakeReader::read_pose(uint32_t p) const {
     const ContainerReader reader(bake_pose_file(directory_, p), section::kKindPose);
     const auto read = [&](Tag tag, uint32_t num_planes, ScalarType type = ScalarType::f32) {
-        std::vector<float> values =
-            reader.read_f32(require_planes(reader, tag, num_planes, identity_.num_vertices, type));
-        check_finite(reader, tag, values);
-        return values;
+        return read_planes(reader, tag, num_planes, identity_.num_vertices, type);
     };
     BakedPose pose;
     pose.statistics = read_statistics_of(reader, identity_checksum_, p, identity_.layout.bands);
@@ -125,6 +128,24 @@ PoseStatistics read_bake_statistics(const std::filesystem::path& directory,
                                     uint64_t identity_checksum, uint32_t p, uint32_t bands) {
     const ContainerReader reader(bake_pose_file(directory, p), section::kKindPose);
     return read_statistics_of(reader, identity_checksum, p, bands);
+}
+
+BakedScenery read_bake_scenery(const std::filesystem::path& directory, uint64_t identity_checksum,
+                               const TransferLayout& layout) {
+    const ContainerReader reader(bake_scenery_file(directory), section::kKindMesh);
+    BakedScenery scenery;
+    scenery.pose.statistics =
+        read_statistics_of(reader, identity_checksum, kSceneryPose, layout.bands);
+    const uint32_t num_vertices = count_vertices(reader, section::kPositions);
+    scenery.pose.positions = read_planes(reader, section::kPositions, 3, num_vertices);
+    scenery.pose.normals = read_planes(reader, section::kNormals, 3, num_vertices);
+    scenery.pose.transfer =
+        read_planes(reader, section::kTransfer, layout.num_planes(), num_vertices);
+    scenery.pose.noise =
+        read_planes(reader, section::kNoise, layout.num_planes(), num_vertices, ScalarType::f16);
+    scenery.topology = read_triangles(reader, num_vertices);
+    scenery.albedo = read_albedo(reader, num_vertices);
+    return scenery;
 }
 
 PoseStatistics BakeReader::total_statistics() const {

@@ -26,6 +26,7 @@ std::string pose_metadata(uint64_t bake, uint32_t p, const PoseStatistics& stati
     json["blocked"] = statistics.blocked;
     json["zero_normals"] = statistics.zero_normals;
     json["above_target"] = statistics.above_target;
+    if (statistics.back_hits > 0) json["back_hits"] = statistics.back_hits;
     json["transfer_rms"] = statistics.transfer_rms;
     json["noise_rms"] = statistics.noise_rms;
     json["zero_area_faces"] = statistics.mesh.zero_area_faces;
@@ -41,6 +42,29 @@ bool holds_only_a_beginning(const std::filesystem::path& directory) {
         if (name != "mesh.bin" && name != "manifest.json" && !is_temporary_name(name)) return false;
     }
     return true;
+}
+
+std::vector<SectionSpec> pose_specs(const std::string& metadata, uint32_t num_vertices,
+                                    uint32_t num_planes) {
+    const auto planes = [&](Tag tag, uint32_t count) {
+        return SectionSpec{tag, ScalarType::f32, 0, {1, count, num_vertices}};
+    };
+    return {{section::kMetadata, ScalarType::u8, 0, {1, 1, static_cast<uint32_t>(metadata.size())}},
+            planes(section::kPositions, 3),
+            planes(section::kNormals, 3),
+            planes(section::kTransfer, num_planes),
+            {section::kNoise, ScalarType::f16, 0, {1, num_planes, num_vertices}}};
+}
+
+// Fills the sections of pose_specs(), which come first.
+void append_pose(ContainerWriter& writer, const std::string& metadata, const BakedPose& pose) {
+    writer.append(0, metadata.data(), metadata.size());
+    writer.append(1, std::span(pose.positions));
+    writer.append(2, std::span(pose.normals));
+    writer.append(3, std::span(pose.transfer));
+    std::vector<uint16_t> noise(pose.noise.size());
+    std::transform(pose.noise.begin(), pose.noise.end(), noise.begin(), to_half);
+    writer.append(4, std::span<const uint16_t>(noise));
 }
 
 void write_mesh(const std::filesystem::path& path, const Topology& topology, const Albedo& albedo) {
@@ -60,6 +84,10 @@ uint64_t mesh_checksum(const Topology& topology, const Albedo& albedo) {
     return hash.digest();
 }
 
+std::filesystem::path bake_scenery_file(const std::filesystem::path& directory) {
+    return directory / "scenery.bin";
+}
+
 std::filesystem::path bake_pose_file(const std::filesystem::path& directory, uint32_t p) {
     return directory / fmt::format("pose_{:06}.bin", p);
 }
@@ -68,6 +96,7 @@ BakeWriter::BakeWriter(std::filesystem::path directory, const BakeIdentity& iden
                        const Topology& topology, const Albedo& albedo)
     : directory_(std::move(directory)), identity_(identity) {
     for (auto& source : identity_.poses) source.name = as_manifest_text(source.name);
+    for (auto& source : identity_.scenery) source.name = as_manifest_text(source.name);
     identity_checksum_ = identity_checksum(identity_);
     const std::filesystem::path manifest = directory_ / "manifest.json";
     if (std::filesystem::exists(manifest)) {
@@ -98,29 +127,40 @@ bool BakeWriter::has_pose(uint32_t p) const {
     }
 }
 
+bool BakeWriter::has_scenery() const {
+    if (!std::filesystem::exists(bake_scenery_file(directory_))) return false;
+    try {
+        read_bake_scenery(directory_, identity_checksum_, identity_.layout);
+        return true;
+    } catch (const Error&) {
+        return false;
+    }
+}
+
 void BakeWriter::write_pose(uint32_t p, const BakedPose& pose) const {
-    const uint32_t num_vertices = identity_.num_vertices;
     const uint32_t num_planes = identity_.layout.num_planes();
-    PAIM_CHECK_EQ(pose.transfer.size(), size_t{num_planes} * num_vertices);
+    PAIM_CHECK_EQ(pose.transfer.size(), size_t{num_planes} * identity_.num_vertices);
     PAIM_CHECK_EQ(pose.noise.size(), pose.transfer.size());
     const std::string metadata = pose_metadata(identity_checksum_, p, pose.statistics);
-    const auto planes = [&](Tag tag, uint32_t count) {
-        return SectionSpec{tag, ScalarType::f32, 0, {1, count, num_vertices}};
-    };
-    ContainerWriter writer(
-        bake_pose_file(directory_, p), section::kKindPose,
-        {{section::kMetadata, ScalarType::u8, 0, {1, 1, static_cast<uint32_t>(metadata.size())}},
-         planes(section::kPositions, 3),
-         planes(section::kNormals, 3),
-         planes(section::kTransfer, num_planes),
-         {section::kNoise, ScalarType::f16, 0, {1, num_planes, num_vertices}}});
-    writer.append(0, metadata.data(), metadata.size());
-    writer.append(1, std::span(pose.positions));
-    writer.append(2, std::span(pose.normals));
-    writer.append(3, std::span(pose.transfer));
-    std::vector<uint16_t> noise(pose.noise.size());
-    std::transform(pose.noise.begin(), pose.noise.end(), noise.begin(), to_half);
-    writer.append(4, std::span<const uint16_t>(noise));
+    ContainerWriter writer(bake_pose_file(directory_, p), section::kKindPose,
+                           pose_specs(metadata, identity_.num_vertices, num_planes));
+    append_pose(writer, metadata, pose);
+    writer.commit();
+}
+
+void BakeWriter::write_scenery(const BakedScenery& scenery) const {
+    const uint32_t num_vertices = scenery.topology.num_vertices;
+    const uint32_t num_planes = identity_.layout.num_planes();
+    PAIM_CHECK_EQ(scenery.pose.transfer.size(), size_t{num_planes} * num_vertices);
+    PAIM_CHECK_EQ(scenery.pose.noise.size(), scenery.pose.transfer.size());
+    const std::string metadata =
+        pose_metadata(identity_checksum_, kSceneryPose, scenery.pose.statistics);
+    std::vector<SectionSpec> specs = pose_specs(metadata, num_vertices, num_planes);
+    specs.push_back(triangles_spec(scenery.topology));
+    specs.push_back(albedo_spec(scenery.albedo));
+    ContainerWriter writer(bake_scenery_file(directory_), section::kKindMesh, std::move(specs));
+    append_pose(writer, metadata, scenery.pose);
+    append_mesh(writer, 5, 6, scenery.topology, scenery.albedo);
     writer.commit();
 }
 

@@ -4,22 +4,19 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "paim/base/error.h"
 #include "paim/format/paim_sections.h"
 
 namespace paim {
 
-SectionSpec triangles_spec(const Topology& topology) {
-    return {section::kTriangles,
-            ScalarType::u32,
-            0,
-            {1, static_cast<uint32_t>(topology.triangles.size()), 3}};
+SectionSpec triangles_spec(const Topology& topology, Tag tag) {
+    return {tag, ScalarType::u32, 0, {1, static_cast<uint32_t>(topology.triangles.size()), 3}};
 }
 
-SectionSpec albedo_spec(const Albedo& albedo) {
-    return {
-        section::kAlbedo, ScalarType::f32, 0, {1, static_cast<uint32_t>(albedo.values.size()), 3}};
+SectionSpec albedo_spec(const Albedo& albedo, Tag tag) {
+    return {tag, ScalarType::f32, 0, {1, static_cast<uint32_t>(albedo.values.size()), 3}};
 }
 
 void append_mesh(ContainerWriter& writer, size_t triangles_section, size_t albedo_section,
@@ -29,8 +26,8 @@ void append_mesh(ContainerWriter& writer, size_t triangles_section, size_t albed
     writer.append(albedo_section, albedo.values.data(), albedo.values.size() * sizeof(Vec3f));
 }
 
-Topology read_triangles(const ContainerReader& reader, uint32_t num_vertices) {
-    const Section& section = reader.require(section::kTriangles, ScalarType::u32);
+Topology read_triangles(const ContainerReader& reader, uint32_t num_vertices, Tag tag) {
+    const Section& section = reader.require(tag, ScalarType::u32);
     if (section.spec.shape[0] != 1 || section.spec.shape[2] != 3) {
         throw_bad_input("{}: triangles: expected 3 indices each, got {}", reader.path(),
                         section.spec.shape[2]);
@@ -49,21 +46,44 @@ Topology read_triangles(const ContainerReader& reader, uint32_t num_vertices) {
     return topology;
 }
 
-Albedo read_albedo(const ContainerReader& reader, uint32_t num_vertices) {
-    const Section& section = reader.require(section::kAlbedo, ScalarType::f32);
+Albedo read_albedo(const ContainerReader& reader, uint32_t num_vertices, Tag tag) {
+    const Section& section = reader.require(tag, ScalarType::f32);
     const auto& shape = section.spec.shape;
     if (shape[0] != 1 || (shape[1] != 1 && shape[1] != num_vertices) || shape[2] != 3) {
         throw_bad_input("{}: albedo: {} x {} x {} values, expected 1 or {} colours", reader.path(),
                         shape[0], shape[1], shape[2], num_vertices);
     }
     const std::vector<float> values = reader.read_f32(section);
-    check_finite(reader, section::kAlbedo, values);
+    check_finite(reader, tag, values);
     Albedo albedo;
     albedo.values.resize(shape[1]);
     for (size_t i = 0; i < albedo.values.size(); ++i) {
         albedo.values[i] = Vec3f(values[3 * i], values[3 * i + 1], values[3 * i + 2]);
     }
     return albedo;
+}
+
+std::vector<float> read_planes(const ContainerReader& reader, Tag tag, uint32_t num_planes,
+                               uint32_t num_vertices, ScalarType type) {
+    const Section& section = reader.require(tag, type);
+    const auto& shape = section.spec.shape;
+    if (shape[0] != 1 || shape[1] != num_planes || shape[2] != num_vertices) {
+        throw_bad_input("{}: section {}: {} x {} x {} values, expected {} x {}", reader.path(),
+                        tag.str(), shape[0], shape[1], shape[2], num_planes, num_vertices);
+    }
+    std::vector<float> values = reader.read_f32(section);
+    check_finite(reader, tag, values);
+    return values;
+}
+
+uint32_t count_vertices(const ContainerReader& reader, Tag tag) {
+    const uint32_t count = reader.require(tag, ScalarType::f32).spec.shape[2];
+    constexpr uint32_t kMost = std::numeric_limits<int32_t>::max();
+    if (count < 1 || count > kMost) {
+        throw_bad_input("{}: section {}: {} vertices, expected 1 to {}", reader.path(), tag.str(),
+                        count, kMost);
+    }
+    return count;
 }
 
 void check_finite(const ContainerReader& reader, Tag tag, std::span<const float> values,

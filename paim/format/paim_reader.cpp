@@ -10,6 +10,7 @@
 #include "paim/format/metadata.h"
 #include "paim/format/paim_file.h"
 #include "paim/format/paim_sections.h"
+#include "paim/format/scenery_sections.h"
 
 namespace paim {
 
@@ -124,6 +125,7 @@ Model read_paim(const std::filesystem::path& path) {
     model.transfer = start("transfer_components", model.layout.num_planes());
     read_matrix(reader, Part::geometry, model.geometry);
     read_matrix(reader, Part::transfer, model.transfer);
+    model.scenery = read_scenery(reader, model.layout);
     return model;
 }
 

@@ -19,7 +19,13 @@ constexpr Tag kComponent[2] = {Tag("GCMP"), Tag("TCMP")};  // f32 or f16 [planes
 constexpr Tag kWeights[2] = {Tag("GWGT"), Tag("TWGT")};    // f32 [K][P]
 constexpr Tag kSpectrum[2] = {Tag("GSPC"), Tag("TSPC")};   // f64 [n]
 
-// .bake poses.
+// .paim: scenery, all four or none.
+constexpr Tag kSceneryTriangles("STRI");  // u32 [F][3]
+constexpr Tag kSceneryPositions("SPOS");  // f32 [3][S]
+constexpr Tag kSceneryAlbedo("SALB");     // f32 [1 or S][3]
+constexpr Tag kSceneryTransfer("STRN");   // f32 [planes][S]
+
+// .bake poses and scenery.
 constexpr Tag kPositions("POSN");  // f32 [3][V]
 constexpr Tag kNormals("NRML");    // f32 [3][V]
 constexpr Tag kTransfer("TRNF");   // f32 [planes][V]

@@ -9,6 +9,7 @@
 #include "paim/format/mesh_sections.h"
 #include "paim/format/paim_file.h"
 #include "paim/format/paim_sections.h"
+#include "paim/format/scenery_sections.h"
 
 namespace paim {
 
@@ -71,6 +72,7 @@ std::vector<ComponentId> component_order(const Model& model) {
 struct PaimWriter::Index {
     std::string metadata;
     std::vector<SectionSpec> specs;
+    size_t scenery;  // the first of its sections
     size_t spectrum[2], weights[2], mean[2];
     std::vector<size_t> component[2];
 
@@ -81,6 +83,8 @@ struct PaimWriter::Index {
                          {1, 1, static_cast<uint32_t>(metadata.size())}});
         specs.push_back(triangles_spec(model.topology));
         specs.push_back(albedo_spec(model.albedo));
+        scenery = specs.size();
+        for (const SectionSpec& spec : scenery_specs(model.scenery, model.layout)) add(spec);
         for (const Part part : kParts) {
             const auto i = static_cast<size_t>(part);
             const LowRankMatrix& matrix = part_of(model, part);
@@ -136,6 +140,7 @@ PaimWriter::PaimWriter(const std::filesystem::path& path, const Model& model, In
       writer_(path, section::kKindAnimation, std::move(index.specs)) {
     writer_.append(0, index.metadata.data(), index.metadata.size());
     append_mesh(writer_, 1, 2, model.topology, model.albedo);
+    append_scenery(writer_, index.scenery, model.scenery);
     for (const Part part : kParts) {
         const auto i = static_cast<size_t>(part);
         const LowRankMatrix& matrix = part_of(model, part);

@@ -63,6 +63,7 @@ PoseStatistics combine(std::span<const PoseStatistics> poses) {
     for (const PoseStatistics& pose : poses) {
         total.rays += pose.rays;
         total.blocked += pose.blocked;
+        total.back_hits += pose.back_hits;
         total.zero_normals += pose.zero_normals;
         total.above_target += pose.above_target;
         total.mesh.zero_area_faces += pose.mesh.zero_area_faces;

@@ -20,6 +20,8 @@ struct PoseStatistics {
     std::vector<double> transfer_rms;
     std::vector<double> noise_rms;  // estimated standard error of the transfer, from its halves
     PoseReport mesh{};              // 0 in bakes from before it was counted
+    // Rays whose light would have bounced off the back of a face: it did not.
+    uint64_t back_hits = 0;
 
     // Noise as a fraction of the transfer over all coefficients; 0 where there is none of either.
     double relative_noise() const;

@@ -16,6 +16,15 @@ struct Topology {
     std::vector<Triangle> triangles;  // [F], indices < num_vertices, counter-clockwise from outside
 
     bool operator==(const Topology&) const = default;
+
+    // The other's vertices and triangles follow one's own. The sum of both vertex counts fits into 32 bits.
+    void append(const Topology& other) {
+        triangles.reserve(triangles.size() + other.triangles.size());
+        for (const Triangle& t : other.triangles) {
+            triangles.push_back({t[0] + num_vertices, t[1] + num_vertices, t[2] + num_vertices});
+        }
+        num_vertices += other.num_vertices;
+    }
 };
 
 // Diffuse reflectance, linear, 0..1 per channel: one value for the whole mesh or one per vertex.
@@ -23,6 +32,14 @@ struct Albedo {
     std::vector<Vec3f> values{Vec3f::Constant(0.8f)};  // [1] or [V]
 
     const Vec3f& at(uint32_t v) const { return values.size() == 1 ? values[0] : values[v]; }
+
+    // The albedo of `num_own` vertices of this and `num_other` of the other after them: still one value if
+    // both have the same one.
+    void append(const Albedo& other, uint32_t num_own, uint32_t num_other) {
+        if (values.size() == 1 && other.values.size() == 1 && values[0] == other.values[0]) return;
+        if (values.size() == 1) values.assign(num_own, Vec3f(values[0]));
+        for (uint32_t v = 0; v < num_other; ++v) values.push_back(other.at(v));
+    }
 };
 
 }  // namespace paim

@@ -27,6 +27,9 @@ class Context {
     void intersect(RTCScene scene, RTCRayHit& ray) {
         rtcIntersect1(scene, &ray, &intersect_);
     }
+    void intersect(const int* valid, RTCScene scene, RTCRayHit16& rays) {
+        rtcIntersect16(valid, scene, &rays, &intersect_);
+    }
 
   private:
     RTCOccludedArguments occluded_;
@@ -43,6 +46,9 @@ class Context {
     }
     void intersect(RTCScene scene, RTCRayHit& ray) {
         rtcIntersect1(scene, &context_, &ray);
+    }
+    void intersect(const int* valid, RTCScene scene, RTCRayHit16& rays) {
+        rtcIntersect16(valid, scene, &context_, &rays);
     }
 
   private:

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -10,6 +11,9 @@
 #include "paim/mesh/topology.h"
 
 namespace paim {
+
+// In a hit: nothing.
+constexpr uint32_t kNoTriangle = std::numeric_limits<uint32_t>::max();
 
 struct Hit {
     float distance;     // along the (unit) direction, scene units
@@ -24,6 +28,10 @@ class Scene {
   public:
     // positions [V] finite. Throws Error(unsupported) if Embree cannot be started, or what it reports.
     Scene(const Topology& topology, std::span<const Vec3f> positions);
+
+    // The same with a second mesh. Its triangles are counted on from the first one's.
+    Scene(const Topology& topology, std::span<const Vec3f> positions, const Topology& scenery,
+          std::span<const Vec3f> scenery_positions);
     ~Scene();
     Scene(const Scene&) = delete;
     Scene& operator=(const Scene&) = delete;
@@ -35,6 +43,11 @@ class Scene {
     // returns  how many are blocked
     uint32_t blocked(const Vec3f& origin, const float* x, const float* y, const float* z,
                      uint32_t count, float* blocked) const;
+
+    // The nearest hit in each of these directions; its triangle is kNoTriangle where there is none.
+    // hits  [count]
+    void first_hits(const Vec3f& origin, const float* x, const float* y, const float* z,
+                    uint32_t count, Hit* hits) const;
 
     // The nearest hit at distance > 0, if any.
     std::optional<Hit> first_hit(const Vec3f& origin, const Vec3f& direction) const;

@@ -6,9 +6,37 @@
 
 namespace paim::player {
 
+namespace {
+
+// The scenery as means without components.
+Model scenery_model(const Model& model) {
+    const Scenery& scenery = model.scenery;
+    Model still;
+    still.topology = scenery.topology;
+    still.albedo = scenery.albedo;
+    still.layout = model.layout;
+    const auto matrix = [&](uint32_t num_planes, const std::vector<float>& mean) {
+        LowRankMatrix part;
+        part.num_vertices = scenery.topology.num_vertices;
+        part.num_planes = num_planes;
+        part.num_poses = model.num_poses();
+        part.mean = mean;
+        return part;
+    };
+    still.geometry = matrix(3, scenery.positions);
+    still.transfer = matrix(model.layout.num_planes(), scenery.transfer);
+    return still;
+}
+
+}  // namespace
+
 SceneRenderer::SceneRenderer(const Model& model, const Image& environment,
                              const DecodeLimits& limits)
     : model_renderer_(model, limits) {
+    if (!model.scenery.empty()) {
+        scenery_ = scenery_model(model);
+        scenery_renderer_.emplace(scenery_, limits);
+    }
     set_environment(environment);
 }
 
@@ -29,6 +57,7 @@ void SceneRenderer::draw(const Frame& frame, const gl::Target& target) {
     target.bind();
     background_renderer_.clear(frame);
     model_renderer_.draw(frame, turned_light_, aspect);
+    if (scenery_renderer_) scenery_renderer_->draw(frame, turned_light_, aspect);
     background_renderer_.draw(frame, aspect);
 }
 

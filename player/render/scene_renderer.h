@@ -1,5 +1,7 @@
-// A model under a light before its background: all that one frame needs.
+// A model and its scenery under a light before their background: all that one frame needs.
 #pragma once
+
+#include <optional>
 
 #include "paim/codec/model.h"
 #include "paim/image/image.h"
@@ -32,6 +34,8 @@ class SceneRenderer {
 
   private:
     ModelRenderer model_renderer_;
+    Model scenery_;  // as an animation that does not move, if the model has any
+    std::optional<ModelRenderer> scenery_renderer_;
     BackgroundRenderer background_renderer_;
     LightCoefficients light_;         // not turned
     LightCoefficients turned_light_;  // by turned_rad_

@@ -30,6 +30,34 @@ TEST(Golden, WritesTheNewestFileByteForByte) {
     EXPECT_EQ(read_file(directory / "x.paim", 1 << 20), read_file(kNewest, 1 << 20));
 }
 
+// Scenery came later, as sections that earlier readers pass over.
+const std::filesystem::path kScenery =
+    std::filesystem::path(PAIM_GOLDEN_DIR) / "example_v1_scenery.paim";
+
+Model golden_model_with_scenery() {
+    Model model = golden_model();
+    model.scenery = make_example_scenery(model.layout);
+    return model;
+}
+
+TEST(Golden, WritesSceneryByteForByte) {
+    if (std::getenv("PAIM_UPDATE_GOLDEN") != nullptr) {
+        write_paim(kScenery, golden_model_with_scenery());
+    }
+    const TemporaryDirectory directory;
+    write_paim(directory / "x.paim", golden_model_with_scenery());
+    EXPECT_EQ(read_file(directory / "x.paim", 1 << 20), read_file(kScenery, 1 << 20));
+}
+
+TEST(Golden, ReadsScenery) {
+    const Scenery scenery = read_paim(kScenery).scenery;
+    const Scenery expected = golden_model_with_scenery().scenery;
+    EXPECT_EQ(scenery.topology, expected.topology);
+    EXPECT_EQ(scenery.albedo.values, expected.albedo.values);
+    EXPECT_EQ(scenery.positions, expected.positions);
+    EXPECT_EQ(scenery.transfer, expected.transfer);
+}
+
 TEST(Golden, ReadsVersionOne) {
     const Model model = read_paim(std::filesystem::path(PAIM_GOLDEN_DIR) / "example_v1.paim");
     const Model expected = golden_model();

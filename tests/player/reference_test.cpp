@@ -17,6 +17,7 @@
 #include "paim/render/render.h"
 #include "paim/shade/shade.h"
 #include "poses/octopus.h"
+#include "poses/shapes.h"
 #include "tests/cli/run_tool.h"
 #include "tests/temporary_directory.h"
 
@@ -44,7 +45,10 @@ class Reference : public testing::Test {
     Reference() {
         const PoseSet octopus = poses::make_octopus(4000, 6);
         const BakeOptions options{5, 64, 1};
-        bake_sequence(octopus, options, "faces", directory_ / "x.bake", 0, 5, [](uint32_t) {});
+        Surroundings surroundings;
+        surroundings.scenery.add(poses::make_pose_set(*poses::make_box_sequence(200), 1));
+        bake_sequence(
+            octopus, options, "faces", directory_ / "x.bake", 0, 5, [](uint32_t) {}, surroundings);
         encode(BakeReader(directory_ / "x.bake"), {}, directory_ / "x.paim");
         model_ = read_paim(directory_ / "x.paim");
     }
@@ -56,10 +60,18 @@ class Reference : public testing::Test {
         std::vector<std::vector<Vec3f>> radiance(1);
         shade(pose.layout, pose.transfer, model_.albedo,
               turn_about_y(light.coefficients(Vec3f::Zero(), 5), turn_rad), radiance[0]);
+        std::vector<Vec3f> beside;
+        shade(model_.layout, model_.scenery.transfer, model_.scenery.albedo,
+              turn_about_y(light.coefficients(Vec3f::Zero(), 5), turn_rad), beside);
+        radiance[0].insert(radiance[0].end(), beside.begin(), beside.end());
+        std::vector<Vec3f> positions = from_planes(pose.positions);
+        const std::vector<Vec3f> stands = from_planes(model_.scenery.positions);
+        positions.insert(positions.end(), stands.begin(), stands.end());
+        Topology topology = model_.topology;
+        topology.append(model_.scenery.topology);
         const Camera camera =
             frame_bounds(sequence_bounds(model_), static_cast<float>(kWidth) / kHeight);
-        return render_images(model_.topology, from_planes(pose.positions), radiance, camera, kWidth,
-                             kHeight)[0];
+        return render_images(topology, positions, radiance, camera, kWidth, kHeight)[0];
     }
 
     Image snapshot(double time, const std::vector<std::string>& light_arguments) const {

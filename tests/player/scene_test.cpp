@@ -9,6 +9,7 @@
 #include "paim/codec/svd_decoder.h"
 #include "paim/light/environment.h"
 #include "paim/mesh/planes.h"
+#include "paim/shade/shade.h"
 #include "player/gl/check.h"
 #include "player/gl/headless_context.h"
 #include "player/render/fit_image.h"
@@ -117,6 +118,50 @@ TEST_P(SceneTest, LightTurnsWithTheBackground) {
         // The turn is to be seen.
         EXPECT_GT(compare(previous, image).fraction_off, 0.1) << rotation_rad;
         previous = image;
+    }
+}
+
+// Model and scenery as one mesh, decoded, shaded and ray-cast on the CPU.
+TEST_P(SceneTest, SceneryStandsBesideTheModel) {
+    for (const uint32_t channels : {1u, 3u}) {
+        TestModelOptions options;
+        options.channels = channels;
+        Model model = make_test_model(options);
+        // A still sphere of another colour that overlaps the model: each hides a part of the other.
+        options.geometry_components = options.transfer_components = 0;
+        options.albedo_per_vertex = true;
+        const Model still = make_test_model(options);
+        model.scenery = {still.topology, still.albedo, still.geometry.mean, still.transfer.mean};
+        for (size_t v = 0; v < still.topology.num_vertices; ++v) model.scenery.positions[v] += 1.2f;
+
+        const EnvironmentLight environment(make_environment());
+        SceneRenderer renderer(model, environment.image(), {});
+        Frame frame;
+        frame.time = 1.5;
+        frame.limits.bands = 4;  // fewer than there are, for both
+        frame.background.kind = Background::Kind::color;
+        frame.bounds = pose_bounds(model, frame.time, frame.limits.geometry_components);
+        frame.camera = frame_bounds(frame.bounds, kAspect);
+        const Image drawn = renderer.render(frame, kWidth, kHeight, 1);
+
+        const LightCoefficients light = environment.coefficients(Vec3f::Zero(), 4);
+        DecodedPose pose;
+        SvdDecoder(model).decode(frame.time, frame.limits, pose);
+        std::vector<Vec3f> positions = from_planes(pose.positions);
+        std::vector<Vec3f> radiance = vertex_radiance(model, frame.time, frame.limits, light);
+        std::vector<Vec3f> beside;
+        shade(model.layout, model.scenery.transfer, model.scenery.albedo, light, beside);
+        const std::vector<Vec3f> stands = from_planes(model.scenery.positions);
+        positions.insert(positions.end(), stands.begin(), stands.end());
+        radiance.insert(radiance.end(), beside.begin(), beside.end());
+        Topology topology = model.topology;
+        topology.append(model.scenery.topology);
+        const Image expected = ray_cast(topology, positions, radiance, frame.camera, kWidth,
+                                        kHeight, frame.background.color);
+        const Difference difference = compare(expected, drawn);
+        // Pixels at silhouettes, and where the spheres meet, may fall to either side.
+        EXPECT_LT(difference.mean_relative, 2e-3) << channels;
+        EXPECT_LT(difference.fraction_off, 5e-3) << channels;
     }
 }
 

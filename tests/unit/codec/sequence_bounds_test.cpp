@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include <algorithm>
 
 namespace paim {
@@ -53,6 +55,25 @@ TEST(SequenceBounds, HoldEveryPose) {
     const Bounds single = sequence_bounds(moving_points(1));
     EXPECT_EQ(single.lower, Vec3f(0, 0, 0));
     EXPECT_EQ(single.upper, Vec3f(1, 2, 3));
+}
+
+TEST(SequenceBounds, HoldSceneryNearBy) {
+    Model model = moving_points(1);  // from the origin to (1, 2, 3), diagonal √14
+    const auto scenery = [&](float x) {
+        model.scenery.topology.num_vertices = 1;
+        model.scenery.positions = {x, 1, 1};
+    };
+    const float reach = std::sqrt(14.0f);
+    scenery(-2);
+    EXPECT_EQ(sequence_bounds(model).lower, Vec3f(-2, 0, 0));
+    EXPECT_EQ(sequence_bounds(model).upper, Vec3f(1, 2, 3));
+    EXPECT_EQ(pose_bounds(model, 0.0, 2).lower, Vec3f(-2, 0, 0));
+    scenery(1e30f);  // framed as far as one diagonal, seen as far as 500
+    EXPECT_FLOAT_EQ(sequence_bounds(model).upper.x(), 1 + reach);
+    EXPECT_FLOAT_EQ(pose_bounds(model, 0.0, 2).upper.x(), 1 + 500 * reach);
+    scenery(400);
+    EXPECT_EQ(pose_bounds(model, 0.0, 2).upper, Vec3f(400, 2, 3));
+    EXPECT_EQ(framed_bounds(Bounds(), model.scenery.positions).upper, Vec3f(400, 1, 1));
 }
 
 TEST(SequenceBounds, OfNothingAreEmpty) {

@@ -47,7 +47,7 @@ BakedPose make_pose(uint32_t p) {
     BakedPose pose{fill(12), fill(12), fill(16), fill(16), {}};
     // Noise is stored in half precision.
     for (float& value : pose.noise) value = std::round(value * 1024.0f) / 1024.0f;
-    pose.statistics = {256, 17 + p, 1, 2, {0.25, 0.5}, {0.125 / (p + 1), 0.0}, {5 + p, 6 + p}};
+    pose.statistics = {256, 17 + p, 1, 2, {0.25, 0.5}, {0.125 / (p + 1), 0.0}, {5 + p, 6 + p}, 3};
     return pose;
 }
 
@@ -104,6 +104,7 @@ TEST_F(BakeDirectory, RoundTrips) {
             EXPECT_EQ(statistics.rays, expected.statistics.rays);
             EXPECT_EQ(statistics.blocked, expected.statistics.blocked);
             EXPECT_EQ(statistics.zero_normals, expected.statistics.zero_normals);
+            EXPECT_EQ(statistics.back_hits, 3u);
             EXPECT_EQ(statistics.above_target, expected.statistics.above_target);
             EXPECT_EQ(statistics.transfer_rms, expected.statistics.transfer_rms);
             EXPECT_EQ(statistics.noise_rms, expected.statistics.noise_rms);
@@ -183,6 +184,9 @@ TEST_F(BakeDirectory, RefusesOtherIdentitiesByName) {
     expect_contains(refusal([](auto& i) { ++i.seed; }), "(seed: ");
     expect_contains(refusal([](auto& i) { i.normals = "file"; }),
                     "(normals: faces there, file asked for)");
+    expect_contains(refusal([](auto& i) { i.bounces = 3; }), "(bounces: 0 there, 3 asked for)");
+    expect_contains(refusal([](auto& i) { i.floor = "wood"; }),
+                    "(floor: none there, wood asked for)");
     expect_contains(refusal([](auto& i) { ++i.num_vertices; }), "(vertices: 4 there, 5 asked for)");
     expect_contains(refusal([](auto& i) { ++i.num_triangles; }),
                     "(triangles: 4 there, 5 asked for)");
@@ -192,6 +196,67 @@ TEST_F(BakeDirectory, RefusesOtherIdentitiesByName) {
     expect_contains(refusal([](auto& i) { i.poses[2].xxh3 = 4; }),
                     "(0000000000000003) there, c \"ü\".obj (0000000000000004) asked for)");
     EXPECT_EQ(reading_complaint(), "nothing");  // it is as it was
+}
+
+TEST_F(BakeDirectory, ManifestKeepsFloorAndBounces) {
+    BakeIdentity identity = make_identity();
+    const std::string without = manifest_text(identity);
+    identity.floor = "100 vertices at y = -1";
+    identity.bounces = 2;
+    writer(identity);
+    EXPECT_EQ(read_manifest(bake_ / "manifest.json"), identity);
+    // A bake without them has the manifest, and so the checksum, that it had before there were any.
+    EXPECT_EQ(without.find("floor"), std::string::npos);
+    EXPECT_EQ(without.find("bounces"), std::string::npos);
+}
+
+TEST_F(BakeDirectory, KeepsSceneryAndRefusesOthersByName) {
+    BakeIdentity identity = make_identity();
+    identity.scenery = {{"wall.obj", 5}, {"tree.obj", 6}};
+    BakedScenery scenery{kTetrahedron, kAlbedo, make_pose(7)};
+    {
+        const BakeWriter all = writer(identity);
+        EXPECT_FALSE(all.has_scenery());
+        all.write_scenery(scenery);
+        EXPECT_TRUE(all.has_scenery());
+        for (uint32_t p = 0; p < 3; ++p) all.write_pose(p, make_pose(p));
+    }
+    const BakeReader reader(bake_);
+    EXPECT_EQ(reader.identity(), identity);
+    ASSERT_TRUE(reader.scenery());
+    EXPECT_EQ(reader.scenery()->topology, scenery.topology);
+    EXPECT_EQ(reader.scenery()->albedo.values, scenery.albedo.values);
+    EXPECT_EQ(reader.scenery()->pose.positions, scenery.pose.positions);
+    EXPECT_EQ(reader.scenery()->pose.normals, scenery.pose.normals);
+    EXPECT_EQ(reader.scenery()->pose.transfer, scenery.pose.transfer);
+
+    const auto refusal = [&](const auto& change) {
+        BakeIdentity other = identity;
+        change(other);
+        return complaint([&] { writer(other); });
+    };
+    expect_contains(refusal([](auto& i) { i.scenery.clear(); }),
+                    "(static files: 2 there, 0 asked for)");
+    expect_contains(refusal([](auto& i) { i.scenery[1].name = "bush.obj"; }),
+                    "(static file 1: tree.obj (0000000000000006) there, bush.obj (");
+    expect_contains(refusal([](auto& i) { ++i.scenery[0].xxh3; }), "(static file 0: wall.obj (");
+
+    const std::string whole = text_of("scenery.bin");
+    for (size_t j = 0; j < 40; ++j) {
+        std::string damaged = whole;
+        damaged[whole.size() * j / 40] ^= 4;
+        write_file(bake_ / "scenery.bin", damaged);
+        const std::string message = reading_complaint();
+        EXPECT_EQ(writer(identity).has_scenery(), message == "nothing") << j;
+        if (message != "nothing") expect_contains(message, "scenery.bin: ");
+        write_file(bake_ / "scenery.bin", whole.substr(0, whole.size() * j / 40));
+        EXPECT_FALSE(writer(identity).has_scenery()) << "cut at " << whole.size() * j / 40;
+    }
+    fs::remove(bake_ / "scenery.bin");
+    expect_contains(reading_complaint(), "scenery.bin: cannot open");
+
+    // A bake without has none, whatever lies in the folder.
+    EXPECT_FALSE(manifest_text(make_identity()).find("static") != std::string::npos);
 }
 
 TEST_F(BakeDirectory, KeepsTheOriginToTheLastDigit) {

@@ -5,9 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "paim/base/error.h"
 #include "paim/base/file.h"
+#include "paim/format/container_reader.h"
+#include "paim/format/paim_sections.h"
 #include "tests/example_model.h"
 #include "tests/temporary_directory.h"
 
@@ -41,6 +44,66 @@ TEST(PaimFile, RoundTrips) {
         expect_equal(read.transfer, model.transfer);
         EXPECT_EQ(std::filesystem::file_size(directory / "x.paim"), paim_size_bytes(model));
     }
+}
+
+TEST(PaimFile, KeepsScenery) {
+    const TemporaryDirectory directory;
+    for (const uint32_t channels : {1u, 3u}) {
+        Model model = make_example_model(3, channels);
+        EXPECT_TRUE(model.scenery.empty());
+        const uint64_t without = paim_size_bytes(model);
+        model.scenery = make_example_scenery(model.layout);
+        write_paim(directory / "x.paim", model);
+        const Model read = read_paim(directory / "x.paim");
+        EXPECT_EQ(read.scenery.topology, model.scenery.topology);
+        EXPECT_EQ(read.scenery.albedo.values, model.scenery.albedo.values);
+        EXPECT_EQ(read.scenery.positions, model.scenery.positions);
+        EXPECT_EQ(read.scenery.transfer, model.scenery.transfer);
+        expect_equal(read.transfer, model.transfer);
+        EXPECT_EQ(std::filesystem::file_size(directory / "x.paim"), paim_size_bytes(model));
+        EXPECT_GT(paim_size_bytes(model), without);
+    }
+}
+
+// The file with all of its sections but one.
+void drop_section(const std::filesystem::path& path, Tag tag) {
+    const auto bytes = read_file(path, 1 << 20);
+    const ContainerReader reader(path, section::kKindAnimation);
+    std::vector<Section> kept;
+    std::vector<SectionSpec> specs;
+    for (const Section& section : reader.sections()) {
+        if (section.spec.tag == tag) continue;
+        kept.push_back(section);
+        specs.push_back(section.spec);
+    }
+    ContainerWriter writer(path, section::kKindAnimation, specs);
+    for (size_t j = 0; j < kept.size(); ++j) {
+        writer.append(j, bytes.data() + kept[j].offset, kept[j].stored_size_bytes);
+    }
+    writer.commit();
+}
+
+TEST(PaimFile, SceneryIsWholeOrAbsent) {
+    const TemporaryDirectory directory;
+    const auto path = directory / "x.paim";
+    Model model = make_example_model();
+    model.scenery = make_example_scenery(model.layout);
+    const std::vector<Tag> tags{section::kSceneryTriangles, section::kSceneryPositions,
+                                section::kSceneryAlbedo, section::kSceneryTransfer};
+    for (const Tag tag : tags) {
+        write_paim(path, model);
+        drop_section(path, tag);
+        try {
+            read_paim(path);
+            ADD_FAILURE() << "read a file without " << tag.str();
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ExitCode::bad_input);
+            EXPECT_NE(std::string(error.what()).find(tag.str()), std::string::npos) << error.what();
+        }
+    }
+    write_paim(path, model);
+    for (const Tag tag : tags) drop_section(path, tag);
+    EXPECT_TRUE(read_paim(path).scenery.empty());
 }
 
 TEST(PaimFile, KeepsTheOriginToTheLastDigit) {
@@ -150,6 +213,24 @@ TEST(PaimFile, RefusesContentsThatCannotBePlayed) {
     model = make_example_model(2, 1, 2, 3);  // three components of two poses
     EXPECT_NE(complaint(model).find("'geometry_components': expected 0 to 2, got 3"),
               std::string::npos);
+
+    const auto with_scenery = [] {
+        Model whole = make_example_model();
+        whole.scenery = make_example_scenery(whole.layout);
+        return whole;
+    };
+    model = with_scenery();
+    model.scenery.topology.triangles[1][0] = 4;
+    EXPECT_NE(complaint(model).find("triangle 1: vertex 4, expected 0 to 3"), std::string::npos);
+    model = with_scenery();
+    model.scenery.positions[7] = std::nanf("");
+    EXPECT_NE(complaint(model).find("section SPOS: value 7 is nan"), std::string::npos);
+    model = with_scenery();
+    model.scenery.transfer[3] = std::numeric_limits<float>::infinity();
+    EXPECT_NE(complaint(model).find("section STRN: value 3 is inf"), std::string::npos);
+    model = with_scenery();
+    model.scenery.albedo.values.resize(3);
+    EXPECT_NE(complaint(model).find("expected 1 or 4 colours"), std::string::npos);
 
     model = make_example_model();
     model.layout.bands = 3;  // says 9 planes, holds 4

@@ -63,6 +63,18 @@ TEST(Scene, PacketsAnswerAsSingleRays) {
             ASSERT_EQ(blocked[j], hit ? 1.0f : 0.0f) << count << ' ' << j;
             expected += hit ? 1 : 0;
         }
+        std::vector<Hit> hits(count + 1, Hit{-1.0f, 7, 0.0f, 0.0f});
+        scene.first_hits(origin, x.data(), y.data(), z.data(), count, hits.data());
+        for (size_t j = 0; j < count; ++j) {
+            const auto hit = scene.first_hit(origin, {x[j], y[j], z[j]});
+            ASSERT_EQ(hits[j].triangle, hit ? hit->triangle : kNoTriangle);
+            if (!hit) continue;
+            // Packets and single rays multiply in another order.
+            EXPECT_NEAR(hits[j].distance, hit->distance, 1e-5f);
+            EXPECT_NEAR(hits[j].u, hit->u, 1e-4f);
+            EXPECT_NEAR(hits[j].v, hit->v, 1e-4f);
+        }
+        EXPECT_EQ(hits[count].distance, -1.0f);
         EXPECT_EQ(num_blocked, expected);
         EXPECT_EQ(blocked[count], -1.0f);
         total += expected;
@@ -86,6 +98,27 @@ TEST(Scene, HitsTheSameAtAnyScale) {
         EXPECT_EQ(scene.blocked(scale * Vec3f(0.25f, 0.5f, 2.0f), zero, zero, down, 1, blocked),
                   1u);
     }
+}
+
+TEST(Scene, CountsTheSecondMeshAfterTheFirst) {
+    // The second one lies nearer to the ray's start and is smaller.
+    std::vector<Vec3f> nearer = kCorners;
+    for (Vec3f& x : nearer) x = 0.5f * x + Vec3f(0, 0, 1);
+    const Scene scene(kTriangle, kCorners, kTriangle, nearer);
+    const auto both = scene.first_hit({0.1f, 0.1f, 2}, {0, 0, -1});
+    ASSERT_TRUE(both);
+    EXPECT_EQ(both->triangle, kTriangle.triangles.size());
+    const float zeros[] = {0, 0}, down[] = {-1, 1};
+    Hit hits[2];
+    scene.first_hits({0.1f, 0.1f, 2}, zeros, zeros, down, 2, hits);
+    EXPECT_EQ(hits[0].triangle, kTriangle.triangles.size());
+    EXPECT_EQ(hits[1].triangle, kNoTriangle);
+    const auto first = scene.first_hit({0.1f, 0.1f, 0.5f}, {0, 0, -1});
+    ASSERT_TRUE(first);
+    EXPECT_EQ(first->triangle, 0u);
+    const auto alone = Scene({}, {}, kTriangle, nearer).first_hit({0.1f, 0.1f, 2}, {0, 0, -1});
+    ASSERT_TRUE(alone);
+    EXPECT_EQ(alone->triangle, 0u);
 }
 
 TEST(Scene, TrianglesWithoutAreaAreNeverHit) {

@@ -1,0 +1,156 @@
+// The poses of another source with a ground under them.
+#include "compressor/scene/floor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <mutex>
+
+#include "paim/base/check.h"
+#include "paim/base/error.h"
+#include "paim/base/hash.h"
+#include "paim/base/parallel.h"
+
+namespace paim {
+
+namespace {
+
+// All as parts of the poses' largest extent.
+constexpr double kGap = 5e-4;     // below the lowest point: far more than rounding and ray offsets
+constexpr double kFine = 0.08;    // how far fine cells reach beyond the poses' bounds
+constexpr double kEdge = 0.3;     // how far the floor does
+constexpr double kGrowth = 1.25;  // of a cell over its inner neighbour, where they grow
+
+// Lines of the grid along one axis: fine cells of `cell` from lower to upper (stretched to fit a whole
+// number), then growing ones as far as `reach` on both sides.
+std::vector<double> grid_lines(double lower, double upper, double cell, double reach) {
+    const auto num_fine = static_cast<size_t>(std::max(1.0, std::ceil((upper - lower) / cell)));
+    const double width = (upper - lower) / static_cast<double>(num_fine);
+    std::vector<double> outside;  // distances from the fine part, the last exactly `reach`
+    double step = kGrowth * std::max(width, cell);
+    for (double at = step; at < reach; at += step) {
+        outside.push_back(at);
+        step *= kGrowth;
+    }
+    outside.push_back(reach);
+    // A last cell that is a sliver joins the one before.
+    if (outside.size() > 1 && reach - outside[outside.size() - 2] < 0.5 * step / kGrowth) {
+        outside.erase(outside.end() - 2);
+    }
+    std::vector<double> lines;
+    for (size_t i = outside.size(); i-- > 0;) lines.push_back(lower - outside[i]);
+    for (size_t i = 0; i <= num_fine; ++i) {
+        lines.push_back(lower + width * static_cast<double>(i));
+    }
+    for (const double distance : outside) lines.push_back(upper + distance);
+    return lines;
+}
+
+struct Grid {
+    std::vector<double> x, z;
+    size_t num_vertices() const { return x.size() * z.size(); }
+};
+
+}  // namespace
+
+Floor::Floor(const Bounds& bounds, uint32_t max_vertices) {
+    PAIM_CHECK(!bounds.empty());
+    PAIM_CHECK_LE(kMinFloorVertices, max_vertices);
+    const Vec3d lower = bounds.lower.cast<double>(), upper = bounds.upper.cast<double>();
+    const double extent = (upper - lower).maxCoeff();
+    if (!(extent > 0.0)) throw_bad_input("floor: the poses are one point, there is no size for it");
+    const double fine = kFine * extent, reach = (kEdge - kFine) * extent;
+    const auto grid_of = [&](double cell) {
+        return Grid{grid_lines(lower.x() - fine, upper.x() + fine, cell, reach),
+                    grid_lines(lower.z() - fine, upper.z() + fine, cell, reach)};
+    };
+    // The finest cells that keep to the number of vertices, to a thousandth. The coarsest grid, of
+    // cells as large as the floor, has 4 × 4 vertices.
+    double too_fine = 0.0, cell = (1.0 + 2.0 * kEdge) * extent;
+    while (cell - too_fine > 1e-3 * cell) {
+        const double middle = 0.5 * (too_fine + cell);
+        // The first comparison bounds the lines before they are made.
+        const bool fits =
+            extent / middle <= max_vertices && grid_of(middle).num_vertices() <= max_vertices;
+        (fits ? cell : too_fine) = middle;
+    }
+    const Grid grid = grid_of(cell);
+
+    // Rounding must not lift it back to the lowest point.
+    const double largest = std::max(lower.cwiseAbs().maxCoeff(), upper.cwiseAbs().maxCoeff());
+    const double gap = std::max(
+        kGap * extent, 16.0 * largest * static_cast<double>(std::numeric_limits<float>::epsilon()));
+    height = static_cast<float>(lower.y() - gap);
+    for (const double z : grid.z) {
+        for (const double x : grid.x) {
+            positions.push_back({static_cast<float>(x), height, static_cast<float>(z)});
+            if (!positions.back().allFinite()) {
+                throw_bad_input("floor: the poses are too large for one ({} across)", extent);
+            }
+        }
+    }
+    topology.num_vertices = static_cast<uint32_t>(positions.size());
+    const auto num_x = static_cast<uint32_t>(grid.x.size());
+    for (uint32_t j = 0; j + 1 < grid.z.size(); ++j) {
+        for (uint32_t i = 0; i + 1 < num_x; ++i) {
+            const uint32_t a = j * num_x + i, b = a + 1, c = a + num_x, d = c + 1;
+            // Diagonals in turn, so that no direction is favoured.
+            if ((i + j) % 2 == 0) {
+                topology.triangles.push_back({a, c, d});
+                topology.triangles.push_back({a, d, b});
+            } else {
+                topology.triangles.push_back({a, c, b});
+                topology.triangles.push_back({b, c, d});
+            }
+        }
+    }
+}
+
+Bounds bounds_of(const PoseSource& source, const std::function<void()>& on_pose) {
+    Bounds all;
+    std::mutex mutex;
+    parallel_for(source.num_poses(), 1, [&](size_t p, size_t) {
+        Bounds bounds;
+        bounds.extend(source.load_pose(static_cast<uint32_t>(p)).positions);
+        {
+            const std::lock_guard lock(mutex);  // the order does not matter to a minimum
+            all.extend(bounds.lower);
+            all.extend(bounds.upper);
+        }
+        if (on_pose) on_pose();
+    });
+    return all;
+}
+
+PosesOnFloor::PosesOnFloor(const PoseSource& source, const Bounds& bounds,
+                           const FloorOptions& options)
+    : source_(source),
+      floor_(bounds, options.num_vertices),
+      topology_(source.topology()),
+      albedo_(source.albedo()),
+      positions_xxh3_(xxh3(floor_.positions.data(), floor_.positions.size() * sizeof(Vec3f))),
+      description_(fmt::format("{} vertices at y = {}, albedo {},{},{}",
+                               floor_.topology.num_vertices, floor_.height, options.albedo.x(),
+                               options.albedo.y(), options.albedo.z())) {
+    const uint32_t first = topology_.num_vertices;
+    const uint32_t num_floor = floor_.topology.num_vertices;
+    if (first > std::numeric_limits<int32_t>::max() - num_floor) {
+        throw_bad_input("floor: {} vertices are too many to add {}", first, num_floor);
+    }
+    topology_.append(floor_.topology);
+    albedo_.append({{options.albedo}}, first, num_floor);
+}
+
+uint64_t PosesOnFloor::pose_checksum(uint32_t p) const {
+    const uint64_t parts[2] = {source_.pose_checksum(p), positions_xxh3_};
+    return xxh3(parts, sizeof parts);
+}
+
+Pose PosesOnFloor::load_pose(uint32_t p) const {
+    Pose pose = source_.load_pose(p);
+    pose.positions.insert(pose.positions.end(), floor_.positions.begin(), floor_.positions.end());
+    pose.normals.resize(pose.positions.size(), Vec3f::UnitY());
+    return pose;
+}
+
+}  // namespace paim

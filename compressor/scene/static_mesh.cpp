@@ -1,0 +1,46 @@
+// Scenery: meshes that stand still among the poses.
+#include "compressor/scene/static_mesh.h"
+
+#include <filesystem>
+#include <limits>
+
+#include "paim/base/error.h"
+#include "paim/base/hash.h"
+
+namespace paim {
+
+namespace {
+
+// Of everything that shapes light.
+uint64_t checksum(const PoseSource& source, const Pose& pose) {
+    const uint64_t mesh = mesh_checksum(source.topology(), source.albedo());
+    StreamingHash hash;
+    hash.update(&mesh, sizeof mesh);
+    hash.update(pose.positions.data(), pose.positions.size() * sizeof(Vec3f));
+    hash.update(pose.normals.data(), pose.normals.size() * sizeof(Vec3f));
+    return hash.digest();
+}
+
+}  // namespace
+
+void StaticMesh::add(const PoseSource& source) {
+    const Pose own = source.load_pose(0);
+    const uint32_t num_own = source.topology().num_vertices;
+    const std::string name = source.pose_name(0);
+    if (num_own > std::numeric_limits<int32_t>::max() - topology.num_vertices) {
+        throw_bad_input("{}: {} vertices are too many to add to {}", name, num_own,
+                        topology.num_vertices);
+    }
+    // The name alone, so that a bake does not depend on where the files lie.
+    sources.push_back({std::filesystem::path(name).filename().string(), checksum(source, own)});
+    if (empty()) {
+        albedo = source.albedo();
+    } else {
+        albedo.append(source.albedo(), topology.num_vertices, num_own);
+    }
+    topology.append(source.topology());
+    pose.positions.insert(pose.positions.end(), own.positions.begin(), own.positions.end());
+    pose.normals.insert(pose.normals.end(), own.normals.begin(), own.normals.end());
+}
+
+}  // namespace paim

@@ -1,0 +1,167 @@
+// Sums of bounces against dense matrices, and rows of hits against single rays.
+#include "compressor/bake/bounces.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compressor/bake/ray_offset.h"
+#include "paim/base/parallel.h"
+#include "paim/base/seed.h"
+#include "poses/shapes.h"
+
+namespace paim {
+namespace {
+
+constexpr size_t kOwn = 5, kScenery = 3, kAll = kOwn + kScenery;
+
+// Random rows, terms and colours; two bands, three channels.
+struct RandomScene {
+    Eigen::MatrixXd rows[2];  // [own][all]
+    BounceTerms scenery_terms;
+    std::array<std::vector<float>, 2> direct;  // [C][V]
+    BounceScene scene;
+
+    RandomScene() {
+        RandomStream random(5);
+        const auto number = [&] { return static_cast<float>(random.uniform()); };
+        for (auto& matrix : rows) {
+            matrix = Eigen::MatrixXd::Zero(kOwn, kAll);
+            for (auto& value : matrix.reshaped()) {
+                if (random.uniform() < 0.6) value = static_cast<double>(0.2f * number());
+            }
+        }
+        for (auto& half : direct) {
+            half.resize(4 * kOwn);
+            std::generate(half.begin(), half.end(), number);
+        }
+        for (int b = 0; b < 3; ++b) {
+            BounceTerm& term = scenery_terms.emplace_back();
+            for (auto& half : term) {
+                half.resize(3 * 4 * kScenery);
+                std::generate(half.begin(), half.end(), number);
+            }
+        }
+        scene.layout = {TransferKind::diffuse, 2, 3};
+        scene.num_vertices = kOwn;
+        scene.num_scenery_vertices = kScenery;
+        scene.albedo.values.resize(kOwn);
+        for (Vec3f& value : scene.albedo.values) value = Vec3f(number(), number(), number());
+        scene.scenery_albedo.values = {Vec3f(0.9f, 0.5f, 0.1f)};
+        scene.scenery_terms = &scenery_terms;
+        scene.make_row = [this](size_t v, size_t half, HitRow& row) {
+            row.clear();
+            for (uint32_t u = 0; u < kAll; ++u) {
+                const auto weight = static_cast<float>(rows[half](static_cast<int>(v), u));
+                if (weight > 0.0f) row.push_back({u, weight});
+            }
+        };
+    }
+};
+
+TEST(Bounces, AreTheDenseMatrixApplied) {
+    const RandomScene random;
+    for (const uint64_t max_bytes : {uint64_t{1} << 30, uint64_t{100}, uint64_t{0}}) {
+        std::array<std::vector<float>, 2> halves = random.direct;
+        const BounceTerms terms = add_bounces(random.scene, 3, halves, true, max_bytes);
+        ASSERT_EQ(terms.size(), 3u);
+        for (size_t half = 0; half < 2; ++half) {
+            ASSERT_EQ(halves[half].size(), 3 * 4 * kOwn);
+            for (size_t channel = 0; channel < 3; ++channel) {
+                for (size_t i = 0; i < 4; ++i) {
+                    Eigen::VectorXd term(kOwn);
+                    for (size_t v = 0; v < kOwn; ++v) {
+                        term[static_cast<int>(v)] = random.direct[half][i * kOwn + v];
+                    }
+                    Eigen::VectorXd total = term;
+                    for (size_t b = 0; b < 3; ++b) {
+                        Eigen::VectorXd light(kAll);
+                        for (uint32_t v = 0; v < kOwn; ++v) {
+                            light[v] =
+                                random.scene.albedo.at(v)[static_cast<int>(channel)] * term[v];
+                            EXPECT_NEAR(terms[b][half][(channel * kOwn + v) * 4 + i], term[v],
+                                        1e-6);
+                        }
+                        for (uint32_t s = 0; s < kScenery; ++s) {
+                            light[kOwn + s] =
+                                random.scene.scenery_albedo.at(s)[static_cast<int>(channel)] *
+                                random.scenery_terms[b][half][(channel * kScenery + s) * 4 + i];
+                        }
+                        term = random.rows[half] * light;
+                        total += term;
+                    }
+                    for (size_t v = 0; v < kOwn; ++v) {
+                        // Numbers of about 1, rounded to float a few times.
+                        EXPECT_NEAR(halves[half][(channel * 4 + i) * kOwn + v],
+                                    total[static_cast<int>(v)], 2e-6);
+                    }
+                }
+            }
+        }
+    }
+}
+
+TEST(Bounces, OfNoneLeaveTheTransfer) {
+    RandomScene random;
+    random.scene.layout.channels = 1;
+    std::array<std::vector<float>, 2> halves = random.direct;
+    EXPECT_TRUE(add_bounces(random.scene, 0, halves, true).empty());
+    EXPECT_EQ(halves, random.direct);
+}
+
+TEST(Bounces, ColourIsWhatIsNotGrey) {
+    EXPECT_FALSE(is_coloured({}));
+    EXPECT_FALSE(is_coloured({{Vec3f::Constant(0.1f), Vec3f::Constant(0.7f)}}));
+    EXPECT_TRUE(is_coloured({{Vec3f::Constant(0.1f), Vec3f(0.7f, 0.7f, 0.6f)}}));
+    EXPECT_TRUE(is_coloured({{Vec3f(0.6f, 0.7f, 0.7f)}}));
+}
+
+TEST(HitRows, AreTheMeanOfWhatSingleRaysHit) {
+    const auto sequence = poses::make_bowl_sequence(200);
+    const Topology& topology = sequence->topology();
+    const std::vector<Vec3f> positions = sequence->positions(0, 1);
+    const Scene scene(topology, positions);
+    const auto sampler = make_sampler(SamplerKind::cosine, 0, 64);
+    const auto more = make_sampler(SamplerKind::cosine, 64, 64);
+    for (const bool from_inside : {true, false}) {
+        // From inside the bowl, and from below, where its backs are seen.
+        const Vec3f origin = from_inside ? Vec3f(0.1f, -0.5f, 0.2f) : Vec3f(0.1f, -1.5f, 0.2f);
+        const Vec3f normal = Vec3f(0.3f, from_inside ? -1.0f : 1.0f, 0.1f).normalized();
+        HitTracer tracer(scene, topology, positions);
+        tracer.trace(origin, normal, *sampler, 3);
+        tracer.trace(origin, normal, *more, 3);
+        HitRow row;
+        tracer.end(row);
+
+        std::vector<double> expected(positions.size(), 0.0);
+        uint32_t num_hits = 0;
+        for (const auto* batch : {sampler.get(), more.get()}) {
+            RaySet rays;
+            batch->generate(normal, 3, rays);
+            for (size_t j = 0; j < rays.num_rays; ++j) {
+                const auto hit = scene.first_hit(origin, Vec3f(rays.x[j], rays.y[j], rays.z[j]));
+                if (!hit) continue;
+                ++num_hits;
+                if (!from_inside) continue;
+                const Triangle& t = topology.triangles[hit->triangle];
+                const double u = hit->u, v = hit->v;
+                expected[t[0]] += (1.0 - u - v) / 128;
+                expected[t[1]] += u / 128;
+                expected[t[2]] += v / 128;
+            }
+        }
+        EXPECT_GT(num_hits, 40u);
+        EXPECT_EQ(tracer.num_back_hits(), from_inside ? 0 : num_hits);
+        for (size_t j = 0; j + 1 < row.size(); ++j) EXPECT_LT(row[j].vertex, row[j + 1].vertex);
+        for (const HitWeight& hit : row) {
+            // A few hits' weights of at most 1/128, each rounded to float.
+            EXPECT_NEAR(hit.weight, expected[hit.vertex], 1e-7);
+            expected[hit.vertex] = 0.0;
+        }
+        EXPECT_EQ(*std::max_element(expected.begin(), expected.end()), 0.0);
+    }
+}
+
+}  // namespace
+}  // namespace paim
