@@ -6,6 +6,7 @@
 #include "compressor/bake/ray_offset.h"
 #include "compressor/bake/transfer_baker.h"
 #include "paim/base/check.h"
+#include "paim/base/parallel.h"
 #include "paim/base/seed.h"
 #include "paim/mesh/normals.h"
 #include "paim/trace/scene.h"
@@ -65,6 +66,20 @@ void bake(benchmark::State& state, Bare bare, uint32_t num_vertices, uint32_t nu
         timed([&] { const Scene built(octopus.topology(), pose.positions); }).cpu_s;
 }
 
+// The same bake on one thread and on several: ratio_wall is how many times faster they are together.
+void bake_threads(benchmark::State& state, uint32_t num_vertices, uint32_t num_rays, int threads) {
+    const PoseSet octopus = poses::make_octopus(num_vertices, 1);
+    const Pose pose = octopus.load_pose(0);
+    const TransferBaker baker(BakeOptions{5, num_rays, 1});
+    const auto run = [&](int num_threads) {
+        const ThreadLimit limit(num_threads);
+        return baker.bake(octopus.topology(), pose, 0).transfer;
+    };
+    run_against(
+        state, [&] { benchmark::DoNotOptimize(run(1)); },
+        [&] { benchmark::DoNotOptimize(run(threads)); });
+}
+
 // Making directions alone, which is most of what surrounds the rays.
 void directions(benchmark::State& state, uint32_t num_rays) {
     const CosineDirections generator(0, num_rays);
@@ -88,6 +103,10 @@ BENCHMARK_CAPTURE(bake, vertices_10000_rays_256_against_rtcOccluded1, Bare::rays
     ->Iterations(7)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(bake, vertices_10000_rays_256_against_rtcOccluded16, Bare::packets, 10000, 256)
+    ->UseManualTime()
+    ->Iterations(7)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(bake_threads, vertices_20000_rays_512_two_against_one, 20000, 512, 2)
     ->UseManualTime()
     ->Iterations(7)
     ->Unit(benchmark::kMillisecond);

@@ -34,6 +34,24 @@ TEST_F(Memory, StaysBelowTheLimitAndChangesNoByte) {
     expect_same(contents_of(path("limited")), contents_of(path("unlimited")));
 }
 
+// Poses are read, baked and written one after the other.
+TEST_F(Memory, OfABakeDoesNotGrowWithItsPoses) {
+    const auto peak = [&](const std::string& name, uint32_t num_poses) {
+        const std::string poses = make_poses("octopus", num_poses, 5000);
+        BackgroundTool tool(
+            {PAIM_COMPRESS, "bake", poses, "-o", path(name + ".bake"), "--rays", "4", "--json"});
+        rusage usage{};
+        EXPECT_EQ(tool.wait(&usage), 0);
+        std::filesystem::remove_all(poses);
+        return usage.ru_maxrss * 1024;
+    };
+    const long of_few = peak("few", 3);
+    const long of_many = peak("many", 60);
+    // A pose holds 5000 · (6 + 2 · 25) floats while it is baked, 1.1 MB, and about as much as text: the
+    // 57 poses more would be 60 MB. Names, checksums and the allocator's leftovers may differ.
+    EXPECT_LT(of_many, of_few + 8'000'000);
+}
+
 TEST_F(Memory, TooManyPosesAreRefusedBeforeAnyWork) {
     bench::SyntheticBake{4, 700, 1}.write(directory_ / "long.bake");
     const Contents before = contents_of(directory_.path());
