@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "compressor/bake/transfer_baker.h"
 #include "paim/base/check.h"
@@ -64,6 +65,25 @@ Truth::Truth(BakedMatrices truth)
 double Truth::error(const MatrixXf& approximation) const {
     const double squared = squared_distance(approximation, truth_.transfer) - noise_energy_;
     return std::sqrt(std::max(0.0, squared) / energy_);
+}
+
+double Truth::vertex_error(const MatrixXf& approximation, uint32_t num_vertices,
+                           double share) const {
+    const auto vertices = static_cast<Index>(num_vertices);
+    std::vector<double> errors;
+    for (Index p = 0; p < approximation.cols(); ++p) {
+        const Eigen::VectorXf column = approximation.col(p) - truth_.transfer.col(p);
+        for (Index v = 0; v < vertices; ++v) {
+            const Eigen::Map<const Eigen::VectorXf, 0, Eigen::InnerStride<>> of_vertex(
+                column.data() + v, column.size() / vertices, Eigen::InnerStride<>(vertices));
+            errors.push_back(static_cast<double>(of_vertex.norm()));
+        }
+    }
+    const auto at = std::min(errors.size() - 1,
+                             static_cast<size_t>(share * static_cast<double>(errors.size())));
+    std::nth_element(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(at),
+                     errors.end());
+    return errors[at];
 }
 
 double Truth::flicker(const MatrixXf& approximation) const {

@@ -24,8 +24,6 @@ Truth bake_truth(const PoseSource& source, const StudyOptions& options) {
     return Truth(bake_matrices(source, bake, options.num_poses));
 }
 
-// The error of the worst one vertex in a thousand, as a fraction of an open vertex's transfer. The
-// truth's own noise counts.
 double error_estimate(const BakedMatrices& baked) {
     return std::sqrt(baked.noise.cast<double>().squaredNorm() /
                      baked.transfer.cast<double>().squaredNorm());
@@ -54,12 +52,16 @@ void study_samplers(const PoseSource& source, const StudyOptions& options) {
 
 void study_targets(const PoseSource& source, const StudyOptions& options) {
     const Truth truth = bake_truth(source, options);
-    fmt::print("sequence,target,rays_at_most,rays_traced_per_vertex,true_error,estimated_error\n");
+    fmt::print(
+        "sequence,target,rays_at_most,rays_traced_per_vertex,true_error,estimated_error,"
+        "worst_vertex_in_1000\n");
     const auto measure = [&](const BakeOptions& bake) {
         const BakedMatrices baked = bake_matrices(source, bake, options.num_poses);
-        fmt::print("{},{},{},{:.1f},{:.6f},{:.6f}\n", options.name, bake.transfer_error, bake.rays,
-                   rays_per_vertex(source, options, baked), truth.error(baked.transfer),
-                   error_estimate(baked));
+        fmt::print("{},{},{},{:.1f},{:.6f},{:.6f},{:.6f}\n", options.name, bake.transfer_error,
+                   bake.rays, rays_per_vertex(source, options, baked), truth.error(baked.transfer),
+                   error_estimate(baked),
+                   truth.vertex_error(baked.transfer, source.topology().num_vertices, 0.999) /
+                       open_transfer_norm(options.bands));
         std::fflush(stdout);
     };
     BakeOptions bake;
