@@ -3,6 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <limits>
+
 #include "analysis/csv.h"
 #include "analysis/curves.h"
 #include "analysis/measure.h"
@@ -34,6 +36,8 @@ Model encode_everything(const BakeReader& bake, const std::filesystem::path& dir
     options.geometry.kind = ComponentChoice::Kind::all;
     options.transfer.kind = ComponentChoice::Kind::all;
     options.name = bake.directory().stem().string();
+    // It is read into memory as a whole afterwards, which needs far more.
+    options.memory_bytes = std::numeric_limits<uint64_t>::max();
     encode(bake, options, file.path);
     return read_paim(file.path);
 }

@@ -129,8 +129,8 @@ void add_encode_options(CLI::App& app, CompressOptions& options, RawOptions& raw
     app.add_option(
            "--memory", raw.memory,
            "Memory that encoding stays below, bytes or with K, M, G or T for powers of 1000; "
-           "at least 64M, and 130 bytes times the square of the number of poses; the result "
-           "is the same for any")
+           "at least 64M, and about 130 bytes times the square of the number of poses and 40 for "
+           "each vertex and band; the result is the same for any")
         ->capture_default_str();
     app.add_option("--fps", options.encode.frames_per_second,
                    "Poses per second at which the animation plays, 0.001 to 1000000")

@@ -66,7 +66,11 @@ std::string provenance(const BakeReader& bake, const EncodeSummary& summary) {
     const BakeIdentity& identity = bake.identity();
     nlohmann::ordered_json json;
     json["bake_bands"] = identity.layout.bands;
+    json["sampler"] = identity.sampler;
+    json["streams"] = identity.streams;
     json["rays"] = identity.rays;
+    if (identity.transfer_error > 0.0) json["transfer_error"] = identity.transfer_error;
+    if (!identity.floor.empty()) json["floor"] = identity.floor;
     json["seed"] = fmt::format("{:016x}", identity.seed);
     json["normals"] = identity.normals;
     if (identity.bounces > 0) json["bounces"] = identity.bounces;

@@ -67,7 +67,8 @@ uint64_t num_rows_to_read(const BakeReader& bake, const EncodeOptions& options);
 // Error (unsupported), saying what is needed, if this bake cannot be encoded in options.memory_bytes.
 void check_memory(const BakeReader& bake, const EncodeOptions& options);
 
-// Encodes and writes, all or nothing. Memory grows with P² and the topology, not with V · P.
+// Encodes and writes, all or nothing. Memory grows with P², the topology and V · bands, not
+// with V · P.
 // bake     verified (BakeReader::verify_all)
 // on_rows  called with a number of rows whenever they have been read, from any thread
 // Errors: unsupported as check_memory(); bad input for a bake that changes meanwhile; output failed.

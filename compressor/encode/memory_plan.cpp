@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "compressor/encode/component_noise.h"
 #include "compressor/encode/principal_components.h"
 #include "compressor/encode/tsqr.h"
 #include "paim/base/error.h"
@@ -39,9 +40,9 @@ struct Need {
 
     // measure_component_noise(): a copy of V, the energies of the blocks, and the blocks.
     uint64_t measuring_bytes(uint64_t bands) const {
-        constexpr uint64_t kBlocksMeasured = 8;
-        return poses * poses * kDouble + 2 * (kBlocksMeasured + 1) * bands * poses * kDouble +
-               working_bytes(kBlocksMeasured);
+        const uint64_t blocks = std::min<uint64_t>(in_flight, kMaxMeasuredAtOnce);
+        return poses * poses * kDouble + 2 * (blocks + 1) * bands * poses * kDouble +
+               working_bytes(blocks);
     }
 
     // V S⁻¹, the correction with its temporaries, and either its factors or blocks that are done.
@@ -66,13 +67,22 @@ EncodeSize encode_size(const BakeReader& bake, const EncodeOptions& options) {
         const bool counted = choice.kind == ComponentChoice::Kind::number;
         return counted ? std::min(choice.number, bake.num_poses()) : bake.num_poses();
     };
+    uint64_t scenery_bytes = 0;
+    if (bake.scenery()) {
+        const BakedPose& still = bake.scenery()->pose;
+        scenery_bytes = sizeof(float) * (still.positions.size() + still.normals.size() +
+                                         still.transfer.size() + still.noise.size());
+        scenery_bytes += sizeof(Triangle) * bake.scenery()->topology.triangles.size() +
+                         sizeof(Vec3f) * bake.scenery()->albedo.values.size();
+    }
     return {bake.topology().triangles.size(),
             bake.albedo().values.size(),
             bake.num_poses(),
             std::max(components(options.geometry), components(options.transfer)),
             static_cast<uint64_t>(max_parallelism()),
             bake.identity().num_vertices,
-            std::min(options.bands, bake.identity().layout.bands)};
+            std::min(options.bands, bake.identity().layout.bands),
+            scenery_bytes};
 }
 
 uint64_t encode_memory_bytes(const EncodeSize& size, uint32_t num_in_flight) {
@@ -86,20 +96,25 @@ uint64_t encode_memory_bytes(const EncodeSize& size, uint32_t num_in_flight) {
                           (size.num_poses * sizeof(double) + size.num_components * sizeof(float));
     // Energy and noise of each vertex and band, measured and as the shrinkage keeps them.
     const uint64_t vertices = 4 * size.bands * size.num_vertices * sizeof(double);
+    // What stands still is held whole, by the bake and by the model.
+    const uint64_t scenery = 2 * size.scenery_bytes;
     const Need need{size.num_poses, size.num_components, size.num_threads, num_in_flight};
     const uint64_t streamed =
         std::max({need.factors_bytes(size.num_poses) + need.working_bytes(),
                   need.decomposing_bytes(), need.measuring_bytes(size.bands), need.output_bytes()});
     // The allocator keeps some of what was freed: a quarter more.
-    return kProgram + (mesh + names + kept + vertices + streamed) / 4 * 5;
+    return kProgram + (mesh + names + kept + vertices + scenery + streamed) / 4 * 5;
 }
 
 uint32_t choose_num_in_flight(const EncodeSize& size, uint64_t limit_bytes,
                               const std::string& what) {
     const uint64_t least = encode_memory_bytes(size, 1);
     if (least > limit_bytes) {
-        throw_unsupported("{}: {} poses need {} of memory to be encoded, but --memory allows {}",
-                          what, size.num_poses, megabytes(least), megabytes(limit_bytes - 1));
+        throw_unsupported(
+            "{}: {} poses of {} vertices in {} bands need {} of memory to be encoded, but --memory "
+            "allows {}",
+            what, size.num_poses, size.num_vertices, size.bands, megabytes(least),
+            megabytes(limit_bytes - 1));
     }
     uint32_t num_in_flight = kMaxInFlight;
     while (encode_memory_bytes(size, num_in_flight) > limit_bytes) num_in_flight /= 2;

@@ -16,6 +16,7 @@ struct EncodeSize {
     uint64_t num_threads = 1;
     uint64_t num_vertices = 0;
     uint64_t bands = 1;
+    uint64_t scenery_bytes = 0;  // of the scenery as it was baked
 };
 
 EncodeSize encode_size(const BakeReader& bake, const EncodeOptions& options);

@@ -19,8 +19,8 @@ enum class Precision : uint32_t { f32 = 0, f16 = 1 };
 
 // A data matrix as mean + components · weights (E3, E4): column p is
 //   mean + Σ_k weights[k][p] · components[k].
-// Rows are plane-major: row = plane · V + v. Components have unit RMS (|component_k|² = rows), so
-// that half floats hold them well; weights carry the singular value.
+// Rows are plane-major: row = plane · V + v. Components have unit RMS (|component_k|² = rows) before
+// noise is taken out of them, so that half floats hold them well; weights carry the singular value.
 struct LowRankMatrix {
     uint32_t num_vertices = 0;
     uint32_t num_planes = 0;

@@ -56,7 +56,9 @@ TEST_F(Memory, TooManyPosesAreRefusedBeforeAnyWork) {
     bench::SyntheticBake{4, 700, 1}.write(directory_ / "long.bake");
     const Contents before = contents_of(directory_.path());
     expect_failure(compress({"encode", path("long.bake"), "-o", path("x.paim"), "--memory", "64M"}),
-                   3, {"long.bake: 700 poses need", "MB of memory", "--memory allows 64 MB"});
+                   3,
+                   {"long.bake: 700 poses of 4 vertices in 1 bands need", "MB of memory",
+                    "--memory allows 64 MB"});
     expect_same(contents_of(directory_.path()), before);
     // Few components need less, and then it is done.
     expect_success(

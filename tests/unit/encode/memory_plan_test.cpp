@@ -60,9 +60,10 @@ TEST(MemoryPlan, RefusesMorePosesThanFitAndSaysWhatTheyNeed) {
         FAIL() << "not refused";
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ExitCode::unsupported);
-        EXPECT_STREQ(error.what(),
-                     "x.bake: 10000 poses need 13 GB of memory to be encoded, but --memory allows "
-                     "1000 MB");
+        EXPECT_STREQ(
+            error.what(),
+            "x.bake: 10000 poses of 0 vertices in 1 bands need 13 GB of memory to be encoded, "
+            "but --memory allows 1000 MB");
     }
 }
 
