@@ -110,8 +110,11 @@ Bounds bounds_of(const PoseSource& source, const std::function<void()>& on_pose)
     Bounds all;
     std::mutex mutex;
     parallel_for(source.num_poses(), 1, [&](size_t p, size_t) {
+        const Pose pose = source.load_pose(static_cast<uint32_t>(p));
         Bounds bounds;
-        bounds.extend(source.load_pose(static_cast<uint32_t>(p)).positions);
+        for (const Triangle& triangle : source.topology().triangles) {
+            for (const uint32_t v : triangle) bounds.extend(pose.positions[v]);
+        }
         {
             const std::lock_guard lock(mutex);  // the order does not matter to a minimum
             all.extend(bounds.lower);

@@ -31,7 +31,8 @@ struct Floor {
     Floor(const Bounds& bounds, uint32_t max_vertices);
 };
 
-// Bounds of all poses; every one is read once.
+// Bounds of the vertices that a triangle has, in all poses; every one is read once. A vertex in no
+// triangle cannot be seen, and a floor goes by what can.
 // on_pose  called after each pose, from several threads at once
 Bounds bounds_of(const PoseSource& source, const std::function<void()>& on_pose = {});
 

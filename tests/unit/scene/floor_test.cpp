@@ -148,6 +148,17 @@ TEST(PosesOnFloor, AddsTheSameGroundToEveryPose) {
     EXPECT_NE(PosesOnFloor(octopus, bounds, options).description(), on_floor.description());
 }
 
+TEST(PosesOnFloor, GoesByTheVerticesOfTriangles) {
+    const auto pose = [](float y) {
+        return std::vector<Vec3f>{{0, -100, 0}, {0, y, 0},  {1, 0, 0},
+                                  {0, 1, 0},    {90, 0, 0}, {0, 0, 90}};
+    };
+    const PoseSet stray({6, {{1, 2, 3}}}, {pose(0.0f), pose(-0.5f)});
+    const Bounds bounds = bounds_of(stray);
+    EXPECT_EQ(bounds.lower, Vec3f(0, -0.5f, 0));
+    EXPECT_EQ(bounds.upper, Vec3f(1, 1, 0));
+}
+
 TEST(PosesOnFloor, OneColourStaysOne) {
     const PoseSet sphere = poses::make_pose_set(*poses::make_sphere_sequence(50), 1);
     const PosesOnFloor on_floor(sphere, bounds_of(sphere), {100, sphere.albedo().at(0)});
