@@ -43,6 +43,26 @@ TEST(ObjOrigin, IsZeroWhereFloatsAreEnough) {
     EXPECT_EQ(ObjSequence(files.files()).origin(), Vec3d::Zero());
 }
 
+TEST(ObjOrigin, RefusesWhatNoFloatHoldsFromThere) {
+    // Floats end at 3.4e38.
+    const std::string near = "v -3e38 0 0\nv -3.01e38 0 0\nv -3e38 1e36 0\n", face = "f 1 2 3\n";
+    const auto expect_refused = [](const std::string& error, const std::string& file) {
+        EXPECT_TRUE(error.starts_with(file + ": coordinates are too large when counted from the "
+                                             "origin (-3"))
+            << error;
+    };
+    EXPECT_EQ(sequence_error({near + face, near + face}), "no error");
+    // A vertex without a face has no say in the origin, but is written like any other.
+    const std::string stray = near + "v 3e38 0 0\n";
+    expect_refused(sequence_error({stray + face}), "0.obj");
+    expect_refused(sequence_error({near + "v 0 0 0\n" + face, stray + face}), "1.obj");
+    // Scenery is counted from where the poses are.
+    ObjOptions options;
+    options.origin = Vec3d(-3e38, 0, 0);
+    expect_refused(sequence_error({"v 3e38 0 0\nv 3.01e38 0 0\nv 3e38 1e36 0\n" + face}, options),
+                   "0.obj");
+}
+
 TEST(ObjOrigin, DoesNotDependOnThreads) {
     std::vector<std::string> contents;
     for (int i = 0; i < 30; ++i) {
