@@ -129,6 +129,9 @@ class BakeReader {
         return read_bake_statistics(directory_, identity_checksum_, p, identity_.layout.bands);
     }
 
+    // Of all files that belong to it.
+    uint64_t size_bytes() const;
+
     // Of all poses together.
     PoseStatistics total_statistics() const;
 

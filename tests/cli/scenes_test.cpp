@@ -157,6 +157,12 @@ TEST_F(Scenes, StaticFilesAreStoredOnceAndNamed) {
         EXPECT_EQ(parse_object(info({path(file), "--json"}))["scenery_triangles"], 109);
     }
 
+    // A bake is all its files; one that does not belong to it is none of them.
+    uint64_t size_bytes = 0;
+    for (const auto& [name, bytes] : contents_of(path("x.bake"))) size_bytes += bytes.size();
+    write("x.bake/notes.txt", "mine");
+    EXPECT_EQ(parse_object(info({path("x.bake"), "--json"}))["size_bytes"], size_bytes);
+
     // All of the model shows all of the bake, scenery and all; one band less is another picture.
     json = parse_object(analyze({path("x.bake"), "-o", path("report"), "--size", "32",
                                  "--components", "1", "--bands", "1", "--poses", "1", "--json"}));
