@@ -147,7 +147,11 @@ ordered_json bake(const CompressOptions& options, const std::filesystem::path& d
                                  static_cast<double>(summary.total.rays)
                            : 0.0);
         }
-        if (!surroundings.floor.empty()) fmt::print("  on a floor of {}\n", surroundings.floor);
+        if (!surroundings.floor.empty()) {
+            const double y = sequence.origin().y();
+            fmt::print("  on a floor of {}{}\n", surroundings.floor,
+                       y != 0.0 ? fmt::format(" (y counted from the origin's, {})", y) : "");
+        }
         if (!scenery.empty()) {
             fmt::print("  among scenery of {} vertices and {} triangles\n",
                        scenery.topology.num_vertices, scenery.topology.triangles.size());

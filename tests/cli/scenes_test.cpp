@@ -1,4 +1,6 @@
 // What a sequence stands on and among, through the tools: floors, scenery and light that bounces.
+#include <fmt/format.h>
+
 #include "paim/format/bake_directory.h"
 #include "paim/format/paim_file.h"
 #include "paim/image/exr.h"
@@ -55,6 +57,35 @@ TEST_F(Scenes, FarFromTheWorldsOriginAllCountFromOnePlace) {
     const BakedPose pose = reader.read_pose(0);
     EXPECT_EQ(pose.positions[0], static_cast<float>(1e6 - origin));
     EXPECT_EQ(reader.scenery()->pose.positions[0], static_cast<float>(1000000.125 - origin));
+}
+
+TEST_F(Scenes, TheFloorsHeightSaysWhereItIsCountedFrom) {
+    write("high.obj", "v 0 1000000 0\nv 1 1000000 0\nv 0 1000001 0.25\nf 1 2 3\n");
+    const ToolResult high =
+        compress({"bake", path("high.obj"), "-o", path("high.bake"), "--rays", "2", "--floor"});
+    expect_success(high);
+    const double y = BakeReader(path("high.bake")).identity().origin.y();
+    EXPECT_NEAR(y, 1e6, 2.0);
+    EXPECT_TRUE(contains(high.out, fmt::format(" (y counted from the origin's, {})\n", y)))
+        << high.out;
+    // Where that is zero there is nothing to say, wherever it is to the side.
+    write("side.obj", "v 1000000 -1 0\nv 1000001 -1 0\nv 1000000 1 0.25\nf 1 2 3\n");
+    const ToolResult side =
+        compress({"bake", path("side.obj"), "-o", path("side.bake"), "--rays", "2", "--floor"});
+    ASSERT_EQ(BakeReader(path("side.bake")).identity().origin.y(), 0.0);
+    EXPECT_TRUE(contains(side.out, "  on a floor of ")) << side.out;
+    EXPECT_FALSE(contains(side.out, "origin")) << side.out;
+}
+
+TEST_F(Scenes, AlbedoIsThatOfThePosesAlone) {
+    write("pose.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0.25\nf 1 2 3\n");
+    write("wall.obj", "v 3 0 0\nv 4 0 0\nv 3 1 0\nf 1 2 3\n");
+    expect_success(compress({"bake", path("pose.obj"), "-o", path("x.bake"), "--rays", "2",
+                             "--albedo", "0.25", "--floor", "--static", path("wall.obj")}));
+    const BakeReader reader(path("x.bake"));
+    EXPECT_EQ(reader.albedo().values.front(), Vec3f::Constant(0.25f));
+    EXPECT_EQ(reader.albedo().values.back(), Vec3f::Constant(0.8f));
+    EXPECT_EQ(reader.scenery()->albedo.at(0), Vec3f::Constant(0.8f));
 }
 
 TEST_F(Scenes, FloorOptionsNeedAFloorAndSenseOfScale) {
