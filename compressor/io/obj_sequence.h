@@ -34,7 +34,8 @@ class ObjSequence : public PoseSource {
     // triangulated by the geometry of the first one, which also gives the albedo (obj_albedo.h).
     // files  at least one; find_obj_files() gives them. The same file may be several poses.
     // Errors (bad input): any file unreadable, above 4 GiB, damaged, unlike the first, or with a
-    // coordinate that is no float when counted from the origin; of several, the first in the order of the sequence is reported, on any number of threads.
+    // coordinate that is no float when counted from the origin; of several, the first in the order
+    // of the sequence is reported, on any number of threads (coordinates after all else).
     explicit ObjSequence(std::vector<std::filesystem::path> files, const ObjOptions& options = {});
 
     const Topology& topology() const override { return topology_; }

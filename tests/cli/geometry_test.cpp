@@ -66,7 +66,7 @@ TEST_F(Geometry, NothingIsSaidOfCleanMeshes) {
 TEST_F(Geometry, OddSceneryIsCountedByFile) {
     const std::string sphere = make_poses("sphere", 2, 50);
     const std::string whole = make_poses("box", 1, 50) + "/box_0000.obj";
-    // A sheet of two triangles, one of them twice, one without area, one on another, a stray vertex.
+    // A sheet of two triangles: one is there twice; one without area, one on another, a stray point.
     write("odd.obj",
           "v 9 0 0\nv 10 0 0\nv 10 1 0\nv 9 1 0\nv 11 0 0\nv 9 0 0\nv 10 0 0\nv 10 1 0\nv 9 9 9\n"
           "f 1 2 3\nf 1 3 4\nf 2 3 1\nf 1 2 5\nf 6 7 8\n");
