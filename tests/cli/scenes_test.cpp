@@ -128,8 +128,8 @@ TEST_F(Scenes, BouncesAreNamedAndColourCostsThreeChannels) {
         encode.insert(encode.end(), all.begin(), all.end());
         expect_success(compress(encode));
     }
-    // Transfer of 4 planes a channel, as f32 and, its noise, f16; positions and normals of 6. Headers and
-    // metadata are a few hundred bytes.
+    // Transfer of 4 planes a channel, as f32 and, its noise, f16; positions and normals of 6.
+    // Headers and metadata are a few hundred bytes.
     EXPECT_NEAR(size_of("grey.bake/pose_000000.bin"), size_of("0.bake/pose_000000.bin"), 100);
     EXPECT_NEAR(size_of("red.bake/pose_000000.bin") - size_of("grey.bake/pose_000000.bin"),
                 200 * 8 * (4 + 2), 200);

@@ -18,8 +18,8 @@ TEST(ObjOrigin, ScanReadsPositionsToTheNearestDouble) {
 }
 
 TEST(ObjOrigin, KeepsTheDigitsOfMeshesFarAway) {
-    // 0.1 is lost in float at 1e6: steps are 0.0625 there. Bounds of both poses: 1000000 … 1000004 and
-    // 0 … 2, diagonal 4.5, so the origin is the centre rounded to a multiple of 4.
+    // 0.1 is lost in float at 1e6: steps are 0.0625 there. Bounds of both poses: 1000000 … 1000004
+    // and 0 … 2, diagonal 4.5, so the origin is the centre rounded to a multiple of 4.
     const std::string faces = "f 1 2 3\n";
     const ObjTestFiles files({"v 1000000.1 0 0\nv 1000001.1 0 0\nv 1000000.1 2 0\n" + faces,
                               "v 1000000 0 0\nv 1000004 0 0\nv 1000003.3 2 0\n" + faces});

@@ -1,4 +1,5 @@
-// A ground under poses: where it lies, how fine it is, what it does to names, checksums and colours.
+// A ground under poses: where it lies, how fine it is, what it does to names, checksums and
+// colours.
 #include "compressor/scene/floor.h"
 
 #include <gtest/gtest.h>
@@ -177,8 +178,9 @@ TEST(PosesOnFloor, IsDarkWhereABoxStandsAndOpenFarAway) {
         const Vec3f& x = pose.positions[v];
         const double open = static_cast<double>(baked.transfer[v]) / y00;
         const double outside = std::max(std::abs(x.x()), std::abs(x.z())) - 1.0f;
-        // Under the box nothing is seen but its bottom, at a gap of 1e-3; farther in than ten gaps the
-        // strip of sky that is left subtends less than (gap / distance)² of the cosine-weighted sky.
+        // Under the box nothing is seen but its bottom, at a gap of 1e-3; farther in than ten gaps
+        // the strip of sky that is left subtends less than (gap / distance)² of the cosine-weighted
+        // sky.
         if (outside < -0.01) {
             EXPECT_LT(open, 0.01);
         }
