@@ -21,8 +21,8 @@ struct BakeOptions {
     uint32_t bands = 5;   // 1 … sh::kMaxBands
     uint32_t rays = 512;  // per vertex, even, 2 … 2^24; with a transfer_error, the most
     uint64_t seed = 1;
-    // Above 0: each vertex is baked until the estimated error of its transfer, as a fraction of the
-    // transfer of an open vertex, is at most this.
+    // Above 0: each vertex is baked until the estimated error of its transfer (noise_target.h), as a
+    // fraction of the transfer of an open vertex, is at most this.
     double transfer_error = 0.0;
     SamplerKind sampler = SamplerKind::cosine;
     Streams streams = Streams::per_pose;

@@ -171,6 +171,7 @@ class TransferBaker::PoseBake {
 
     void bake_part_to_target(size_t begin, size_t end) {
         const double target = options_.transfer_error * open_transfer_norm(options_.bands);
+        const double power = options_.sampler == SamplerKind::uniform ? 1.0 : 1.5;
         std::vector<uint32_t> active;
         for (size_t v = begin; v < end; ++v) {
             if (has_normal(v)) active.push_back(static_cast<uint32_t>(v));
@@ -178,6 +179,7 @@ class TransferBaker::PoseBake {
         std::vector<Halves> sums(
             end - begin, Halves{HalfSums(num_coefficients()), HalfSums(num_coefficients())});
         for (const auto& batch : baker_.batches_) {
+            if (active.empty()) break;
             parallel_for(active.size(), kVerticesPerPiece, [&](size_t first, size_t last) {
                 Workspace work(baker_.basis_, num_coefficients());
                 for (size_t j = first; j < last; ++j) {
@@ -186,8 +188,8 @@ class TransferBaker::PoseBake {
                     estimate(active[j], halves, work);
                 }
             });
-            active =
-                above_noise_target(topology_, noise_energy_, num_rays_, target * target, active);
+            active = above_noise_target(topology_, noise_energy_, num_rays_, power, target * target,
+                                        active);
         }
         num_above_target_ += static_cast<uint32_t>(active.size());
     }

@@ -19,12 +19,12 @@
 namespace paim {
 
 // Raised whenever the same options give other bytes, so that bakes of different builds do not mix.
-constexpr uint32_t kBakerVersion = 3;
+constexpr uint32_t kBakerVersion = 4;
 
 // Every vertex shoots two independent halves of its rays (half_sums.h). Their mean is the transfer,
 // half their difference its noise. With a fixed count all rays of a vertex are shot at once; with an
-// error target they are shot in batches, each as many as all before, until the vertex's own noise and
-// the mean over its neighbours are below the target. Light that bounces is added to the halves
+// error target they are shot in batches, a third to a half of all before, until the noise of the vertex
+// as its neighbours tell it (noise_target.h) is below the target. Light that bounces is added to the halves
 // afterwards (bounces.h): the target is one for the light that comes straight from the sky.
 class TransferBaker {
   public:

@@ -121,6 +121,7 @@ ComponentNoise measure_component_noise(const RowSource& transfer, const RowSourc
     const Measurement measurement(transfer, noise, layout, components);
     ComponentNoise result;
     result.layout = layout;
+    result.num_poses = transfer.num_columns();
     result.num_vertices = static_cast<uint32_t>(measurement.num_vertices());
     result.energy = MatrixXd::Zero(static_cast<Index>(layout.bands), components.rank());
     result.noise = result.energy;

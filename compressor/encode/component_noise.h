@@ -18,6 +18,7 @@ namespace paim {
 struct ComponentNoise {
     TransferLayout layout;
     uint32_t num_vertices = 0;
+    uint32_t num_poses = 0;
     Eigen::MatrixXd energy;             // [bands][K] of the scores A'V
     Eigen::MatrixXd noise;              // [bands][K] of which is noise
     std::vector<double> vertex_energy;  // [bands][V] of A' over a vertex's rows in a band

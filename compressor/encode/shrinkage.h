@@ -43,10 +43,15 @@ class Shrinkage {
     EncodedError expected_error(uint32_t num_components) const;
 
   private:
+    // Expected squared error of the first components at a vertex in a band.
+    double risk(uint32_t band, size_t v, Eigen::Index num_components) const;
+
     TransferLayout layout_;
     size_t num_vertices_;
+    uint32_t num_poses_;
+    Eigen::Index num_above_noise_;
     double mean_noise_;
-    std::vector<double> signal_, noise_;          // [bands][V]
+    std::vector<double> signal_, noise_;  // [bands][V] E − N, which may be negative, and N
     Eigen::MatrixXd signal_share_, noise_share_;  // [bands][K]
     Eigen::VectorXd component_signal_;  // [K] e − d over all bands, which may be negative
 };

@@ -16,7 +16,7 @@ using Energies = std::array<double, 5>;
 
 Vertices above(const Energies& noise_energy, const std::array<uint64_t, 5>& num_rays,
                const Vertices& candidates = {0, 1, 2, 3, 4}) {
-    return above_noise_target(kMesh, noise_energy, num_rays, 1.0, candidates);
+    return above_noise_target(kMesh, noise_energy, num_rays, 1.5, 1.0, candidates);
 }
 
 constexpr std::array<uint64_t, 5> kAlike{64, 64, 64, 64, 64};
@@ -26,20 +26,27 @@ TEST(NoiseTarget, IsMetByEqual) {
     EXPECT_EQ(above({1.001, 1.001, 1.001, 1.001, 1.001}, kAlike), (Vertices{0, 1, 2, 3, 4}));
 }
 
-TEST(NoiseTarget, IsThatOfAVertexWithItsNeighbours) {
-    // 4 has none. 0 and 3 have the neighbours 1 and 2, counted twice where two faces share the edge: the
-    // mean of (own twice, 1, 2), and for 1 and 2 of (own twice, 0, 3, and the other twice).
+TEST(NoiseTarget, IsThatOfTheNeighbours) {
+    // Of 0 and 3 those are 1 and 2; of 1 and 2 each other, twice as two faces share the edge, 0 and 3.
+    EXPECT_EQ(above({0, 1.9, 0, 0, 0}, kAlike), Vertices{});
+    EXPECT_EQ(above({0, 2.1, 0, 0, 0}, kAlike), (Vertices{0, 2, 3}));
+    EXPECT_EQ(above({4.1, 0, 0, 0, 0}, kAlike), (Vertices{1, 2}));
+    // 4 has none.
     EXPECT_EQ(above({0, 0, 0, 0, 1.5}, kAlike), Vertices{4});
-    EXPECT_EQ(above({0, 2.9, 0, 0, 0}, kAlike), Vertices{});
-    EXPECT_EQ(above({0, 3.1, 0, 0, 0}, kAlike), (Vertices{1, 2}));
-    EXPECT_EQ(above({0, 4.1, 0, 0, 0}, kAlike), (Vertices{0, 1, 2, 3}));
 }
 
 TEST(NoiseTarget, NeighboursOfOtherCountsAreComparedAtTheVertexsOwn) {
     // At 64 rays 1 and 2 would have 4^1.5 = 8 times the squared error that they have at 256.
     const std::array<uint64_t, 5> num_rays{64, 256, 256, 64, 64};
-    EXPECT_EQ(above({0, 0.26, 0.26, 0, 0}, num_rays), (Vertices{0, 3}));
-    EXPECT_EQ(above({0, 0.24, 0.24, 0, 0}, num_rays), Vertices{});
+    EXPECT_EQ(above({0, 0.126, 0.126, 0, 0}, num_rays), (Vertices{0, 3}));
+    EXPECT_EQ(above({0, 0.124, 0.124, 0, 0}, num_rays), Vertices{});
+}
+
+TEST(NoiseTarget, NeighboursThatShotNothingAreNotAsked) {
+    // Of 0 only 2 is left.
+    const std::array<uint64_t, 5> num_rays{64, 0, 64, 64, 64};
+    EXPECT_EQ(above({0, 0, 1.1, 0, 0}, num_rays, {0}), Vertices{0});
+    EXPECT_EQ(above({0, 9, 0.9, 0, 0}, num_rays, {0}), Vertices{});
 }
 
 TEST(NoiseTarget, OnlyCandidatesAreAsked) {

@@ -137,10 +137,9 @@ TEST_F(KnownNoise, ShrinkageLowersTheErrorToWhatItExpects) {
         }
         // Without shrinkage both sums are over thousands of squares, but components beyond the signal are
         // the directions in which this very noise is largest, by up to 1 + √(29 / 390) there, and some
-        // percent over all. With it, a vertex without signal is thought to have some half of the time,
-        // when its energy exceeds its noise by chance: by about √(4 / 29 / (2l+1)) of it, 0.2 to 0.4, of
-        // which the factor leaves a part. That is up to a quarter of the noise that stays, always on
-        // the cautious side.
+        // percent over all: a tenth of the energy, a twentieth of the error. With it, half of the vertices
+        // have no signal at all here, and what chance makes look like some is counted: up to a fifth of
+        // the energy, a tenth of the error, on the cautious side.
         EXPECT_NEAR(expected_error_unshrunk(measured, k).total() / truncated, 1.0, 0.1) << k;
         EXPECT_GT(shrinkage.expected_error(k).total() / shrunk, 0.95) << k;
         EXPECT_LT(shrinkage.expected_error(k).total() / shrunk, 1.25) << k;
