@@ -1,5 +1,6 @@
 // Error curves.
-// Based on: Cardoso and Kry, Error Analysis of Precomputed Radiance Transfer for Deforming Geometry, 2012
+// Based on: Cardoso and Kry, Error Analysis of Precomputed Radiance Transfer for Deforming
+//           Geometry, 2012
 #include "analysis/curves.h"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // Error curves: what components and bands cost in accuracy and save in bytes and time.
-// Based on: Cardoso and Kry, Error Analysis of Precomputed Radiance Transfer for Deforming Geometry, 2012
+// Based on: Cardoso and Kry, Error Analysis of Precomputed Radiance Transfer for Deforming
+//           Geometry, 2012
 #pragma once
 
 #include <cstdint>
@@ -39,12 +40,12 @@ struct Curve {
     std::vector<double> energy_errors;
 };
 
-// Norm of each coefficient over vertices, channels and poses, [bands²]: what plays the part of singular
-// values where bands are dropped (docs/metrics.md).
+// Norm of each coefficient over vertices, channels and poses, [bands²]: what plays the part of
+// singular values where bands are dropped (docs/metrics.md).
 std::vector<double> coefficient_norms(const BakeReader& bake);
 
-// The three curves of the paper, not measured yet: all there is, then those of the asked-for components
-// and bands that are less. The model holds all components in f32.
+// The three curves of the paper, not measured yet: all there is, then those of the asked-for
+// components and bands that are less. The model holds all components in f32.
 std::vector<Curve> plan_curves(const BakeReader& bake, const Model& model,
                                const std::vector<uint32_t>& components,
                                const std::vector<uint32_t>& bands);

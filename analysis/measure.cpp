@@ -1,5 +1,6 @@
 // Measures error curves.
-// Based on: Cardoso and Kry, Error Analysis of Precomputed Radiance Transfer for Deforming Geometry, 2012
+// Based on: Cardoso and Kry, Error Analysis of Precomputed Radiance Transfer for Deforming
+//           Geometry, 2012
 #include "analysis/measure.h"
 
 #include <algorithm>

@@ -30,8 +30,8 @@ void run_gnuplot(const std::string& script, const std::filesystem::path& output)
     }
 }
 
-// Text within gnuplot's single quotes. A line would end there, and what follows it be a command: control
-// characters become blanks, as file names may hold them.
+// Text within gnuplot's single quotes. A line would end there, and what follows it be a command:
+// control characters become blanks, as file names may hold them.
 std::string quoted(const std::string& text) {
     std::string result = "'";
     for (const char c : text) {

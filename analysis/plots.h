@@ -13,8 +13,8 @@ namespace paim {
 // Whether gnuplot can be run.
 bool have_gnuplot();
 
-// Writes NAME.svg (error against the setting) and NAME_bytes.svg, NAME_time.svg (visual error against
-// bytes and decode time) into the directory. Error (output
+// Writes NAME.svg (error against the setting) and NAME_bytes.svg, NAME_time.svg (visual error
+// against bytes and decode time) into the directory. Error (output
 // failed) if gnuplot fails, which says why on stderr.
 void write_plots(const std::filesystem::path& directory, const Curve& curve,
                  const std::vector<NamedLight>& lights);

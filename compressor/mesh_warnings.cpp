@@ -13,19 +13,17 @@ struct Kind {
     const char* meaning;
 };
 
-std::vector<std::string> lines(std::initializer_list<Kind> kinds) {
+std::vector<std::string> lines(const std::string& mesh, const std::vector<Kind>& kinds) {
     std::vector<std::string> texts;
     for (const Kind& kind : kinds) {
         if (kind.count == 0) continue;
-        texts.push_back(fmt::format("mesh: {} {}: {}", kind.count, kind.what, kind.meaning));
+        texts.push_back(fmt::format("{}: {} {}: {}", mesh, kind.count, kind.what, kind.meaning));
     }
     return texts;
 }
 
-}  // namespace
-
-std::vector<std::string> mesh_warnings(const TopologyReport& report) {
-    return lines({
+std::vector<Kind> kinds_of(const TopologyReport& report) {
+    return {
         {report.isolated_vertices, "vertices belong to no face", "their transfer is 0"},
         {report.duplicate_faces, "faces have the vertices of an earlier one",
          "they count once for normals"},
@@ -38,16 +36,33 @@ std::vector<std::string> mesh_warnings(const TopologyReport& report) {
          "vertex normals there average both and light is wrong; make the orientation consistent"},
         {report.non_manifold_edges, "edges join three or more faces",
          "vertex normals there average them all"},
-    });
+    };
+}
+
+constexpr const char* kNoArea = "they have no normal and block nothing";
+constexpr const char* kCoincident = "neither shadows the other, each is lit on its own side";
+
+}  // namespace
+
+std::vector<std::string> mesh_warnings(const TopologyReport& report) {
+    return lines("mesh", kinds_of(report));
 }
 
 std::vector<std::string> mesh_warnings(const PoseReport& total) {
-    return lines({
-        {total.zero_area_faces, "faces (over all poses) have no area",
-         "they have no normal and block nothing"},
-        {total.coincident_faces, "faces (over all poses) lie exactly on another",
-         "neither shadows the other, each is lit on its own side"},
-    });
+    return lines(
+        "mesh",
+        {
+            {total.zero_area_faces, "faces (over all poses) have no area", kNoArea},
+            {total.coincident_faces, "faces (over all poses) lie exactly on another", kCoincident},
+        });
+}
+
+std::vector<std::string> static_mesh_warnings(const std::string& file, const TopologyReport& report,
+                                              const PoseReport& pose) {
+    std::vector<Kind> kinds = kinds_of(report);
+    kinds.push_back({pose.zero_area_faces, "faces have no area", kNoArea});
+    kinds.push_back({pose.coincident_faces, "faces lie exactly on another", kCoincident});
+    return lines(file, kinds);
 }
 
 nlohmann::ordered_json mesh_json(const TopologyReport& report, const PoseReport& total) {

@@ -70,8 +70,9 @@ void add_bake_options(CLI::App& app, CompressOptions& options, RawOptions& raw) 
         ->check(CLI::IsMember({"per-pose", "shared", "mixed"}))
         ->capture_default_str();
     app.add_option("--albedo", raw.albedo,
-                   "Diffuse reflectance R,G,B (or one number), linear, 0 to 1; default: vertex "
-                   "colours, else Kd of the materials, else 0.8");
+                   "Diffuse reflectance of the poses R,G,B (or one number), linear, 0 to 1; "
+                   "default: vertex colours, else Kd of the materials, else 0.8. The floor has "
+                   "--floor-albedo, files of --static what they say themselves");
     app.add_option(
            "--bounces", options.bake.bounces,
            fmt::format("How often light may bounce before it reaches a vertex, 0 to {}; with "
@@ -85,7 +86,7 @@ void add_bake_options(CLI::App& app, CompressOptions& options, RawOptions& raw) 
                      "their shadow and is lit and compressed with them");
     app.add_option("--floor-albedo", raw.floor_albedo,
                    "Diffuse reflectance R,G,B (or one number) of the floor, linear, 0 to 1; "
-                   "default: 0.8")
+                   "default: 0.8, whatever --albedo is")
         ->needs(floor);
     app.add_option("--floor-vertices", raw.floor_vertices,
                    fmt::format("The most vertices that the floor may have, {} to {}; more make its "
@@ -96,8 +97,9 @@ void add_bake_options(CLI::App& app, CompressOptions& options, RawOptions& raw) 
         ->needs(floor);
     app.add_option("--static", options.statics,
                    "An OBJ file of scenery, which blocks and bounces the poses' light but is "
-                   "stored once; may be "
-                   "given several times. The poses cast no shadow on it: for that there is --floor")
+                   "stored once; may be given several times. The poses cast no shadow on it: for "
+                   "that there is --floor. Its albedo is its vertex colours, else Kd of its "
+                   "materials, else 0.8, whatever --albedo is")
         ->allow_extra_args(false);
     app.add_option("--seed", options.bake.seed, "Seed of the random streams, 0 to 2^64 - 1")
         ->check(cli::in_range(uint64_t{0}, std::numeric_limits<uint64_t>::max()))

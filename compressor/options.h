@@ -37,8 +37,8 @@ struct CompressOptions {
     bool quiet = false;
 };
 
-// Parses the command line. Returns nothing when the tool is done (help, version, usage error), with the
-// exit code in exit_code. Throws Error(usage) for values out of range.
+// Parses the command line. Returns nothing when the tool is done (help, version, usage error), with
+// the exit code in exit_code. Throws Error(usage) for values out of range.
 std::optional<CompressOptions> parse_options(int argc, const char* const* argv, int& exit_code);
 
 // "A-B" or "A" as first and last pose, inclusive. Throws Error(usage) unless A <= B < num_poses.

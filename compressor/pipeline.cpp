@@ -7,6 +7,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 
 #include "compressor/bake/bake_sequence.h"
 #include "compressor/io/obj_files.h"
@@ -75,6 +76,7 @@ ordered_json bake(const CompressOptions& options, const std::filesystem::path& d
         on_floor.emplace(sequence, bounds, *options.floor);
         surroundings.floor = on_floor->description();
     }
+    ordered_json static_mesh = ordered_json::array();
     for (const std::string& file : options.statics) {
         ObjOptions static_options;
         static_options.normals_from_file = obj_options.normals_from_file;
@@ -82,6 +84,13 @@ ordered_json bake(const CompressOptions& options, const std::filesystem::path& d
         const ObjSequence still({file}, static_options);
         print_warnings(still.warnings());
         surroundings.scenery.add(still);
+        const Topology& mesh = still.topology();
+        const TopologyReport report = report_topology(mesh);
+        const PoseReport pose_report = report_pose(
+            mesh, std::span(surroundings.scenery.pose.positions).last(mesh.num_vertices));
+        print_warnings(static_mesh_warnings(file, report, pose_report));
+        static_mesh.push_back({{"file", file}});
+        static_mesh.back().update(mesh_json(report, pose_report));
     }
     const PoseSource& poses = on_floor ? static_cast<const PoseSource&>(*on_floor) : sequence;
     const TransferLayout baked_layout =
@@ -117,6 +126,7 @@ ordered_json bake(const CompressOptions& options, const std::filesystem::path& d
     json["vertices_without_normal"] = summary.total.zero_normals;
     json["relative_noise"] = noise;
     json["mesh"] = mesh_json(topology, summary.total.mesh);
+    if (!static_mesh.empty()) json["static_mesh"] = static_mesh;
     if (!options.json) {
         fmt::print(
             "{}: {} vertices, {} triangles, poses {}-{} of {} ({} baked, {} found), {} bands\n",
@@ -137,7 +147,11 @@ ordered_json bake(const CompressOptions& options, const std::filesystem::path& d
                                  static_cast<double>(summary.total.rays)
                            : 0.0);
         }
-        if (!surroundings.floor.empty()) fmt::print("  on a floor of {}\n", surroundings.floor);
+        if (!surroundings.floor.empty()) {
+            const double y = sequence.origin().y();
+            fmt::print("  on a floor of {}{}\n", surroundings.floor,
+                       y != 0.0 ? fmt::format(" (y counted from the origin's, {})", y) : "");
+        }
         if (!scenery.empty()) {
             fmt::print("  among scenery of {} vertices and {} triangles\n",
                        scenery.topology.num_vertices, scenery.topology.triangles.size());

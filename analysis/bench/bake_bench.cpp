@@ -1,5 +1,5 @@
-// Baking against bare Embree: the same rays in the same order and scene, with nothing round them, one by
-// one (rtcOccluded1) and sixteen at a time (rtcOccluded16) as the baker traces them.
+// Baking against bare Embree: the same rays in the same order and scene, with nothing round them,
+// one by one (rtcOccluded1) and sixteen at a time (rtcOccluded16) as the baker traces them.
 #include "analysis/bench/bare_rays.h"
 #include "analysis/bench/ratio.h"
 #include "compressor/bake/cosine_directions.h"
@@ -66,7 +66,8 @@ void bake(benchmark::State& state, Bare bare, uint32_t num_vertices, uint32_t nu
         timed([&] { const Scene built(octopus.topology(), pose.positions); }).cpu_s;
 }
 
-// The same bake on one thread and on several: ratio_wall is how many times faster they are together.
+// The same bake on one thread and on several: ratio_wall is how many times faster they are
+// together.
 void bake_threads(benchmark::State& state, uint32_t num_vertices, uint32_t num_rays, int threads) {
     const PoseSet octopus = poses::make_octopus(num_vertices, 1);
     const Pose pose = octopus.load_pose(0);

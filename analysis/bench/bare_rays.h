@@ -10,7 +10,8 @@
 
 namespace paim::bench {
 
-// Rays that a bake traces, made beforehand: `per_origin` directions for each origin, in the bake's order.
+// Rays that a bake traces, made beforehand: `per_origin` directions for each origin, in the bake's
+// order.
 struct RayList {
     std::vector<Vec3f> origins;
     std::vector<Vec3f> directions;  // [origins][per_origin]
@@ -23,7 +24,8 @@ class BareScene {
     BareScene(const Topology& topology, std::span<const Vec3f> positions);
     ~BareScene();
 
-    // Traces all rays on as many threads, in pieces of `origins_per_piece`. returns how many are blocked
+    // Traces all rays on as many threads, in pieces of `origins_per_piece`. returns how many are
+    // blocked
     uint64_t count_blocked(const RayList& rays, size_t origins_per_piece) const;
 
     // The same by rtcOccluded16; rays.per_origin is a multiple of 16.

@@ -1,5 +1,6 @@
-// Encoding a bake of the paper's size with 7 bands, from its directory to the file: wall clock, peak memory, and what
-// remains of the bytes. Opt-in, as it writes 2.4 GB: PAIM_BENCH_LARGE names a directory with room for it.
+// Encoding a bake of the paper's size with 7 bands, from its directory to the file: wall clock,
+// peak memory, and what remains of the bytes. Opt-in, as it writes 2.4 GB: PAIM_BENCH_LARGE names a
+// directory with room for it.
 #include <benchmark/benchmark.h>
 
 #include <cstdlib>
@@ -18,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Forgets the process's peak memory so far.                          (Linux, Documentation/filesystems/proc.rst)
+// Forgets the process's peak memory so far (Linux, Documentation/filesystems/proc.rst).
 void reset_peak_memory() {
     std::ofstream("/proc/self/clear_refs") << "5";
 }

@@ -36,7 +36,8 @@ inline double median(std::vector<double> values) {
 }
 
 // Runs both once an iteration and reports the medians over the iterations of
-//   ratio, ratio_wall  reference time / our time, of processor and of wall clock: above 1 we are faster
+//   ratio, ratio_wall  reference time / our time, of processor and of wall clock: above 1 we are
+//                      faster
 // The processor's is what a busy machine disturbs least; the wall clock's also sees idle threads.
 // The iteration's own time is ours alone.
 template <typename Reference, typename Ours>

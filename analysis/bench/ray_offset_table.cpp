@@ -1,11 +1,12 @@
-// How many shadow rays go wrong for how far off the surface they start: the table of docs/geometry.md.
-// Based on: Carsten Wächter and Nikolaus Binder, A Fast and Robust Method for Avoiding Self-Intersection,
-//           Ray Tracing Gems, 2019 (one of the ways that are compared)
+// How many shadow rays go wrong for how far off the surface they start: the table of
+// docs/geometry.md.
+// Based on: Carsten Wächter and Nikolaus Binder, A Fast and Robust Method for Avoiding
+//           Self-Intersection, Ray Tracing Gems, 2019 (one of the ways that are compared)
 //
-// The truth is the limit of an offset that vanishes: double precision against every triangle, from 10⁻⁹ of
-// the shortest edge above the vertex. A ray is wrongly blocked (leaked) if it is blocked there but not in truth, and
-// wrongly open the other way round. The truth is asked for where the ways disagree; on all of a million rays
-// over these meshes it never differed from ways that agree.
+// The truth is the limit of an offset that vanishes: double precision against every triangle, from
+// 10⁻⁹ of the shortest edge above the vertex. A ray is wrongly blocked (leaked) if it is blocked
+// there but not in truth, and wrongly open the other way round. The truth is asked for where the
+// ways disagree; on all of a million rays over these meshes it never differed from ways that agree.
 //   paim-ray-offsets [OBJ]...      shapes of paim-poses, then one pose a file
 #include <fmt/format.h>
 

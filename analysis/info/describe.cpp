@@ -85,12 +85,8 @@ ordered_json describe_bake(const std::filesystem::path& path) {
         json["scenery_triangles"] = bake.scenery()->topology.triangles.size();
     }
     json["origin"] = {identity.origin.x(), identity.origin.y(), identity.origin.z()};
-    uint64_t size_bytes = 0;
-    for (uint32_t p = 0; p < bake.num_poses(); ++p) {
-        size_bytes += std::filesystem::file_size(bake_pose_file(path, p));
-    }
     const PoseStatistics total = bake.total_statistics();
-    json["size_bytes"] = size_bytes;
+    json["size_bytes"] = bake.size_bytes();
     json["rays_traced"] = total.rays;
     json["rays_blocked"] = total.blocked;
     json["vertices_without_normal"] = total.zero_normals;

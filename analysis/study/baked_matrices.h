@@ -27,8 +27,8 @@ class Truth {
     // Relative RMS error of the transfer.
     double error(const Eigen::MatrixXf& approximation) const;
 
-    // The error (L2 norm over its coefficients) that this share of all vertices of all poses stays below.
-    // The truth's own noise counts.
+    // The error (L2 norm over its coefficients) that this share of all vertices of all poses stays
+    // below. The truth's own noise counts.
     double vertex_error(const Eigen::MatrixXf& approximation, uint32_t num_vertices,
                         double share) const;
 

@@ -38,9 +38,9 @@ inline float power_of_two_near(int k) {
     return std::ldexp(1.0f, -static_cast<int>(std::lround(k * std::log2(10.0))));
 }
 
-// Rows (k, i) are random numbers times ±1 by the k-th Walsh function of 16 poses, times about 10^-k, for
-// k = 0 … 14. All exact in float; the means are zero, the Walsh functions are orthogonal: s_k is the length of
-// the numbers times 4, in closed form.
+// Rows (k, i) are random numbers times ±1 by the k-th Walsh function of 16 poses, times about
+// 10^-k, for k = 0 … 14. All exact in float; the means are zero, the Walsh functions are
+// orthogonal: s_k is the length of the numbers times 4, in closed form.
 inline MatrixXf graded_walsh(Index rows_of_each) {
     MatrixXf matrix(15 * rows_of_each, 16);
     const MatrixXf numbers = random(matrix.rows(), 1, 2);

@@ -34,8 +34,10 @@ struct Case {
 };
 
 void print(const Case& c, const char* method, Index num_components, const MatrixXf& approximation) {
-    fmt::print("{},{},{},{},{:.5f},{:.4f}\n", c.options.name, c.label, method, num_components,
-               c.truth.error(approximation), c.truth.flicker(approximation));
+    const double flicker = c.truth.flicker(approximation);
+    fmt::print("{},{},{},{},{:.5f},{}\n", c.options.name, c.label, method, num_components,
+               c.truth.error(approximation),
+               std::isfinite(flicker) ? fmt::format("{:.4f}", flicker) : "");
     std::fflush(stdout);
 }
 

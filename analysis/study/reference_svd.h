@@ -1,5 +1,5 @@
-// Slow singular values to compare with: one-sided Jacobi in long double on the whole centred matrix, without
-// scaling, pivoting, blocks or QR.
+// Slow singular values to compare with: one-sided Jacobi in long double on the whole centred
+// matrix, without scaling, pivoting, blocks or QR.
 // Based on: Hestenes, Inversion of Matrices by Biorthogonalization and Related Results, 1958
 #pragma once
 
@@ -23,8 +23,8 @@ inline LongMatrix centred_reference(const Eigen::MatrixXf& matrix) {
     return centred;
 }
 
-// returns [min(rows, columns)], descending. 64 bits of mantissa: errors of 1e-19 of the largest, times a
-// few; the exponent's 15 bits hold the squares of all doubles.
+// returns [min(rows, columns)], descending. 64 bits of mantissa: errors of 1e-19 of the largest,
+// times a few; the exponent's 15 bits hold the squares of all doubles.
 inline std::vector<double> singular_values_reference(LongMatrix work) {
     if (work.rows() < work.cols()) work = LongMatrix(work.transpose());
     bool turned = true;

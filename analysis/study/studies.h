@@ -17,8 +17,8 @@ struct StudyOptions {
     std::vector<double> targets;  // transfer errors to try
 };
 
-// True error and flicker of encoded transfer, against rays, random streams, number of components and
-// how the noise in them is treated.
+// True error and flicker of encoded transfer, against rays, random streams, number of components
+// and how the noise in them is treated. One pose has no flicker: its cell is empty.
 void study_noise(const PoseSource& source, const StudyOptions& options);
 
 // True error of the bake itself against rays, for each sampler.

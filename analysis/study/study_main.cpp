@@ -7,7 +7,10 @@
 #include "analysis/study/studies.h"
 #include "compressor/io/obj_files.h"
 #include "compressor/io/obj_sequence.h"
+#include "paim/base/error.h"
+#include "paim/cli/parse.h"
 #include "paim/cli/run_main.h"
+#include "paim/sh/index.h"
 #include "poses/octopus.h"
 #include "poses/shapes.h"
 
@@ -25,6 +28,12 @@ std::unique_ptr<PoseSource> open_source(const std::vector<std::string>& inputs,
             poses::make_pose_set(*poses::make_bowl_sequence(num_vertices), num_poses));
     }
     return std::make_unique<ObjSequence>(find_obj_files(inputs, false));
+}
+
+void check_even(const char* option, uint32_t rays) {
+    if (rays % 2 != 0) {
+        throw_usage("{}: expected an even number (two independent halves), got {}", option, rays);
+    }
 }
 
 int run(int argc, char** argv) {
@@ -47,18 +56,27 @@ int run(int argc, char** argv) {
     app.add_option("OBJ", inputs, "OBJ files, patterns, folders; or 'octopus' or 'bowl'")
         ->required();
     app.add_option("--name", options.name, "Name in the CSV; default: the first input");
-    app.add_option("--poses", options.num_poses, "The first so many poses")->capture_default_str();
-    app.add_option("--vertices", num_vertices, "Of the octopus or the bowl")->capture_default_str();
-    app.add_option("--bands", options.bands, "Bands")->capture_default_str();
-    app.add_option("--truth-rays", options.truth_rays, "Rays of what counts as true (seed 77)")
+    const auto rays_range = cli::in_range(uint32_t{2}, uint32_t{1} << 24);
+    app.add_option("--poses", options.num_poses, "The first so many poses, 1 to 10000")
+        ->check(cli::in_range(uint32_t{1}, uint32_t{10'000}))
         ->capture_default_str();
-    app.add_option("--rays", options.rays, "Rays to try (seed 1)")->delimiter(',');
-    app.add_option("--targets", options.targets, "Error targets to try")->delimiter(',');
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 1;
-    }
+    app.add_option("--vertices", num_vertices, "Of the octopus or the bowl")->capture_default_str();
+    app.add_option("--bands", options.bands, fmt::format("Bands, 1 to {}", sh::kMaxBands))
+        ->check(cli::in_range(1, static_cast<int>(sh::kMaxBands)))
+        ->capture_default_str();
+    app.add_option("--truth-rays", options.truth_rays,
+                   "Rays of what counts as true (seed 77), even, 2 to 16777216")
+        ->check(rays_range)
+        ->capture_default_str();
+    app.add_option("--rays", options.rays, "Rays to try (seed 1), even, 2 to 16777216")
+        ->delimiter(',')
+        ->check(rays_range);
+    app.add_option("--targets", options.targets, "Error targets to try, 0.000001 to 1")
+        ->delimiter(',')
+        ->check(cli::in_range(1e-6, 1.0));
+    if (const int code = cli::parse(app, argc, argv); code >= 0) return code;
+    check_even("--truth-rays", options.truth_rays);
+    for (const uint32_t rays : options.rays) check_even("--rays", rays);
     if (options.name.empty()) options.name = inputs.front();
     const auto source = open_source(inputs, num_vertices, options.num_poses);
     options.num_poses = std::min(options.num_poses, source->num_poses());

@@ -1,5 +1,5 @@
-// paim-svd-study: singular values and vectors of hard matrices by the encoder's way, and by the Gram matrix, which
-// is the usual way, against long double. Prints docs/results/svd.md's table.
+// paim-svd-study: singular values and vectors of hard matrices by the encoder's way, and by the
+// Gram matrix, which is the usual way, against long double. Prints docs/results/svd.md's table.
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>

@@ -1,4 +1,5 @@
-// Bakes a whole sequence into a .bake directory, pose by pose, going on where an earlier run stopped.
+// Bakes a whole sequence into a .bake directory, pose by pose, going on where an earlier run
+// stopped.
 #pragma once
 
 #include <filesystem>

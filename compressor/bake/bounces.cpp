@@ -1,5 +1,6 @@
 // Light that bounces before it reaches a vertex.
-// Based on: Sloan, Kautz and Snyder 2002; Goral, Torrance, Greenberg and Battaile 1984 (see the header)
+// Based on: Sloan, Kautz and Snyder 2002; Goral, Torrance, Greenberg and Battaile 1984 (see the
+//           header)
 #include "compressor/bake/bounces.h"
 
 #include <algorithm>

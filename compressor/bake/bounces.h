@@ -1,7 +1,8 @@
 // Light that bounces before it reaches a vertex (E2).
-// Based on: Sloan, Kautz and Snyder, Precomputed Radiance Transfer for Real-Time Rendering in Dynamic,
-//           Low-Frequency Lighting Environments, 2002, section 5; Goral, Torrance, Greenberg and Battaile,
-//           Modeling the Interaction of Light between Diffuse Surfaces, 1984
+// Based on: Sloan, Kautz and Snyder, Precomputed Radiance Transfer for Real-Time Rendering in
+//           Dynamic, Low-Frequency Lighting Environments, 2002, section 5; Goral, Torrance,
+//           Greenberg and Battaile, Modeling the Interaction of Light between Diffuse Surfaces,
+//           1984
 #pragma once
 
 #include <array>
@@ -32,14 +33,15 @@ struct BounceScene {
     Albedo scenery_albedo;  // [1] or [S]
     const BounceTerms* scenery_terms =
         nullptr;  // of at least the number of bounces; null: no scenery
-    // Row of one half of a vertex; indices from V on are the scenery's. Called from several threads,
-    // possibly more than once for a row, and always with the same answer.
+    // Row of one half of a vertex; indices from V on are the scenery's. Called from several
+    // threads, possibly more than once for a row, and always with the same answer.
     std::function<void(size_t v, size_t half, HitRow& row)> make_row;
 };
 
 // Adds num_bounces bounces. Each half bounces its own light with its own rays, so that half their
-// difference still estimates the error of their mean. Rows beyond max_row_bytes are made again for each
-// bounce, which changes the time it takes and nothing else. Deterministic on any number of threads.
+// difference still estimates the error of their mean. Rows beyond max_row_bytes are made again for
+// each bounce, which changes the time it takes and nothing else. Deterministic on any number of
+// threads.
 // halves   in: [C][V] the transfer without bounces; out: [channels · C][V] with them
 // returns  terms 0 … num_bounces − 1, if they are asked for
 BounceTerms add_bounces(const BounceScene& scene, uint32_t num_bounces,

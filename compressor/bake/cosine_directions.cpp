@@ -1,6 +1,7 @@
 // Cosine-distributed directions.
-// Based on: Shirley and Chiu, A Low Distortion Map Between Disk and Square, 1997 (concentric, so that
-//           neighbouring points stay neighbours); projecting the disk up gives cosine density (Malley)
+// Based on: Shirley and Chiu, A Low Distortion Map Between Disk and Square, 1997 (concentric, so
+//           that neighbouring points stay neighbours); projecting the disk up gives cosine density
+//           (Malley)
 #include "compressor/bake/cosine_directions.h"
 
 #include <algorithm>
@@ -13,8 +14,8 @@ namespace {
 
 constexpr uint32_t kPadding = 16;
 
-// Vector registers on every machine we know (SSE2, NEON); GCC and Clang do arithmetic on them directly.
-// Left to itself GCC 12 keeps this loop scalar, at two and a half times the cost.
+// Vector registers on every machine we know (SSE2, NEON); GCC and Clang do arithmetic on them
+// directly. Left to itself GCC 12 keeps this loop scalar, at two and a half times the cost.
 constexpr uint32_t kLanes = 4;
 using Floats = float __attribute__((vector_size(16)));
 using Ints = int32_t __attribute__((vector_size(16)));
@@ -100,7 +101,8 @@ void CosineDirections::generate(const Vec3f& normal, uint64_t key, DirectionArra
     for (uint32_t j = 0; j < padded; j += kLanes) {
         const Floats a = load<Floats>(to[0] + j);
         const Floats b = load<Floats>(to[1] + j);
-        // Concentric map: the larger coordinate is the signed radius, their ratio the angle from its axis.
+        // Concentric map: the larger coordinate is the signed radius, their ratio the angle from
+        // its axis.
         const Ints first = magnitude(a) > magnitude(b);
         const Floats radius = select(first, a, b);
         const Floats other = select(first, b, a);

@@ -14,8 +14,8 @@ struct DirectionArrays {
     std::vector<float> x, y, z;
 };
 
-// Directions [first, first + count) of a sequence whose density over the hemisphere is cos θ / π. Each
-// key gives an independent, unbiased sequence.
+// Directions [first, first + count) of a sequence whose density over the hemisphere is cos θ / π.
+// Each key gives an independent, unbiased sequence.
 class CosineDirections {
   public:
     CosineDirections(uint32_t first, uint32_t count);
@@ -32,8 +32,8 @@ class CosineDirections {
 };
 
 // Two unit vectors that make a right-handed basis with the unit normal.
-// Based on: Duff, Burgess, Christensen, Hery, Kensler, Liani and Villemin, Building an Orthonormal Basis,
-//           Revisited, JCGT 6(1), 2017
+// Based on: Duff, Burgess, Christensen, Hery, Kensler, Liani and Villemin, Building an Orthonormal
+//           Basis, Revisited, JCGT 6(1), 2017
 void orthonormal_basis(const Vec3f& normal, Vec3f& tangent, Vec3f& bitangent);
 
 }  // namespace paim

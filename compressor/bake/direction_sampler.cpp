@@ -31,8 +31,8 @@ class CosineSampler : public DirectionSampler {
     CosineDirections directions_;
 };
 
-// Empties the set and fills it from points in the unit square, uniform over the sphere by Archimedes'
-// hat-box theorem.
+// Empties the set and fills it from points in the unit square, uniform over the sphere by
+// Archimedes' hat-box theorem.
 class UniformSet {
   public:
     UniformSet(const Vec3f& normal, RaySet& out) : normal_(normal), out_(out) {

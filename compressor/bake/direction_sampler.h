@@ -24,8 +24,8 @@ struct RaySet : DirectionArrays {
     uint32_t num_rays = 0;
 };
 
-// Points [first, first + count) of a sequence of directions. For any function f of direction, the sum
-// of weight · f(ω) over the rays of a set, divided by num_points(), has the expectation
+// Points [first, first + count) of a sequence of directions. For any function f of direction, the
+// sum of weight · f(ω) over the rays of a set, divided by num_points(), has the expectation
 // 1/π ∫ max(0, n·ω) f(ω) dω. Each key gives an independent sequence.
 class DirectionSampler {
   public:

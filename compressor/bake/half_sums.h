@@ -49,10 +49,10 @@ class HalfTracer {
 //
 //     t_i = c · lobe_i + (open_i − c · all_i) / points,
 //
-// unbiased for any c that does not come from those rays. c is the fraction of open rays in the *other*
-// half: open vertices (c = 1) get the closed form exactly, closed ones (c = 0) exactly zero, and in
-// between the unoccluded part, whose integral is known, carries no noise of its own. Half the
-// difference of the two estimates is the standard error of their mean.
+// unbiased for any c that does not come from those rays. c is the fraction of open rays in the
+// *other* half: open vertices (c = 1) get the closed form exactly, closed ones (c = 0) exactly
+// zero, and in between the unoccluded part, whose integral is known, carries no noise of its own.
+// Half the difference of the two estimates is the standard error of their mean.
 // halves       both, whether their sums were added up or (all open or all blocked) not
 // unoccluded   [C] the transfer if nothing is blocked; empty: c = 0
 // estimates    [2][C]

@@ -16,8 +16,9 @@ struct HitWeight {
     float weight;
 };
 
-// A row of the matrix that takes radiance from vertices to a vertex: Σ weight · radiance(vertex) is the
-// mean over its rays of the radiance that they hit, interpolated on the triangles. Sorted by vertex.
+// A row of the matrix that takes radiance from vertices to a vertex: Σ weight · radiance(vertex) is
+// the mean over its rays of the radiance that they hit, interpolated on the triangles. Sorted by
+// vertex.
 using HitRow = std::vector<HitWeight>;
 
 // Traces one row.
@@ -27,7 +28,8 @@ class HitTracer {
     HitTracer(const Scene& scene, const Topology& topology, std::span<const Vec3f> positions)
         : scene_(scene), topology_(topology), positions_(positions) {}
 
-    // Adds a batch of rays to the row. Triangles hit from behind take a ray's light away and give none.
+    // Adds a batch of rays to the row. Triangles hit from behind take a ray's light away and give
+    // none.
     void trace(const Vec3f& origin, const Vec3f& normal, const DirectionSampler& sampler,
                uint64_t key);
 

@@ -1,6 +1,6 @@
 // Two-dimensional Sobol points with hash-based Owen scrambling.
-// Based on: Brent Burley, Practical Hash-based Owen Scrambling, JCGT 9(4), 2020, after Laine and Karras,
-//           Stratified Sampling for Stochastic Transparency, 2011; Sobol', 1967
+// Based on: Brent Burley, Practical Hash-based Owen Scrambling, JCGT 9(4), 2020, after Laine and
+//           Karras, Stratified Sampling for Stochastic Transparency, 2011; Sobol', 1967
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,11 @@
 
 namespace paim {
 
-// Points [first, first + count) of the (0, 2)-sequence, each coordinate a 32-bit fraction with its bits
-// reversed, which is the form that scrambling works on. In Morton order: points of the same square or
-// half square (an elementary interval) follow one another, and as scrambling moves whole intervals,
-// they still do afterwards, whatever the seed. Rays along neighbouring directions go together.
+// Points [first, first + count) of the (0, 2)-sequence, each coordinate a 32-bit fraction with its
+// bits reversed, which is the form that scrambling works on. In Morton order: points of the same
+// square or half square (an elementary interval) follow one another, and as scrambling moves whole
+// intervals, they still do afterwards, whatever the seed. Rays along neighbouring directions go
+// together.
 struct SobolPoints {
     std::vector<uint32_t> reversed_x;
     std::vector<uint32_t> reversed_y;
@@ -29,8 +30,8 @@ constexpr Word reverse_bits(Word x) {
     return ((x & 0x55555555u) << 1) | ((x & 0xaaaaaaaau) >> 1);
 }
 
-// Permutes so that every bit depends only on itself, the seed and lower bits: an Owen scramble when the
-// bits are reversed. The constants are Nathan Vegdahl's, with better avalanche than Burley's:
+// Permutes so that every bit depends only on itself, the seed and lower bits: an Owen scramble when
+// the bits are reversed. The constants are Nathan Vegdahl's, with better avalanche than Burley's:
 // "Building a Better LK Hash", 2021.
 template <typename Word>
 constexpr Word laine_karras_permutation(Word x, uint32_t seed) {

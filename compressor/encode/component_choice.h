@@ -18,12 +18,12 @@ struct ComponentChoice {
 uint32_t choose_components(const ComponentChoice& choice, std::span<const double> singular_values,
                            uint32_t rank, double automatic_energy_error);
 
-// √(Σ dropped signal / Σ signal) over the components that stand out from noise, if K of them are kept;
-// what lies below the noise cannot be had, so it does not count. 0 where there is no signal.
+// √(Σ dropped signal / Σ signal) over the components that stand out from noise, if K of them are
+// kept; what lies below the noise cannot be had, so it does not count. 0 where there is no signal.
 double signal_error(const ComponentNoise& noise, uint32_t num_components);
 
-// Of data with noise: `automatic` does the same with the signal in each component, and never keeps one
-// that does not stand out from noise.
+// Of data with noise: `automatic` does the same with the signal in each component, and never keeps
+// one that does not stand out from noise.
 uint32_t choose_components(const ComponentChoice& choice, const ComponentNoise& noise,
                            double automatic_energy_error);
 

@@ -19,8 +19,8 @@ using Eigen::MatrixXd;
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
-// Turns columns p and q so that they become orthogonal. Returns whether they were not. Pairs shorter
-// than `negligible` are rounding, which would never come to rest.
+// Turns columns p and q so that they become orthogonal. Returns whether they were not. Pairs
+// shorter than `negligible` are rounding, which would never come to rest.
 bool orthogonalise(MatrixXd& work, Index p, Index q, double negligible) {
     const double alpha = work.col(p).squaredNorm();
     const double beta = work.col(q).squaredNorm();
@@ -57,8 +57,9 @@ SmallSvd jacobi_svd(const MatrixXd& matrix) {
     // Convergence is quadratic, ten sweeps are usual; what sixty leave is rounding.
     constexpr int kMaxSweeps = 60;
     const Index m = matrix.rows();
-    // The transpose is V S Uᵀ: once its columns are orthogonal, they are those of V S, and no rotation
-    // needs to be remembered. Scaled so that squares of the entries neither overflow nor vanish.
+    // The transpose is V S Uᵀ: once its columns are orthogonal, they are those of V S, and no
+    // rotation needs to be remembered. Scaled so that squares of the entries neither overflow nor
+    // vanish.
     const double scale = m > 0 ? matrix.cwiseAbs().maxCoeff() : 0.0;
     MatrixXd work = scale > 0.0 ? MatrixXd(matrix.transpose() / scale) : matrix.transpose();
     bool turned = scale > 0.0;

@@ -1,7 +1,9 @@
-// One-sided Jacobi: singular values and right singular vectors of a small matrix to high relative accuracy.
-// Based on: Hestenes, Inversion of Matrices by Biorthogonalization and Related Results, 1958; de Rijk, A
-//           One-Sided Jacobi Algorithm for Computing the Singular Value Decomposition on a Vector
-//           Computer, 1989; Demmel and Veselić, Jacobi's Method Is More Accurate than QR, 1992
+// One-sided Jacobi: singular values and right singular vectors of a small matrix to high relative
+// accuracy.
+// Based on: Hestenes, Inversion of Matrices by Biorthogonalization and Related Results, 1958; de
+//           Rijk, A One-Sided Jacobi Algorithm for Computing the Singular Value Decomposition on a
+//           Vector Computer, 1989; Demmel and Veselić, Jacobi's Method Is More Accurate than QR,
+//           1992
 #pragma once
 
 #include <Eigen/Core>
@@ -14,8 +16,8 @@ struct SmallSvd {
 };
 
 // matrix  [m][n], m <= n, finite (checked)
-// The signs of v's columns are chosen so that the entry of largest magnitude is positive, so that the
-// answer is unique where singular values differ. O(n m²) a sweep.
+// The signs of v's columns are chosen so that the entry of largest magnitude is positive, so that
+// the answer is unique where singular values differ. O(n m²) a sweep.
 SmallSvd jacobi_svd(const Eigen::MatrixXd& matrix);
 
 }  // namespace paim

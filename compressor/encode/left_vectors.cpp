@@ -15,8 +15,8 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-// How far from zero products of columns of A' V S⁻¹ may be, for P poses: they are u_j · A' v_k / s_k, and
-// u_j · A' v_k is off by up to P/3 · 2^-52 s_0 (measured, 6 to 103 poses).
+// How far from zero products of columns of A' V S⁻¹ may be, for P poses: they are u_j · A'
+// v_k / s_k, and u_j · A' v_k is off by up to P/3 · 2^-52 s_0 (measured, 6 to 103 poses).
 double uncorrected(const PrincipalComponents& components, uint32_t num_components) {
     const double ratio =
         components.singular_values[0] / components.singular_values[num_components - 1];

@@ -1,6 +1,6 @@
 // Left singular vectors, a few rows at a time: U = A' V S⁻¹, orthonormal to rounding whatever s_k.
-// Based on: Björck, Numerical Methods for Least Squares Problems, 1996, section 2.4 (orthogonality lost,
-//           and regained by orthogonalising again)
+// Based on: Björck, Numerical Methods for Least Squares Problems, 1996, section 2.4 (orthogonality
+//           lost, and regained by orthogonalising again)
 #pragma once
 
 #include "compressor/encode/principal_components.h"
@@ -8,10 +8,10 @@
 
 namespace paim {
 
-// A' V S⁻¹ alone is orthonormal only to the roundings of R and V, which are of the size of s_0: to some
-// P · 2^-52 s_0/s_k. Where that is more than is asked for, the triangular factor of those very columns is
-// computed in another pass over the rows, and U = (A' V S⁻¹) R⁻¹, orthonormal to a few 2^-53. The change of
-// U S Vᵀ is a rounding of s_0.
+// A' V S⁻¹ alone is orthonormal only to the roundings of R and V, which are of the size of s_0: to
+// some P · 2^-52 s_0/s_k. Where that is more than is asked for, the triangular factor of those very
+// columns is computed in another pass over the rows, and U = (A' V S⁻¹) R⁻¹, orthonormal to a few
+// 2^-53. The change of U S Vᵀ is a rounding of s_0.
 class LeftVectors {
   public:
     // rows            read through only if a correction is needed
@@ -24,7 +24,8 @@ class LeftVectors {
     bool corrected() const { return correction_.size() > 0; }
 
     // Rows of the data, centred, become rows of the components (unit RMS over all rows).
-    // on_rows(first, mean, scores): `mean` and the rows of `scores` belong to rows first, first + 1, …
+    // on_rows(first, mean, scores): `mean` and the rows of `scores` belong to rows first,
+    // first + 1, …
     // note  a block must begin at a multiple of kRowsAtOnce, so that every pass rounds alike
     using OnRows = std::function<void(Eigen::Index first, const Eigen::VectorXd& mean,
                                       const Eigen::MatrixXd& scores)>;

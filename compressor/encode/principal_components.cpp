@@ -1,5 +1,6 @@
 // The principal components of a data matrix, streamed.
-// Based on: Alexa and Müller, Representing Animations by Principal Components, 2000; Cardoso and Kry 2012
+// Based on: Alexa and Müller, Representing Animations by Principal Components, 2000; Cardoso and
+//           Kry 2012
 #include "compressor/encode/principal_components.h"
 
 #include <algorithm>
@@ -42,9 +43,9 @@ EncodedRows encode_block(const RowSource& rows, uint64_t first, uint64_t count,
 uint32_t PrincipalComponents::rank() const {
     if (singular_values.empty()) return 0;
     const auto num_poses = v.rows();
-    // Reducing P columns rounds about P times. So does each of the folds of kRowsAtOnce rows, by less than
-    // 2^-52 of the largest value and at random: √folds. Measured on matrices of exactly known rank: at most
-    // a third (6.6 · 2^-52 of 6 poses and a million rows).
+    // Reducing P columns rounds about P times. So does each of the folds of kRowsAtOnce rows, by
+    // less than 2^-52 of the largest value and at random: √folds. Measured on matrices of exactly
+    // known rank: at most a third (6.6 · 2^-52 of 6 poses and a million rows).
     const double num_folds = static_cast<double>(num_rows) / static_cast<double>(kRowsAtOnce);
     const double floor = singular_values[0] *
                          (static_cast<double>(num_poses) + std::sqrt(num_folds)) *
@@ -83,8 +84,8 @@ void for_each_encoded_block(const RowSource& rows, const PrincipalComponents& co
                             uint32_t num_components,
                             const std::function<void(EncodedRows&)>& on_block,
                             uint32_t num_in_flight) {
-    // A 64th of what the rounding to float does, so that it cannot show: the pass that 1e-12 takes would be
-    // for nothing.
+    // A 64th of what the rounding to float does, so that it cannot show: the pass that 1e-12 takes
+    // would be for nothing.
     constexpr double kAsStored = 0x1p-30;
     const LeftVectors left(rows, components, num_components, kAsStored, num_in_flight);
     const uint64_t block_rows = rows_per_block(rows.num_columns());

@@ -18,8 +18,8 @@ using Eigen::VectorXd;
 // Columns that are reduced one by one before the rest follows in matrix products.
 constexpr Index kPanel = 16;
 
-// Reduces columns [first, first + tau.size()). Reflection j is 1 − tau_j v vᵀ, where v is 1 at row j of
-// R and, at the new rows, what is left in column j.
+// Reduces columns [first, first + tau.size()). Reflection j is 1 − tau_j v vᵀ, where v is 1 at row
+// j of R and, at the new rows, what is left in column j.
 void reduce_panel(MatrixXd& r, MatrixXd& rows, Index first, VectorXd& tau) {
     const Index end = first + tau.size();
     for (Index j = first; j < end; ++j) {

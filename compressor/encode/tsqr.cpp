@@ -1,6 +1,6 @@
 // The triangular factor of a tall matrix, by blocks.
-// Based on: Demmel, Grigori, Hoemmen and Langou, Communication-Optimal Parallel and Sequential QR and LU
-//           Factorizations, 2012 (TSQR)
+// Based on: Demmel, Grigori, Hoemmen and Langou, Communication-Optimal Parallel and Sequential QR
+//           and LU Factorizations, 2012 (TSQR)
 #include "compressor/encode/tsqr.h"
 
 #include <algorithm>
@@ -73,9 +73,9 @@ void centre_rows(const Eigen::Ref<const Eigen::MatrixXf>& block, MatrixXd& centr
     centred.resize(block.rows(), block.cols());
     mean.setZero(block.rows());
     if (block.cols() == 0) return;
-    // Differences to the first column first, which doubles hold exactly: rounding is then that of what
-    // moves, however far from zero it does, and a row that is still gives zeros. Column by column, as they
-    // lie in memory.
+    // Differences to the first column first, which doubles hold exactly: rounding is then that of
+    // what moves, however far from zero it does, and a row that is still gives zeros. Column by
+    // column, as they lie in memory.
     const Eigen::VectorXd first = block.col(0).cast<double>();
     for (Index p = 0; p < block.cols(); ++p) {
         centred.col(p) = block.col(p).cast<double>() - first;
@@ -92,8 +92,8 @@ MatrixXd triangular_factor(const RowSource& rows, Index num_columns, const RowMa
     const uint64_t block_rows = rows_per_block(rows.num_columns());
     const uint64_t num_blocks = (rows.num_rows() + block_rows - 1) / block_rows;
     const uint64_t num_runs = std::min<uint64_t>(kMaxInFlight, num_blocks);
-    // Factors of 2^i runs that wait for their right neighbours, larger ones first: a tree's left edge.
-    // Folding them as soon as they are complete gives the same tree for any number in flight.
+    // Factors of 2^i runs that wait for their right neighbours, larger ones first: a tree's left
+    // edge. Folding them as soon as they are complete gives the same tree for any number in flight.
     std::vector<Subtree> waiting;
     for (uint64_t first = 0; first < num_runs; first += num_in_flight) {
         std::vector<MatrixXd> factors(std::min<uint64_t>(num_in_flight, num_runs - first));

@@ -1,7 +1,7 @@
-// The triangular factor of a tall matrix, by blocks: R with RᵀR = A'ᵀA' for the mean-centred A', without
-// ever forming that product, which would square the condition number.
-// Based on: Demmel, Grigori, Hoemmen and Langou, Communication-Optimal Parallel and Sequential QR and LU
-//           Factorizations, 2012 (TSQR)
+// The triangular factor of a tall matrix, by blocks: R with RᵀR = A'ᵀA' for the mean-centred A',
+// without ever forming that product, which would square the condition number.
+// Based on: Demmel, Grigori, Hoemmen and Langou, Communication-Optimal Parallel and Sequential QR
+//           and LU Factorizations, 2012 (TSQR)
 #pragma once
 
 #include <Eigen/Core>
@@ -13,18 +13,18 @@
 
 namespace paim {
 
-// Runs of blocks that are factored side by side, and blocks that wait to be written in order. Each run
-// holds an n x n factor; fewer in flight need less memory and give the same bytes.
+// Runs of blocks that are factored side by side, and blocks that wait to be written in order. Each
+// run holds an n x n factor; fewer in flight need less memory and give the same bytes.
 constexpr uint32_t kMaxInFlight = 32;
 
 // What is factored, [rows][n], of centred rows [rows][P].
 using RowMap = std::function<void(const Eigen::MatrixXd& centred, Eigen::MatrixXd& mapped)>;
 
-// Rows are centred by their own mean over the columns, in double, and mapped where there is a map to
-// num_columns columns. returns [n][n], upper triangular.
+// Rows are centred by their own mean over the columns, in double, and mapped where there is a map
+// to num_columns columns. returns [n][n], upper triangular.
 // num_in_flight  a power of two to kMaxInFlight
-// The blocks and the tree that combines them depend on the matrix's size alone, so the bytes are the
-// same on any number of threads and with any number in flight.
+// The blocks and the tree that combines them depend on the matrix's size alone, so the bytes are
+// the same on any number of threads and with any number in flight.
 Eigen::MatrixXd triangular_factor(const RowSource& rows, Eigen::Index num_columns,
                                   const RowMap& map, uint32_t num_in_flight = kMaxInFlight);
 Eigen::MatrixXd centred_triangular_factor(const RowSource& rows,

@@ -29,8 +29,8 @@ struct ObjParseOptions {
     std::filesystem::path material_folder;
 };
 
-// text  rewritten by scan_obj, which gave `scan` with positions; tinyobjloader's are not used, for they may
-//       be some roundings off
+// text  rewritten by scan_obj, which gave `scan` with positions; tinyobjloader's are not used, for
+//       they may be some roundings off
 // Unreadable material libraries give warnings. Errors (bad input) if tinyobjloader refuses the file
 // or reads it otherwise than the scan did.
 ParsedObj parse_obj(const std::string& name, std::span<char> text, const ObjScan& scan,

@@ -42,7 +42,8 @@ ObjSequence::ObjSequence(std::vector<std::filesystem::path> files, const ObjOpti
 
 void ObjSequence::check_files() {
     checksums_.resize(files_.size());
-    std::vector<BoundsD> bounds(files_.size());
+    std::vector<BoundsD> bounds(files_.size());      // of vertices that a face has
+    std::vector<BoundsD> all_bounds(files_.size());  // of all
     const auto check = [&](size_t i) {
         std::vector<char> text = read_file(files_[i], kMaxFileBytes);
         checksums_[i] = xxh3(text.data(), text.size());
@@ -50,6 +51,7 @@ void ObjSequence::check_files() {
         ObjScan scan = scan_obj(files_[i].string(), text,
                                 {options_.normals_from_file, i > 0 ? &reference : nullptr, true});
         for (const uint32_t v : scan.faces.corners) bounds[i].extend(scan.positions[v]);
+        all_bounds[i].extend(scan.positions);
         scan.positions = {};
         if (i == 0) first_ = std::move(scan);
         if (options_.on_file_checked) options_.on_file_checked();
@@ -74,6 +76,17 @@ void ObjSequence::check_files() {
     if (failed < files_.size()) std::rethrow_exception(failures[failed]);
     for (size_t i = 1; i < bounds.size(); ++i) bounds[0].extend(bounds[i]);
     origin_ = options_.origin.value_or(choose_origin(bounds[0]));
+    for (size_t i = 0; i < files_.size(); ++i) check_local(i, all_bounds[i]);
+}
+
+// Rounding is monotonic: where the bounds are finite in local(), all between them is.
+void ObjSequence::check_local(size_t file, const BoundsD& bounds) const {
+    if (bounds.empty()) return;
+    for (const Vec3f& corner : local({bounds.lower, bounds.upper})) {
+        if (corner.allFinite()) continue;
+        throw_bad_input("{}: coordinates are too large when counted from the origin ({}, {}, {})",
+                        files_[file].string(), origin_.x(), origin_.y(), origin_.z());
+    }
 }
 
 // Counted from the origin while they are still in double.

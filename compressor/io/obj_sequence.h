@@ -9,6 +9,7 @@
 
 #include "compressor/io/obj_parse.h"
 #include "compressor/io/obj_scan.h"
+#include "paim/mesh/bounds.h"
 #include "paim/mesh/pose_source.h"
 
 namespace paim {
@@ -32,8 +33,9 @@ class ObjSequence : public PoseSource {
     // Checks every file (obj_scan.h) before anything else is done, in parallel. The faces are
     // triangulated by the geometry of the first one, which also gives the albedo (obj_albedo.h).
     // files  at least one; find_obj_files() gives them. The same file may be several poses.
-    // Errors (bad input): any file unreadable, above 4 GiB, damaged or unlike the first; of
-    // several, the first in the order of the sequence is reported, on any number of threads.
+    // Errors (bad input): any file unreadable, above 4 GiB, damaged, unlike the first, or with a
+    // coordinate that is no float when counted from the origin; of several, the first in the order
+    // of the sequence is reported, on any number of threads (coordinates after all else).
     explicit ObjSequence(std::vector<std::filesystem::path> files, const ObjOptions& options = {});
 
     const Topology& topology() const override { return topology_; }
@@ -51,6 +53,7 @@ class ObjSequence : public PoseSource {
 
   private:
     void check_files();
+    void check_local(size_t file, const BoundsD& bounds) const;
     void build_from_first();
     ParsedObj parse(uint32_t p, bool with_materials) const;
     std::vector<Vec3f> local(const std::vector<Vec3d>& positions) const;

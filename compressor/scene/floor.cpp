@@ -21,8 +21,8 @@ constexpr double kFine = 0.08;    // how far fine cells reach beyond the poses' 
 constexpr double kEdge = 0.3;     // how far the floor does
 constexpr double kGrowth = 1.25;  // of a cell over its inner neighbour, where they grow
 
-// Lines of the grid along one axis: fine cells of `cell` from lower to upper (stretched to fit a whole
-// number), then growing ones as far as `reach` on both sides.
+// Lines of the grid along one axis: fine cells of `cell` from lower to upper (stretched to fit a
+// whole number), then growing ones as far as `reach` on both sides.
 std::vector<double> grid_lines(double lower, double upper, double cell, double reach) {
     const auto num_fine = static_cast<size_t>(std::max(1.0, std::ceil((upper - lower) / cell)));
     const double width = (upper - lower) / static_cast<double>(num_fine);
@@ -110,8 +110,11 @@ Bounds bounds_of(const PoseSource& source, const std::function<void()>& on_pose)
     Bounds all;
     std::mutex mutex;
     parallel_for(source.num_poses(), 1, [&](size_t p, size_t) {
+        const Pose pose = source.load_pose(static_cast<uint32_t>(p));
         Bounds bounds;
-        bounds.extend(source.load_pose(static_cast<uint32_t>(p)).positions);
+        for (const Triangle& triangle : source.topology().triangles) {
+            for (const uint32_t v : triangle) bounds.extend(pose.positions[v]);
+        }
         {
             const std::lock_guard lock(mutex);  // the order does not matter to a minimum
             all.extend(bounds.lower);

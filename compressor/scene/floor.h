@@ -18,9 +18,9 @@ struct FloorOptions {
 constexpr uint32_t kMinFloorVertices = 16;
 constexpr uint32_t kMaxFloorVertices = 4'000'000;
 
-// A horizontal rectangle that faces up (+Y), just under the lowest point of all poses. Under them and
-// a little beyond, its cells are squares of one size; from there to its edge, 0.3 of the largest extent
-// of the poses away, they grow.
+// A horizontal rectangle that faces up (+Y), just under the lowest point of all poses. Under them
+// and a little beyond, its cells are squares of one size; from there to its edge, 0.3 of the
+// largest extent of the poses away, they grow.
 struct Floor {
     Topology topology;
     std::vector<Vec3f> positions;  // [N] scene units
@@ -31,12 +31,13 @@ struct Floor {
     Floor(const Bounds& bounds, uint32_t max_vertices);
 };
 
-// Bounds of all poses; every one is read once.
+// Bounds of the vertices that a triangle has, in all poses; every one is read once. A vertex in no
+// triangle cannot be seen, and a floor goes by what can.
 // on_pose  called after each pose, from several threads at once
 Bounds bounds_of(const PoseSource& source, const std::function<void()>& on_pose = {});
 
-// The floor's vertices and triangles come after the source's, the same in every pose, so that they are
-// lit, shadowed and compressed with the rest.
+// The floor's vertices and triangles come after the source's, the same in every pose, so that they
+// are lit, shadowed and compressed with the rest.
 class PosesOnFloor : public PoseSource {
   public:
     // Keeps a reference to the source.

@@ -18,7 +18,8 @@ struct StaticMesh {
 
     bool empty() const { return topology.num_vertices == 0; }
 
-    // Adds the source's first pose, counted from the same origin as the poses it stands among. Error (bad input) if that makes more than 2^31 - 1 vertices.
+    // Adds the source's first pose, counted from the same origin as the poses it stands among.
+    // Error (bad input) if that makes more than 2^31 - 1 vertices.
     void add(const PoseSource& source);
 };
 

@@ -29,7 +29,8 @@ int parse(CLI::App& app, int argc, const char* const* argv) {
     } catch (const CLI::Success& success) {  // --help, --version
         return app.exit(success);
     } catch (const CLI::ExtrasError&) {
-        // The first of them that looks like an option is the mistake; what follows may be its value.
+        // The first of them that looks like an option is the mistake; what follows may be its
+        // value.
         const std::vector<std::string> extras = app.remaining(true);
         const auto option = std::find_if(extras.begin(), extras.end(), [](const std::string& text) {
             return text.starts_with('-');

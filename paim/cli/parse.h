@@ -17,8 +17,9 @@ namespace paim::cli {
 // ExitCode::usage; returns -1 when the tool should go on.
 int parse(CLI::App& app, int argc, const char* const* argv);
 
-// A check for options: a whole number (or, for floating-point T, a finite one) from lowest to highest.
-// What it says is what every other message says; the range is in the option's own description.
+// A check for options: a whole number (or, for floating-point T, a finite one) from lowest to
+// highest. What it says is what every other message says; the range is in the option's own
+// description.
 template <typename T>
 CLI::Validator in_range(T lowest, T highest) {
     const auto check = [lowest, highest](std::string& text) {
@@ -37,8 +38,9 @@ CLI::Validator in_range(T lowest, T highest) {
 // "0.05" or "5%" as 0.05. Throws Error(usage) naming the option unless it is a finite number >= 0.
 double parse_fraction(const std::string& text, const std::string& option);
 
-// "1000000", "512M", "1.5G" in bytes: K, M, G and T (or k, m, g, t) are powers of 1000. Throws Error(usage)
-// naming the option unless it is a number from 1 byte to 2^63 bytes; fractions of a byte are dropped.
+// "1000000", "512M", "1.5G" in bytes: K, M, G and T (or k, m, g, t) are powers of 1000. Throws
+// Error(usage) naming the option unless it is a number from 1 byte to 2^63 bytes; fractions of a
+// byte are dropped.
 uint64_t parse_bytes(const std::string& text, const std::string& option);
 
 // "R,G,B" or one number for all three, each in [0, 1]. Throws Error(usage) naming the option.

@@ -38,8 +38,8 @@ struct LowRankMatrix {
     }
 };
 
-// What stands still beside an animation, stored once. It blocks and bounces the animation's light; its
-// own transfer is that of the scenery alone, for the animation casts no shadow on it.
+// What stands still beside an animation, stored once. It blocks and bounces the animation's light;
+// its own transfer is that of the scenery alone, for the animation casts no shadow on it.
 struct Scenery {
     Topology topology;  // without vertices: there is no scenery
     Albedo albedo;
@@ -56,8 +56,9 @@ struct Model {
     LowRankMatrix geometry;  // 3 planes: x, y, z
     LowRankMatrix transfer;  // layout.num_planes() planes
     Scenery scenery;
-    // What the geometry is counted from, scene units: adding it, in double, gives scene coordinates.
-    // Zero unless the mesh was far from the world's origin; whoever shows one model alone may ignore it.
+    // What the geometry is counted from, scene units: adding it, in double, gives scene
+    // coordinates. Zero unless the mesh was far from the world's origin; whoever shows one model
+    // alone may ignore it.
     Vec3d origin = Vec3d::Zero();
     float frames_per_second = 24.0f;
     std::string name;

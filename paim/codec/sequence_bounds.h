@@ -10,15 +10,15 @@
 
 namespace paim {
 
-// Bounds of all that is seen at `time` (in poses, clamped as Decoder::decode does): the positions, and the
-// scenery as far as 500 diagonals of the positions' bounds around them. Whatever lies farther would take
-// the depth buffer's precision from the animation.
+// Bounds of all that is seen at `time` (in poses, clamped as Decoder::decode does): the positions,
+// and the scenery as far as 500 diagonals of the positions' bounds around them. Whatever lies
+// farther would take the depth buffer's precision from the animation.
 Bounds pose_bounds(const Model& model, double time, uint32_t num_geometry_components);
 
-// Bounds of all poses and of the scenery as far as one diagonal of the poses around them, so that a wide
-// landscape does not make them small; with all components. Long sequences of large meshes are sampled: every n-th
-// pose and the last, with the smallest n that keeps the work within a few seconds. The same model
-// gives the same bounds everywhere.
+// Bounds of all poses and of the scenery as far as one diagonal of the poses around them, so that a
+// wide landscape does not make them small; with all components. Long sequences of large meshes are
+// sampled: every n-th pose and the last, with the smallest n that keeps the work within a few
+// seconds. The same model gives the same bounds everywhere.
 Bounds sequence_bounds(const Model& model);
 
 // What sequence_bounds() makes of the bounds of all poses and of the scenery's positions, [3][S].

@@ -53,8 +53,8 @@ struct BakedPose {
     std::vector<float> positions;  // [3][V] scene units
     std::vector<float> normals;    // [3][V]
     std::vector<float> transfer;   // [planes][V]
-    // [planes][V] one draw of the transfer's error: half the difference of its two independent halves,
-    // which has the mean (0) and the variance of that error. Files hold it as f16.
+    // [planes][V] one draw of the transfer's error: half the difference of its two independent
+    // halves, which has the mean (0) and the variance of that error. Files hold it as f16.
     std::vector<float> noise;
     PoseStatistics statistics;
 };
@@ -74,8 +74,8 @@ struct BakedScenery {
 PoseStatistics read_bake_statistics(const std::filesystem::path& directory,
                                     uint64_t identity_checksum, uint32_t p, uint32_t bands);
 
-// The scenery of a bake. Errors (bad input) name the file: missing, damaged, of another bake, or shapes,
-// indices or numbers that make no sense.
+// The scenery of a bake. Errors (bad input) name the file: missing, damaged, of another bake, or
+// shapes, indices or numbers that make no sense.
 BakedScenery read_bake_scenery(const std::filesystem::path& directory, uint64_t identity_checksum,
                                const TransferLayout& layout);
 
@@ -128,6 +128,9 @@ class BakeReader {
     PoseStatistics read_statistics(uint32_t p) const {
         return read_bake_statistics(directory_, identity_checksum_, p, identity_.layout.bands);
     }
+
+    // Of all files that belong to it.
+    uint64_t size_bytes() const;
 
     // Of all poses together.
     PoseStatistics total_statistics() const;

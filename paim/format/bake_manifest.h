@@ -8,7 +8,8 @@
 
 namespace paim {
 
-// The text as a manifest gives it back: bytes that are not UTF-8 (file names may have them) replaced.
+// The text as a manifest gives it back: bytes that are not UTF-8 (file names may have them)
+// replaced.
 std::string as_manifest_text(const std::string& text);
 
 std::string manifest_text(const BakeIdentity& identity);

@@ -110,6 +110,16 @@ BakeReader::BakeReader(std::filesystem::path directory) : directory_(std::move(d
     require_planes(pose, section::kTransfer, identity_.layout.num_planes(), identity_.num_vertices);
 }
 
+uint64_t BakeReader::size_bytes() const {
+    uint64_t total = std::filesystem::file_size(directory_ / "manifest.json") +
+                     std::filesystem::file_size(directory_ / "mesh.bin");
+    if (scenery_) total += std::filesystem::file_size(bake_scenery_file(directory_));
+    for (uint32_t p = 0; p < num_poses(); ++p) {
+        total += std::filesystem::file_size(bake_pose_file(directory_, p));
+    }
+    return total;
+}
+
 BakedPose BakeReader::read_pose(uint32_t p) const {
     const ContainerReader reader(bake_pose_file(directory_, p), section::kKindPose);
     const auto read = [&](Tag tag, uint32_t num_planes, ScalarType type = ScalarType::f32) {

@@ -36,7 +36,8 @@ class ContainerReader {
     std::vector<double> read_f64(const Section& section) const;
     std::string read_text(const Section& section) const;
 
-    // Values [first, first + count) of an f32 or f16 section, unverified: for streaming after verify().
+    // Values [first, first + count) of an f32 or f16 section, unverified: for streaming after
+    // verify().
     void read_range(const Section& section, uint64_t first, uint64_t count, float* out) const;
 
     // Reads the section through and checks its checksum.

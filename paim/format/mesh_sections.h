@@ -22,13 +22,13 @@ Topology read_triangles(const ContainerReader& reader, uint32_t num_vertices,
 Albedo read_albedo(const ContainerReader& reader, uint32_t num_vertices,
                    Tag tag = section::kAlbedo);
 
-// All values of an f32 (or f16) section of num_planes × num_vertices finite numbers; anything else is an error (bad
-// input).
+// All values of an f32 (or f16) section of num_planes × num_vertices finite numbers; anything else
+// is an error (bad input).
 std::vector<float> read_planes(const ContainerReader& reader, Tag tag, uint32_t num_planes,
                                uint32_t num_vertices, ScalarType type = ScalarType::f32);
 
-// The vertices that a section of positions, [3][V], has: 1 to 2³¹ − 1, anything else is an error (bad
-// input).
+// The vertices that a section of positions, [3][V], has: 1 to 2³¹ − 1, anything else is an error
+// (bad input).
 uint32_t count_vertices(const ContainerReader& reader, Tag tag);
 
 // Error (bad input) naming the file, the section and the place of the first value that is not

@@ -30,7 +30,8 @@ uint64_t paim_size_bytes(const Model& model);
 // as a whole. All or nothing.
 class PaimWriter {
   public:
-    // `model` holds everything but the means and components, which may be empty; the scenery is whole.
+    // `model` holds everything but the means and components, which may be empty; the scenery is
+    // whole.
     // Errors (output failed) name the path.
     PaimWriter(const std::filesystem::path& path, const Model& model);
 

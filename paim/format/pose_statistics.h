@@ -30,7 +30,8 @@ struct PoseStatistics {
 // The root mean square of planes (transfer/layout.h) over all but the band, [bands].
 std::vector<double> rms_by_band(const TransferLayout& layout, std::span<const float> planes);
 
-// Counts add up; RMS values are those over all poses, which have the same number of bands (checked).
+// Counts add up; RMS values are those over all poses, which have the same number of bands
+// (checked).
 PoseStatistics combine(std::span<const PoseStatistics> poses);
 
 }  // namespace paim

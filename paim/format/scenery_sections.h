@@ -15,8 +15,8 @@ std::vector<SectionSpec> scenery_specs(const Scenery& scenery, const TransferLay
 // Fills the sections of scenery_specs(), which begin with number `first`.
 void append_scenery(ContainerWriter& writer, size_t first, const Scenery& scenery);
 
-// Empty if the file has none. Errors (bad input): one of the sections is missing, or shapes, indices or
-// numbers make no sense.
+// Empty if the file has none. Errors (bad input): one of the sections is missing, or shapes,
+// indices or numbers make no sense.
 Scenery read_scenery(const ContainerReader& reader, const TransferLayout& layout);
 
 }  // namespace paim

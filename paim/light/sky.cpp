@@ -15,8 +15,8 @@ namespace paim {
 namespace {
 
 constexpr double kDegree = kPi / 180.0;
-// The sun stands over the scene's front left, between −X and +Z: to the side of the default camera, so
-// that forms show.
+// The sun stands over the scene's front left, between −X and +Z: to the side of the default camera,
+// so that forms show.
 constexpr double kSunElevation = 28.0 * kDegree;
 constexpr double kSunAzimuth = -50.0 * kDegree;  // from +Z towards +X
 // Brings the average to about a half, so that light surfaces are well exposed at 0 EV.

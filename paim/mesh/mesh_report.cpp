@@ -36,7 +36,8 @@ struct SortedFace {
 
 enum class Copy : uint8_t { none, same_side, other_side };
 
-// Whether an earlier face has the same three vertices, [F]. Faces that name a vertex twice are none.
+// Whether an earlier face has the same three vertices, [F]. Faces that name a vertex twice are
+// none.
 std::vector<Copy> find_copies(std::span<const Triangle> faces) {
     std::vector<SortedFace> sorted;
     sorted.reserve(faces.size());

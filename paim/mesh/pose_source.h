@@ -23,8 +23,8 @@ class PoseSource {
     virtual const Albedo& albedo() const = 0;
     virtual uint32_t num_poses() const = 0;
 
-    // Positions of all poses are counted from here: adding it, in double, gives scene coordinates. Zero
-    // unless the mesh is far from the world's origin (mesh/origin.h).
+    // Positions of all poses are counted from here: adding it, in double, gives scene coordinates.
+    // Zero unless the mesh is far from the world's origin (mesh/origin.h).
     virtual Vec3d origin() const { return Vec3d::Zero(); }
 
     // A name for messages and manifests: a file name, or what made the pose.

@@ -1,5 +1,6 @@
 // How far an image is from a reference.
-// Based on: Cardoso and Kry, Error Analysis of Precomputed Radiance Transfer for Deforming Geometry, 2012
+// Based on: Cardoso and Kry, Error Analysis of Precomputed Radiance Transfer for Deforming
+//           Geometry, 2012
 #pragma once
 
 #include <cstdint>

@@ -8,8 +8,8 @@ namespace paim {
 
 namespace {
 
-// Σ s^power of the values from `first`, smallest first, relative to the largest of all so that nothing
-// over- or underflows.
+// Σ s^power of the values from `first`, smallest first, relative to the largest of all so that
+// nothing over- or underflows.
 template <typename Power>
 double tail_sum(std::span<const double> singular_values, size_t first, const Power& power) {
     double sum = 0.0;

@@ -1,5 +1,6 @@
 // What dropping components costs, from the singular values alone.
-// Based on: Cardoso and Kry, Error Analysis of Precomputed Radiance Transfer for Deforming Geometry, 2012
+// Based on: Cardoso and Kry, Error Analysis of Precomputed Radiance Transfer for Deforming
+//           Geometry, 2012
 #pragma once
 
 #include <cstddef>
@@ -7,8 +8,8 @@
 
 namespace paim {
 
-// E5, the paper's theoretical error of keeping K components: Σ_{k≥K} s_k / Σ_k s_k, 0 … 1. 0 where all
-// singular values are 0: nothing moves, nothing is lost.
+// E5, the paper's theoretical error of keeping K components: Σ_{k≥K} s_k / Σ_k s_k, 0 … 1. 0 where
+// all singular values are 0: nothing moves, nothing is lost.
 double theory_error(std::span<const double> singular_values, size_t num_components);
 
 // The energy error √(Σ_{k≥K} s_k² / Σ_k s_k²), 0 … 1: exactly the relative Frobenius error of the

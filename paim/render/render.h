@@ -1,5 +1,5 @@
-// Reference images on the CPU: one primary ray a pixel, vertex radiance interpolated over the triangle
-// (Gouraud), as the player's rasteriser does it.
+// Reference images on the CPU: one primary ray a pixel, vertex radiance interpolated over the
+// triangle (Gouraud), as the player's rasteriser does it.
 #pragma once
 
 #include <span>

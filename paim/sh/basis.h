@@ -34,15 +34,16 @@ class BatchBasis {
 
     // x, y, z  [kBatch] unit directions, or zero
     // values   [bands²][kBatch]
-    // err      relative to the largest value of a band, sqrt((2l+1)/4π), and to the direction before
-    //          it was rounded to float: 5e-7 at 5 bands, 3e-6 at 10, 8e-6 at 16 (2^-24 · l²/2, all of it
-    //          near the poles); 2e-6 at 17 to 64, which are computed in double
-    // cost     about 130 ps a value with SSE2: 50 ns for 5 bands, 180 ns for 10, 420 ns for 16; 270 ps
-    //          above, 17 µs for 64
+    // err      relative to the largest value of a band, sqrt((2l+1)/4π), and to the direction
+    //          before it was rounded to float: 5e-7 at 5 bands, 3e-6 at 10, 8e-6 at 16
+    //          (2^-24 · l²/2, all of it near the poles); 2e-6 at 17 to 64, which are computed in
+    //          double
+    // cost     about 130 ps a value with SSE2: 50 ns for 5 bands, 180 ns for 10, 420 ns for 16; 270
+    //          ps above, 17 µs for 64
     void evaluate(const float* x, const float* y, const float* z, float* values) const;
 
-    // Adds Σ_j weights[j] · y_i(direction j) to each coefficient's sum, at the cost of evaluate alone:
-    // the weight is what the recurrences start from.
+    // Adds Σ_j weights[j] · y_i(direction j) to each coefficient's sum, at the cost of evaluate
+    // alone: the weight is what the recurrences start from.
     // weights  [kBatch]
     // sums     [bands²][kSumLanes]; the lanes of a coefficient together are its sum
     // err      each weighted value as that of evaluate, and the rounding of float sums

@@ -1,5 +1,5 @@
-// Sixteen directions at once: the recurrences of basis.cpp over arrays of lanes, in loops that compilers
-// turn into vector code on every machine. In float to 16 bands, in double above.
+// Sixteen directions at once: the recurrences of basis.cpp over arrays of lanes, in loops that
+// compilers turn into vector code on every machine. In float to 16 bands, in double above.
 // Based on: Peter-Pike Sloan, Efficient Spherical Harmonic Evaluation, 2013
 #include <cmath>
 #include <cstring>
@@ -12,9 +12,10 @@ namespace paim::sh {
 
 namespace {
 
-// Above, floats lose too much: next to a pole one rounding of z, or of a step of the recurrence, changes
-// y_l0 by up to l(l+1)/2 roundings, 2^-24 · 2016 = 1.2e-4 at 64 bands, where x and y still say exactly how
-// far the pole is. In double, with z made to fit x and y again, what is left is the rounding of the result.
+// Above, floats lose too much: next to a pole one rounding of z, or of a step of the recurrence,
+// changes y_l0 by up to l(l+1)/2 roundings, 2^-24 · 2016 = 1.2e-4 at 64 bands, where x and y still
+// say exactly how far the pole is. In double, with z made to fit x and y again, what is left is the
+// rounding of the result.
 constexpr int kMaxFloatBands = 16;
 
 // A vector register on every machine we know (SSE2, NEON); GCC and Clang do arithmetic on it

@@ -24,8 +24,8 @@ struct Camera {
 constexpr float kDefaultAzimuth_rad = 0.5f;
 constexpr float kDefaultElevation_rad = 0.3f;
 
-// A camera that just sees all of the bounds, from slightly above; azimuth_rad about +Y (0 looks along
-// −Z, from +Z), elevation_rad above the horizon.
+// A camera that just sees all of the bounds, from slightly above; azimuth_rad about +Y (0 looks
+// along −Z, from +Z), elevation_rad above the horizon.
 Camera frame_bounds(const Bounds& bounds, float aspect, float azimuth_rad = kDefaultAzimuth_rad,
                     float elevation_rad = kDefaultElevation_rad);
 

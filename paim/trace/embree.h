@@ -9,8 +9,8 @@
 
 namespace paim::embree {
 
-// The default way to trace a ray, or sixteen of which `valid` takes part (-1) or not (0). May be shared
-// by the rays of one thread.
+// The default way to trace a ray, or sixteen of which `valid` takes part (-1) or not (0). May be
+// shared by the rays of one thread.
 class Context {
   public:
 #if PAIM_EMBREE_VERSION >= 4

@@ -1,6 +1,6 @@
 // Rays against triangles, through Embree.
-// Based on: Wald, Woop, Benthin, Johnson and Ernst, Embree: A Kernel Framework for Efficient CPU Ray
-//           Tracing, 2014
+// Based on: Wald, Woop, Benthin, Johnson and Ernst, Embree: A Kernel Framework for Efficient CPU
+//           Ray Tracing, 2014
 #include "paim/trace/scene.h"
 
 #include <algorithm>
@@ -80,8 +80,8 @@ RTCRay make_ray(const Vec3f& origin, const Vec3f& direction) {
     return ray;
 }
 
-// A power of two that brings the largest coordinate to 1/2 … 1, where Embree's arithmetic is at home: it
-// loses hits beyond about 1e±18. Multiplying by it is exact, so that nothing else changes.
+// A power of two that brings the largest coordinate to 1/2 … 1, where Embree's arithmetic is at
+// home: it loses hits beyond about 1e±18. Multiplying by it is exact, so that nothing else changes.
 float unit_scale(std::span<const Vec3f> positions, std::span<const Vec3f> more_positions) {
     float largest = 0.0f;
     for (const auto points : {positions, more_positions}) {
@@ -92,8 +92,8 @@ float unit_scale(std::span<const Vec3f> positions, std::span<const Vec3f> more_p
     return largest > 0.0f ? std::ldexp(1.0f, std::clamp(-exponent, -126, 126)) : 1.0f;
 }
 
-// Triangles without area as points, which no ray hits. Of those that are lines, rounding may leave enough for
-// a ray to hit.
+// Triangles without area as points, which no ray hits. Of those that are lines, rounding may leave
+// enough for a ray to hit.
 std::vector<Triangle> without_needles(const Topology& topology, std::span<const Vec3f> positions) {
     std::vector<Triangle> triangles = topology.triangles;
     for (Triangle& t : triangles) {

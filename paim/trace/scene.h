@@ -22,11 +22,13 @@ struct Hit {
 };
 
 // An acceleration structure over one pose. Built on construction; all queries are thread-safe. Both
-// sides of a triangle are hit, triangles without area (mesh/normals.h) never. Answers do not depend on the number of threads: traversal is Embree's
-// conservative ("robust") one, so that it is the triangle tests alone that decide.
+// sides of a triangle are hit, triangles without area (mesh/normals.h) never. Answers do not depend
+// on the number of threads: traversal is Embree's conservative ("robust") one, so that it is the
+// triangle tests alone that decide.
 class Scene {
   public:
-    // positions [V] finite. Throws Error(unsupported) if Embree cannot be started, or what it reports.
+    // positions [V] finite. Throws Error(unsupported) if Embree cannot be started, or what it
+    // reports.
     Scene(const Topology& topology, std::span<const Vec3f> positions);
 
     // The same with a second mesh. Its triangles are counted on from the first one's.

@@ -6,7 +6,8 @@
 namespace paim::player {
 
 // The image itself, if neither side is longer than max_size; otherwise blocks of n × n pixels
-// averaged to one, with the smallest n that is enough (blocks at the right and lower edge may be cut).
+// averaged to one, with the smallest n that is enough (blocks at the right and lower edge may be
+// cut).
 // max_size >= 1
 Image fit_image(const Image& image, int max_size);
 

@@ -39,9 +39,9 @@ const Albedo kWhite{{Vec3f::Ones()}};
 TEST(Bounces, OctopusInAWhiteFurnaceTurnsWhite) {
     const PoseSet octopus = poses::make_octopus(1000, 1);
     const size_t num_vertices = octopus.topology().num_vertices;
-    // What is missing from 1, e_N = K e_(N-1), where K is a matrix of weights whose rows sum up to the
-    // blocked part, e_0 (closed surface: no back is seen). So e_N(v) <= e_0(v) max e_(N-1), and as K has
-    // no negative entries the largest ratio of e_N to e_(N-1) never grows.
+    // What is missing from 1, e_N = K e_(N-1), where K is a matrix of weights whose rows sum up to
+    // the blocked part, e_0 (closed surface: no back is seen). So e_N(v) <= e_0(v) max e_(N-1), and
+    // as K has no negative entries the largest ratio of e_N to e_(N-1) never grows.
     std::vector<std::vector<double>> missing[2];
     for (const uint32_t bounces : {0u, 1u, 2u, 3u, 4u, 8u}) {
         const TransferBaker baker(make_options(1, 256, bounces), kWhite);
@@ -139,8 +139,8 @@ TEST(Bounces, PlatesBleedTheirColour) {
     const BakedPose baked = baker.bake(plates.both.topology(), plates.pose, 0);
     EXPECT_EQ(baked.statistics.back_hits, 0u);
     const size_t num_vertices = plates.pose.positions.size();
-    // In a constant light of 1, a point of the upper plate shows albedo (1 - F) by what the lower one
-    // hides, and a point x of the lower one gets of it, besides its own 1 - F,
+    // In a constant light of 1, a point of the upper plate shows albedo (1 - F) by what the lower
+    // one hides, and a point x of the lower one gets of it, besides its own 1 - F,
     // 1/pi Integral albedo (1 - F(y)) / |x - y|^4 dy over the upper plate, at distance 1.
     constexpr int kCells = 400;
     double worst = 0.0;
@@ -166,8 +166,8 @@ TEST(Bounces, PlatesBleedTheirColour) {
         }
     }
     RecordProperty("worst", std::to_string(worst));
-    // As for the open part alone (transfer_test.cpp), 0.007 for the worst vertex; interpolating 1 - F
-    // over cells of 2/19 adds at most h²/8 · max |F''| < 1e-3.
+    // As for the open part alone (transfer_test.cpp), 0.007 for the worst vertex; interpolating
+    // 1 - F over cells of 2/19 adds at most h²/8 · max |F''| < 1e-3.
     EXPECT_LT(worst, 0.008);
 }
 
@@ -216,8 +216,8 @@ TEST(Bounces, NoiseEstimateIsTheErrorAgainstManyRays) {
         noise += static_cast<double>(few.noise[r]) * static_cast<double>(few.noise[r]);
     }
     RecordProperty("ratio", std::to_string(std::sqrt(noise / error)));
-    // 9000 differences of halves, which bounced light ties to one another a little; the reference adds 1 %
-    // in quadrature.
+    // 9000 differences of halves, which bounced light ties to one another a little; the reference
+    // adds 1 % in quadrature.
     EXPECT_NEAR(std::sqrt(noise / error), 1.0, 0.1);
 }
 
@@ -257,8 +257,8 @@ TEST(Bounces, WorkWithAnErrorTargetAndEverySampler) {
             for (const float t : baked.transfer) {
                 mean += static_cast<double>(t) / kY00 / static_cast<double>(baked.transfer.size());
             }
-            // A white furnace. Samplers of the whole sphere weigh rays so that open and blocked parts
-            // add up to 1 only on average: to 1/sqrt(rays) each, and bounced some twice.
+            // A white furnace. Samplers of the whole sphere weigh rays so that open and blocked
+            // parts add up to 1 only on average: to 1/sqrt(rays) each, and bounced some twice.
             EXPECT_NEAR(mean, 1.0, sampler == SamplerKind::cosine ? 1e-3 : 0.02);
         }
     }

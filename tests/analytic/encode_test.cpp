@@ -57,10 +57,10 @@ double magnitude(const LowRankMatrix& matrix, size_t r, uint32_t p) {
 void expect_back_to_rounding(const LowRankMatrix& matrix, uint32_t p,
                              const std::vector<float>& decoded, const std::vector<float>& baked) {
     ASSERT_EQ(decoded.size(), baked.size());
-    // Floats round by at most u = 2^-24 of the value. The mean is stored with one rounding, each term
-    // component · weight with three (both factors, the product), and each of the K additions rounds a
-    // partial sum no larger than the magnitude: K + 4 roundings of it at most. The decomposition in
-    // double adds parts in 10^13 of numbers below 10.
+    // Floats round by at most u = 2^-24 of the value. The mean is stored with one rounding, each
+    // term component · weight with three (both factors, the product), and each of the K additions
+    // rounds a partial sum no larger than the magnitude: K + 4 roundings of it at most. The
+    // decomposition in double adds parts in 10^13 of numbers below 10.
     const double num_roundings = matrix.num_components + 4.0;
     for (size_t r = 0; r < baked.size(); ++r) {
         ASSERT_NEAR(decoded[r], baked[r], num_roundings * 0x1p-24 * magnitude(matrix, r, p) + 1e-12)
@@ -105,9 +105,9 @@ double relative_error(const std::vector<std::vector<float>>& decoded,
 // The Frobenius norm of what is dropped is that of its singular values (Eckart and Young, 1936), so
 // the energy error that the file states is the error of the decoded animation. Floats spoil that
 // little: with errors of 0.1 and more of the movement, roundings of 10^-7 of the positions (which
-// are a few times the movement) are at most 10^-5 of the error. They are random, so they add to it in
-// squares, 10^-10, but for a chance correlation of 10^-5 / √(rows · poses) = 10^-5 / √18000 < 10^-7.
-// Both are below the 10^-6 that is asked for.
+// are a few times the movement) are at most 10^-5 of the error. They are random, so they add to it
+// in squares, 10^-10, but for a chance correlation of
+// 10^-5 / √(rows · poses) = 10^-5 / √18000 < 10^-7. Both are below the 10^-6 that is asked for.
 TEST_F(Encode, TruncationErrorIsWhatTheDroppedSingularValuesSay) {
     const BakeReader bake(directory_ / "x.bake");
     std::vector<std::vector<float>> positions, transfer;

@@ -1,5 +1,5 @@
-// The same mesh at other sizes, far from the world's origin, and in another order: the same transfer.
-// All through OBJ files, since a float mesh that is far away has already lost its digits.
+// The same mesh at other sizes, far from the world's origin, and in another order: the same
+// transfer. All through OBJ files, since a float mesh that is far away has already lost its digits.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -120,8 +120,9 @@ struct Distance {
 };
 
 Distance distance(const Estimate& a, const Estimate& b) {
-    // Local coordinates are rounded anew, to 2^-24 of the size; normals change by that over the length of
-    // an edge, 1/30 of the size: 2e-6, and coefficients of five bands by four times as much at most.
+    // Local coordinates are rounded anew, to 2^-24 of the size; normals change by that over the
+    // length of an edge, 1/30 of the size: 2e-6, and coefficients of five bands by four times as
+    // much at most.
     constexpr double kRounding = 1e-5;
     const size_t num_vertices = a.mean.size() / kCoefficients;
     std::vector<double> per_vertex(num_vertices, 0.0);
@@ -152,8 +153,9 @@ void expect_same_transfer(const Estimate& changed, const Estimate& a, const Esti
                           const std::string& what) {
     const Distance null = distance(a, b);
     const Distance here = distance(a, changed);
-    // 4.5 standard errors: by chance once in 150,000 comparisons; some of the 25 biases, once in 6,000.
-    // The error of both is that of the null, for what differs has errors as large as one likes.
+    // 4.5 standard errors: by chance once in 150,000 comparisons; some of the 25 biases, once in
+    // 6,000. The error of both is that of the null, for what differs has errors as large as one
+    // likes.
     EXPECT_LT(here.per_vertex - null.per_vertex, 4.5 * std::sqrt(2.0) * null.error)
         << what << ": " << here.per_vertex << " against " << null.per_vertex;
     EXPECT_LT(here.worst_bias, 4.5) << what;
@@ -218,7 +220,8 @@ TEST_P(Extremes, AnyOrderGivesTheSameTransfer) {
 }
 
 TEST_P(Extremes, PowersOfTwoChangeNothingAtAll) {
-    // Scaling by them is exact, and so is everything that follows: the same rays hit the same faces.
+    // Scaling by them is exact, and so is everything that follows: the same rays hit the same
+    // faces.
     const std::vector<float> transfer = ObjMesh(mesh_).bake(1).transfer;
     for (const int exponent : {-60, -20, 20, 60}) {
         const double scale = std::ldexp(1.0, exponent);
@@ -228,9 +231,9 @@ TEST_P(Extremes, PowersOfTwoChangeNothingAtAll) {
 }
 
 TEST_P(Extremes, MovesByMultiplesOfTheOriginsStepChangeNothingAtAll) {
-    // The origin is rounded to a multiple of the largest power of two below the size, so that moves by such
-    // multiples lead to the very same local coordinates. With coordinates that are multiples of 2^-24, doubles
-    // hold all sums exactly.
+    // The origin is rounded to a multiple of the largest power of two below the size, so that moves
+    // by such multiples lead to the very same local coordinates. With coordinates that are
+    // multiples of 2^-24, doubles hold all sums exactly.
     const double step = std::ldexp(1.0, std::ilogb(size_));
     const Mesh rounded = mapped(
         mesh_, [&](const Vec3d& x) { return Vec3d((0x1p24 * x).array().round() * 0x1p-24); });

@@ -1,4 +1,5 @@
-// What the bake promises of its noise: no bias, how fast it falls, what it costs against plain samplers.
+// What the bake promises of its noise: no bias, how fast it falls, what it costs against plain
+// samplers.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -52,8 +53,8 @@ TEST(BakeNoise, FallsAsTheThreeQuarterPowerOfTheRays) {
     };
     const double order = std::log(error(512) / error(4096)) / std::log(8.0);
     RecordProperty("order", std::to_string(order));
-    // Each error is an RMS over a thousand vertices of unequal noise, known to about 3 %: the order to
-    // √2 · 0.03 / ln 8 = 0.02. Random directions would have 0.5.
+    // Each error is an RMS over a thousand vertices of unequal noise, known to about 3 %: the order
+    // to √2 · 0.03 / ln 8 = 0.02. Random directions would have 0.5.
     EXPECT_GT(order, 0.75 - 0.02);
 }
 

@@ -114,8 +114,8 @@ TEST(OddMesh, OpenSheetIsLitOnItsFront) {
 }
 
 TEST(OddMesh, ZeroAreaFacesChangeNothing) {
-    // On a sphere: a face on one point, one along an edge, one whose corners lie on a line through a new
-    // vertex far outside, and one that is a needle through the air.
+    // On a sphere: a face on one point, one along an edge, one whose corners lie on a line through
+    // a new vertex far outside, and one that is a needle through the air.
     const Mesh sphere = mesh_of(*poses::make_sphere_sequence(162));
     Mesh odd = sphere;
     const Triangle& t = sphere.topology.triangles[5];
@@ -216,7 +216,8 @@ TEST(OddMesh, ASheetWithAFlippedCopyIsLitOnBothSides) {
 }
 
 TEST(OddMesh, FlippedNeighboursKeepTheirSides) {
-    // A strip of two squares, the right one turned round. Where both meet, the side of most faces wins.
+    // A strip of two squares, the right one turned round. Where both meet, the side of most faces
+    // wins.
     const Mesh strip{{6, {{0, 1, 4}, {0, 4, 3}, {1, 5, 2}, {1, 4, 5}}},
                      {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0}}};
     EXPECT_EQ(report_topology(strip.topology).flipped_edges, 1u);
@@ -226,7 +227,8 @@ TEST(OddMesh, FlippedNeighboursKeepTheirSides) {
     // Vertex 1 has one face of the left and two of the right, vertex 4 two of the left.
     expect_lobe(baked, 1, Vec3d(0, 0, -1));
     expect_lobe(baked, 4, Vec3d(0, 0, 1));
-    // Where they are as many the normals cancel: no side is left, and the vertex is dark and counted.
+    // Where they are as many the normals cancel: no side is left, and the vertex is dark and
+    // counted.
     const Mesh two{{4, {{0, 1, 2}, {1, 2, 3}}}, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}};
     EXPECT_EQ(report_topology(two.topology).flipped_edges, 1u);
     const BakedPose cancelled = bake(two.pose_set());
@@ -238,8 +240,9 @@ TEST(OddMesh, FlippedNeighboursKeepTheirSides) {
 }
 
 TEST(OddMesh, NonManifoldEdgesShadowAsTheyShould) {
-    // An upright unit square on the middle line of the ground: three faces at its foot. At the foot it
-    // hides no more than half the ground's sky (its normal bisects nothing there: two ground faces against one).
+    // An upright unit square on the middle line of the ground: three faces at its foot. At the foot
+    // it hides no more than half the ground's sky (its normal bisects nothing there: two ground
+    // faces against one).
     Mesh mesh = square(2);
     const uint32_t n = mesh.topology.num_vertices;
     mesh.positions.emplace_back(0.0f, 1.0f, 2.0f);
@@ -250,9 +253,10 @@ TEST(OddMesh, NonManifoldEdgesShadowAsTheyShould) {
     mesh.topology.triangles.push_back({4, 5, n + 1});
     EXPECT_EQ(report_topology(mesh.topology).non_manifold_edges, 2u);
     const BakedPose baked = bake(mesh.pose_set(), 1 << 14);
-    // Point (1, 0) of the ground, at distance 1 from the middle of a wall of half width 1 and height 2:
-    // form factor of a perpendicular rectangle (Howell, B-3), both halves:
-    //   F = 2 · 1/(2π) (atan(1/Y) − Y/√(X²+Y²) atan(1/√(X²+Y²))), X = height / b, Y = distance / b, b = 1.
+    // Point (1, 0) of the ground, at distance 1 from the middle of a wall of half width 1 and
+    // height 2: form factor of a perpendicular rectangle (Howell, B-3), both halves:
+    //   F = 2 · 1/(2π) (atan(1/Y) − Y/√(X²+Y²) atan(1/√(X²+Y²))),
+    //   X = height / b, Y = distance / b, b = 1.
     const double x = 2.0, y = 1.0, r = std::hypot(x, y);
     const double factor = (std::atan(1.0 / y) - y / r * std::atan(1.0 / r)) / kPi;
     // A disc cut by lines: N^-3/4 of 8192 points is 1.2e-3 a half, three of these over √2.

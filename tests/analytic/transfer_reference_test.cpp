@@ -1,5 +1,5 @@
-// Transfer of partly shadowed vertices against its definition: the plain mean of visibility times basis
-// over random directions, without any of the baker's devices.
+// Transfer of partly shadowed vertices against its definition: the plain mean of visibility times
+// basis over random directions, without any of the baker's devices.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +17,8 @@ namespace {
 constexpr int kBands = 5;
 constexpr int kCoefficients = kBands * kBands;
 
-// A direction of density cos θ / π round the normal: a random point of the unit sphere, added to it.
+// A direction of density cos θ / π round the normal: a random point of the unit sphere, added to
+// it.
 Vec3d cosine_direction(const Vec3d& normal, RandomStream& random) {
     const double z = 2.0 * random.uniform() - 1.0;
     const double angle = 2.0 * kPi * random.uniform();
@@ -66,11 +67,12 @@ TEST(TransferReference, EveryBandAgreesToTheNoiseOfTheReference) {
     }
     EXPECT_GT(num_partly, 20);
     for (int l = 0; l < kBands; ++l) {
-        // Squared standard scores have mean 1 and variance 2; four standard errors either way. Within a
-        // vertex coefficients are correlated, which widens that by at most √(2l+1).
+        // Squared standard scores have mean 1 and variance 2; four standard errors either way.
+        // Within a vertex coefficients are correlated, which widens that by at most √(2l+1).
         const double expected_error = std::sqrt(2.0 * (2 * l + 1) / num_values[l]);
         EXPECT_NEAR(chi_squared[l] / num_values[l], 1.0, 4.0 * expected_error) << "band " << l;
-        // And that bound is no empty one: a band off by a tenth of a percent of t_00 would not pass.
+        // And that bound is no empty one: a band off by a tenth of a percent of t_00 would not
+        // pass.
         EXPECT_LT(4.0 * expected_error, 1.5) << "band " << l;
     }
 }

@@ -86,8 +86,8 @@ TEST(Transfer, CoarseConvexSphereDoesNotShadowItself) {
     const PoseSet sphere = one_pose(*poses::make_sphere_sequence(162));
     ASSERT_EQ(sphere.topology().num_vertices, 162u);
     const BakedPose baked = bake(sphere, 0, {3, 4096, 1});
-    // Its averaged normals lie within the cone of face normals, so every direction above the tangent
-    // plane leaves the convex mesh: no ray may leak.
+    // Its averaged normals lie within the cone of face normals, so every direction above the
+    // tangent plane leaves the convex mesh: no ray may leak.
     EXPECT_EQ(baked.statistics.blocked, 0u);
 }
 
@@ -116,8 +116,8 @@ TEST(Transfer, FacingPlatesHideTheirFormFactor) {
             const double open = 1.0 - poses::plates_blocked(x.x(), x.z(), distance);
             worst = std::max(worst, std::abs(baked.transfer[v] / kY00 - open));
         }
-        // A disc edge cut by N = 2048 scrambled points has error about N^-3/4 = 0.0033 a half; their
-        // mean 0.0023; the worst of 200 vertices is three of these.
+        // A disc edge cut by N = 2048 scrambled points has error about N^-3/4 = 0.0033 a half;
+        // their mean 0.0023; the worst of 200 vertices is three of these.
         EXPECT_LT(worst, 0.007) << p;
     }
 }
@@ -128,9 +128,9 @@ TEST(Transfer, BowlHidesHalf) {
     const size_t num_vertices = bowl.topology().num_vertices;
     double mean = 0.0;
     for (size_t v = 0; v < num_vertices; ++v) mean += baked.transfer[v] / kY00 / num_vertices;
-    // Its triangles have edges of about √(2π / 4000 · 4 / √3) = 0.06 and lie up to a sagitta edge²/8 =
-    // 4.5e-4 inside the sphere. A vertex sees the rim of the bowl from a chord's height that is off by
-    // the sagitta over the edge, 0.8 %, of the cosine-weighted sky at most.
+    // Its triangles have edges of about √(2π / 4000 · 4 / √3) = 0.06 and lie up to a sagitta
+    // edge²/8 = 4.5e-4 inside the sphere. A vertex sees the rim of the bowl from a chord's height
+    // that is off by the sagitta over the edge, 0.8 %, of the cosine-weighted sky at most.
     RecordProperty("mean", std::to_string(mean));
     EXPECT_NEAR(mean, 0.5, 0.008);
 }
@@ -179,7 +179,8 @@ TEST(Transfer, NoiseEstimateIsTheErrorAgainstManyRays) {
         error += difference * difference;
         noise += double{few.noise[r]} * few.noise[r];
     }
-    // 25,000 differences of halves estimate it to well below 10 %; the reference adds 1 % in quadrature.
+    // 25,000 differences of halves estimate it to well below 10 %; the reference adds 1 % in
+    // quadrature.
     EXPECT_NEAR(std::sqrt(noise / error), 1.0, 0.1);
 }
 

@@ -22,8 +22,8 @@ struct Shot {
     double noise = 0.0;  // of the bake, relative
 };
 
-// The mesh turned about +Y by mesh_turn, under a light turned by light_turn, seen by a camera that turns
-// with the mesh.
+// The mesh turned about +Y by mesh_turn, under a light turned by light_turn, seen by a camera that
+// turns with the mesh.
 Shot shoot(const PoseSet& source, double mesh_turn, double light_turn) {
     const Eigen::Matrix3f turn =
         Eigen::AngleAxisf(static_cast<float>(mesh_turn), Vec3f::UnitY()).toRotationMatrix();

@@ -1,5 +1,5 @@
-// What cannot be read or written: the exit code, a message that says what, where, expected and got, and
-// nothing left behind.
+// What cannot be read or written: the exit code, a message that says what, where, expected and got,
+// and nothing left behind.
 #include <cmath>
 #include <utility>
 

@@ -1,4 +1,7 @@
-// Odd and far-away meshes as a user meets them: what is said about them, and that the origin travels along.
+// Odd and far-away meshes as a user meets them: what is said about them, and that the origin
+// travels along.
+#include <algorithm>
+
 #include "tests/cli/tool_test.h"
 
 namespace paim {
@@ -6,8 +9,9 @@ namespace {
 
 class Geometry : public ToolTest {
   protected:
-    // Two poses of a sheet of two triangles at x = 1e6, with a face that is there twice, one on its back, one
-    // without area in the second pose only, one on the first by vertices of its own, and a stray vertex.
+    // Two poses of a sheet of two triangles at x = 1e6, with a face that is there twice, one on its
+    // back, one without area in the second pose only, one on the first by vertices of its own, and
+    // a stray vertex.
     void write_odd_poses() const {
         std::filesystem::create_directory(directory_ / "odd");
         const std::string faces = "f 1 2 3\nf 1 3 4\nf 2 3 1\nf 4 3 1\nf 1 2 5\nf 6 7 8\n";
@@ -61,10 +65,50 @@ TEST_F(Geometry, NothingIsSaidOfCleanMeshes) {
     }
 }
 
+TEST_F(Geometry, OddSceneryIsCountedByFile) {
+    const std::string sphere = make_poses("sphere", 2, 50);
+    const std::string whole = make_poses("box", 1, 50) + "/box_0000.obj";
+    // A sheet of two triangles: one is there twice; one without area, one on another, a stray
+    // point.
+    write("odd.obj",
+          "v 9 0 0\nv 10 0 0\nv 10 1 0\nv 9 1 0\nv 11 0 0\nv 9 0 0\nv 10 0 0\nv 10 1 0\nv 9 9 9\n"
+          "f 1 2 3\nf 1 3 4\nf 2 3 1\nf 1 2 5\nf 6 7 8\n");
+    const std::string odd = path("odd.obj");
+    const Arguments bake{"bake", sphere,     "-o", path("x.bake"), "--rays", "2", "--static",
+                         whole,  "--static", odd,  "--json"};
+    const ToolResult first = compress(bake);
+    for (const char* line : {
+             ": 1 vertices belong to no face: their transfer is 0\n",
+             ": 1 faces have the vertices of an earlier one: ",
+             ": 8 edges belong to one face: ",
+             ": 1 edges join two faces that face opposite sides: ",
+             ": 1 faces have no area: ",
+             ": 1 faces lie exactly on another: ",
+         }) {
+        EXPECT_TRUE(contains(first.err, "warning: " + odd + line))
+            << line << " is not in: " << first.err;
+    }
+    EXPECT_EQ(std::count(first.err.begin(), first.err.end(), '\n'), 6) << first.err;
+    // The poses' own counts stay theirs; a bake that goes on says it all again.
+    for (const ToolResult& result : {first, compress(bake)}) {
+        const auto json = parse_object(result);
+        for (const auto& [kind, count] : json["mesh"].items()) EXPECT_EQ(count, 0) << kind;
+        nlohmann::json none = json["mesh"];
+        none["file"] = whole;
+        const nlohmann::json counts{
+            {"file", odd},          {"isolated_vertices", 1},  {"duplicate_faces", 1},
+            {"back_faces", 0},      {"boundary_edges", 8},     {"flipped_edges", 1},
+            {"zero_area_faces", 1}, {"non_manifold_edges", 0}, {"coincident_faces", 1},
+        };
+        EXPECT_EQ(json["static_mesh"], nlohmann::json::array({none, counts}));
+    }
+}
+
 TEST_F(Geometry, TheOriginTravelsFromFilesToThePaim) {
     write_odd_poses();
     expect_success(compress({path("odd"), "-o", path("x.paim"), "--rays", "2", "--bands", "1"}));
-    // Bounds 1000000.1 … 1000001.1, 0 … 1, -1 … 0: diagonal 1.7, so the centre rounded to whole numbers.
+    // Bounds 1000000.1 … 1000001.1, 0 … 1, -1 … 0: diagonal 1.7, so the centre rounded to whole
+    // numbers.
     for (const char* file : {"x.bake", "x.paim"}) {
         const ToolResult text = info({path(file)});
         expect_success(text);

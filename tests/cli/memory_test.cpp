@@ -47,8 +47,8 @@ TEST_F(Memory, OfABakeDoesNotGrowWithItsPoses) {
     };
     const long of_few = peak("few", 3);
     const long of_many = peak("many", 60);
-    // A pose holds 5000 · (6 + 2 · 25) floats while it is baked, 1.1 MB, and about as much as text: the
-    // 57 poses more would be 60 MB. Names, checksums and the allocator's leftovers may differ.
+    // A pose holds 5000 · (6 + 2 · 25) floats while it is baked, 1.1 MB, and about as much as text:
+    // the 57 poses more would be 60 MB. Names, checksums and the allocator's leftovers may differ.
     EXPECT_LT(of_many, of_few + 8'000'000);
 }
 

@@ -110,8 +110,8 @@ TEST_F(Options, HalfPrecisionHalvesTheComponents) {
     const auto half = encode(bake, half_options);
     EXPECT_EQ(half["transfer"]["precision"], "f16");
     EXPECT_EQ(half["geometry"]["precision"], "f16");
-    // 3 components of 9 planes and 1 of 3 planes over 50 vertices, 2 bytes less a number; each of the
-    // 4 sections is padded to 64 bytes, which may give or take up to 63.
+    // 3 components of 9 planes and 1 of 3 planes over 50 vertices, 2 bytes less a number; each of
+    // the 4 sections is padded to 64 bytes, which may give or take up to 63.
     const int saved = exact["size_bytes"].get<int>() - half["size_bytes"].get<int>();
     EXPECT_NEAR(saved, 2 * 50 * (3 * 9 + 1 * 3), 4 * 63);
 }

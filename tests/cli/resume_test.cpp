@@ -99,8 +99,8 @@ TEST_F(Resume, KilledTwentyTimesItLosesNothingButThePoseInFlight) {
         }
         finished = found;
     }
-    // Twenty rounds of a tenth of the whole on average, less what each needs to start: where starting
-    // takes no time at all, half of them still find something to do.
+    // Twenty rounds of a tenth of the whole on average, less what each needs to start: where
+    // starting takes no time at all, half of them still find something to do.
     EXPECT_GE(num_killed, 10);
     EXPECT_FALSE(finished.empty());
     const ToolResult resumed = compress(command);

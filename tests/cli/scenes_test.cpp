@@ -1,4 +1,6 @@
 // What a sequence stands on and among, through the tools: floors, scenery and light that bounces.
+#include <fmt/format.h>
+
 #include "paim/format/bake_directory.h"
 #include "paim/format/paim_file.h"
 #include "paim/image/exr.h"
@@ -57,6 +59,35 @@ TEST_F(Scenes, FarFromTheWorldsOriginAllCountFromOnePlace) {
     EXPECT_EQ(reader.scenery()->pose.positions[0], static_cast<float>(1000000.125 - origin));
 }
 
+TEST_F(Scenes, TheFloorsHeightSaysWhereItIsCountedFrom) {
+    write("high.obj", "v 0 1000000 0\nv 1 1000000 0\nv 0 1000001 0.25\nf 1 2 3\n");
+    const ToolResult high =
+        compress({"bake", path("high.obj"), "-o", path("high.bake"), "--rays", "2", "--floor"});
+    expect_success(high);
+    const double y = BakeReader(path("high.bake")).identity().origin.y();
+    EXPECT_NEAR(y, 1e6, 2.0);
+    EXPECT_TRUE(contains(high.out, fmt::format(" (y counted from the origin's, {})\n", y)))
+        << high.out;
+    // Where that is zero there is nothing to say, wherever it is to the side.
+    write("side.obj", "v 1000000 -1 0\nv 1000001 -1 0\nv 1000000 1 0.25\nf 1 2 3\n");
+    const ToolResult side =
+        compress({"bake", path("side.obj"), "-o", path("side.bake"), "--rays", "2", "--floor"});
+    ASSERT_EQ(BakeReader(path("side.bake")).identity().origin.y(), 0.0);
+    EXPECT_TRUE(contains(side.out, "  on a floor of ")) << side.out;
+    EXPECT_FALSE(contains(side.out, "origin")) << side.out;
+}
+
+TEST_F(Scenes, AlbedoIsThatOfThePosesAlone) {
+    write("pose.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0.25\nf 1 2 3\n");
+    write("wall.obj", "v 3 0 0\nv 4 0 0\nv 3 1 0\nf 1 2 3\n");
+    expect_success(compress({"bake", path("pose.obj"), "-o", path("x.bake"), "--rays", "2",
+                             "--albedo", "0.25", "--floor", "--static", path("wall.obj")}));
+    const BakeReader reader(path("x.bake"));
+    EXPECT_EQ(reader.albedo().values.front(), Vec3f::Constant(0.25f));
+    EXPECT_EQ(reader.albedo().values.back(), Vec3f::Constant(0.8f));
+    EXPECT_EQ(reader.scenery()->albedo.at(0), Vec3f::Constant(0.8f));
+}
+
 TEST_F(Scenes, FloorOptionsNeedAFloorAndSenseOfScale) {
     make_poses("box", 1, 50);
     expect_failure(bake("x.bake", {"--floor-albedo", "1"}), 1, {"--floor-albedo", "--floor"});
@@ -97,8 +128,8 @@ TEST_F(Scenes, BouncesAreNamedAndColourCostsThreeChannels) {
         encode.insert(encode.end(), all.begin(), all.end());
         expect_success(compress(encode));
     }
-    // Transfer of 4 planes a channel, as f32 and, its noise, f16; positions and normals of 6. Headers and
-    // metadata are a few hundred bytes.
+    // Transfer of 4 planes a channel, as f32 and, its noise, f16; positions and normals of 6.
+    // Headers and metadata are a few hundred bytes.
     EXPECT_NEAR(size_of("grey.bake/pose_000000.bin"), size_of("0.bake/pose_000000.bin"), 100);
     EXPECT_NEAR(size_of("red.bake/pose_000000.bin") - size_of("grey.bake/pose_000000.bin"),
                 200 * 8 * (4 + 2), 200);
@@ -156,6 +187,12 @@ TEST_F(Scenes, StaticFilesAreStoredOnceAndNamed) {
     for (const std::string file : {"x.bake", "x.paim"}) {
         EXPECT_EQ(parse_object(info({path(file), "--json"}))["scenery_triangles"], 109);
     }
+
+    // A bake is all its files; one that does not belong to it is none of them.
+    uint64_t size_bytes = 0;
+    for (const auto& [name, bytes] : contents_of(path("x.bake"))) size_bytes += bytes.size();
+    write("x.bake/notes.txt", "mine");
+    EXPECT_EQ(parse_object(info({path("x.bake"), "--json"}))["size_bytes"], size_bytes);
 
     // All of the model shows all of the bake, scenery and all; one band less is another picture.
     json = parse_object(analyze({path("x.bake"), "-o", path("report"), "--size", "32",

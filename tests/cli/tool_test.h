@@ -134,7 +134,8 @@ class ToolTest : public testing::Test {
         return folder;
     }
 
-    // Four poses of two facing plates, 16 rays, 3 bands: quick, and every pose has its own transfer.
+    // Four poses of two facing plates, 16 rays, 3 bands: quick, and every pose has its own
+    // transfer.
     std::string make_bake(const std::string& name) {
         const std::string bake = path(name);
         expect_success(compress(

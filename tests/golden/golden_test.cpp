@@ -1,7 +1,8 @@
-// The bytes of the file format, version by version. A version's files stay readable for ever, and what is
-// written today is exactly the newest golden file.
+// The bytes of the file format, version by version. A version's files stay readable for ever, and
+// what is written today is exactly the newest golden file.
 //
-// PAIM_UPDATE_GOLDEN=1 writes the newest file anew; a change of format adds one and leaves the old alone.
+// PAIM_UPDATE_GOLDEN=1 writes the newest file anew; a change of format adds one and leaves the old
+// alone.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -57,8 +57,9 @@ INSTANTIATE_TEST_SUITE_P(Apis, SceneTest, testing::Values(gl::Api::desktop, gl::
                          });
 
 // Every pixel's direction, turned back by the light's angle and looked up on the CPU. Shaders may
-// compute atan to 4096 ulp (GLSL 4.1 and later; llvmpipe's is near 1e-6), and single precision moves
-// the place in the map by 1e-5 of it: 1e-4 pixels of 64, over which this map changes by 0.1 a pixel.
+// compute atan to 4096 ulp (GLSL 4.1 and later; llvmpipe's is near 1e-6), and single precision
+// moves the place in the map by 1e-5 of it: 1e-4 pixels of 64, over which this map changes by 0.1 a
+// pixel.
 TEST_P(SceneTest, BackgroundIsTheTurnedEnvironment) {
     const Model model = make_empty_model();
     const EnvironmentLight environment(make_environment());

@@ -29,7 +29,8 @@ void add_basis(const RaySet& rays, Sums& sums) {
 }
 
 TEST_P(DirectionSamplers, AverageTheBasisToTheCosineLobe) {
-    // Means over 2000 independent keys of 16 points each; their own spread says how far they may be off.
+    // Means over 2000 independent keys of 16 points each; their own spread says how far they may be
+    // off.
     constexpr int kKeys = 2000;
     const Vec3f normal = Vec3f(0.3f, -0.8f, 0.5f).normalized();
     const auto sampler = make_sampler(GetParam(), 0, 16);

@@ -1,5 +1,5 @@
-// Where shadow rays start: the rule itself, surfaces that must not shadow themselves, and those that must
-// not leak.
+// Where shadow rays start: the rule itself, surfaces that must not shadow themselves, and those
+// that must not leak.
 #include "compressor/bake/ray_offset.h"
 
 #include <gtest/gtest.h>
@@ -87,8 +87,9 @@ TEST(RayOffset, SquashedAndStretchedSpheresDoNotShadowThemselves) {
                                          Vec3f(uniform(), uniform(), uniform()).normalized());
             const PoseSet squashed = mapped(*sphere, turn * scaling(factors));
             const PoseStatistics statistics = bake(squashed, 512);
-            // Turned, its corners are rounded by 2^-24 of the longest axis, which dents the thin directions
-            // of the mesh: a few grazing rays are blocked rightly. Far below the 0.1 % that are allowed.
+            // Turned, its corners are rounded by 2^-24 of the longest axis, which dents the thin
+            // directions of the mesh: a few grazing rays are blocked rightly. Far below the 0.1 %
+            // that are allowed.
             EXPECT_LE(static_cast<double>(statistics.blocked),
                       1e-4 * static_cast<double>(statistics.rays))
                 << factors.transpose() << ", turn " << j;
@@ -98,8 +99,8 @@ TEST(RayOffset, SquashedAndStretchedSpheresDoNotShadowThemselves) {
 }
 
 TEST(RayOffset, SpheresAsFarOutAsFloatsCarryThemDoNotShadowThemselves) {
-    // 15 diameters out (beyond 16 positions are counted from elsewhere), rounding dents the sphere by 2^-20 of
-    // its size, against sagittas of 1/100 to 1/4000.
+    // 15 diameters out (beyond 16 positions are counted from elsewhere), rounding dents the sphere
+    // by 2^-20 of its size, against sagittas of 1/100 to 1/4000.
     for (const uint32_t num_vertices : {162u, 2562u}) {
         const auto sphere = make_sphere_sequence(num_vertices);
         for (const Vec3f& far : {Vec3f(30, 0, 0), Vec3f(-17, 17, 18)}) {
@@ -126,9 +127,9 @@ TEST(RayOffset, NoRayLeavesAClosedCavity) {
 }
 
 TEST(RayOffset, CreasesNeitherLeakNorShadow) {
-    // The bottom of a groove between two walls, in any direction. A ray above both walls is open and one
-    // below either is blocked, but for rays so flat that they start above the wall's far end: from a
-    // height of 1e-4 edges, flatter than 1e-4.
+    // The bottom of a groove between two walls, in any direction. A ray above both walls is open
+    // and one below either is blocked, but for rays so flat that they start above the wall's far
+    // end: from a height of 1e-4 edges, flatter than 1e-4.
     constexpr double kFlat = 1.1e-4;
     RandomStream random(2);
     const auto uniform = [&] { return 2.0 * random.uniform() - 1.0; };

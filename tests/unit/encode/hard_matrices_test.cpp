@@ -1,5 +1,5 @@
-// The whole decomposition on hard matrices, against long double: singular values, both sets of vectors, and that
-// they give the matrix back.
+// The whole decomposition on hard matrices, against long double: singular values, both sets of
+// vectors, and that they give the matrix back.
 #include <gtest/gtest.h>
 
 #include "analysis/study/hard_matrices.h"
@@ -53,7 +53,8 @@ TEST_P(HardMatrices, SingularValuesAreThoseOfLongDouble) {
     const PrincipalComponents components = principal_components(MatrixRows(matrix));
     const std::vector<double> exact = singular_values_reference(centred_reference(matrix));
     ASSERT_EQ(components.singular_values.size(), exact.size());
-    // Householder's and Jacobi's rotations are backward stable: each value is off by a few √P · 2^-53 s_0.
+    // Householder's and Jacobi's rotations are backward stable: each value is off by a few
+    // √P · 2^-53 s_0.
     const double tolerance =
         1e-13 * (exact.empty() ? 0.0 : exact[0]) * std::sqrt(static_cast<double>(matrix.cols()));
     for (size_t k = 0; k < exact.size(); ++k) {
@@ -64,8 +65,8 @@ TEST_P(HardMatrices, SingularValuesAreThoseOfLongDouble) {
 
 TEST_P(HardMatrices, BothSetsOfVectorsAreOrthonormal) {
     const Decomposition d(GetParam().matrix);
-    // U after its correction: 2^-53 times the condition of A' V S⁻¹, which is near 1, times √P; without, what
-    // LeftVectors lets pass. V: Jacobi's own tolerance √P · 2^-52.
+    // U after its correction: 2^-53 times the condition of A' V S⁻¹, which is near 1, times √P;
+    // without, what LeftVectors lets pass. V: Jacobi's own tolerance √P · 2^-52.
     EXPECT_LT(off_orthonormal(d.u), 1e-12);
     EXPECT_LT(off_orthonormal(d.components.v.leftCols(d.rank)), 1e-12);
 }
@@ -97,7 +98,8 @@ TEST_P(HardMatrices, ProductIsTheMatrix) {
     const auto& s = d.components.singular_values;
     const MatrixXd product = d.u * Eigen::Map<const VectorXd>(s.data(), d.rank).asDiagonal() *
                              d.components.v.leftCols(d.rank).transpose();
-    // What is dropped is below the floor of rank(), 1e-14 s_0 here; the rest is a few roundings of s_0.
+    // What is dropped is below the floor of rank(), 1e-14 s_0 here; the rest is a few roundings of
+    // s_0.
     EXPECT_LE((product - centred).cwiseAbs().maxCoeff(), 1e-13 * s[0]);
 }
 
@@ -132,8 +134,8 @@ TEST(HardMatrix, GradedWalshHasItsClosedForm) {
     for (Index k = 0; k < 15; ++k) {
         const double exact =
             4.0 * matrix.col(0).middleRows(k * kRowsOfEach, kRowsOfEach).cast<double>().norm();
-        // Every column of A' holds every decade to full precision, and Householder's reflections round
-        // relative to columns: 2^-52 s_0 times a few, which is 1 % of the smallest.
+        // Every column of A' holds every decade to full precision, and Householder's reflections
+        // round relative to columns: 2^-52 s_0 times a few, which is 1 % of the smallest.
         EXPECT_NEAR(d.components.singular_values[static_cast<size_t>(k)], exact,
                     1e-15 * d.components.singular_values[0])
             << k;

@@ -1,4 +1,5 @@
-// One-sided Jacobi: identities, graded spectra, degenerate matrices, and Eigen's as the slow reference.
+// One-sided Jacobi: identities, graded spectra, degenerate matrices, and Eigen's as the slow
+// reference.
 #include "compressor/encode/jacobi_svd.h"
 
 #include <gtest/gtest.h>
@@ -25,8 +26,8 @@ void expect_svd_of(const MatrixXd& matrix, const SmallSvd& svd) {
     const auto m = matrix.rows();
     ASSERT_EQ(svd.v.rows(), matrix.cols());
     const double largest = m > 0 ? svd.singular_values[0] : 0.0;
-    // The columns of A·V are orthogonal with the singular values as lengths; columns of V that belong to
-    // rounding are not held to it.
+    // The columns of A·V are orthogonal with the singular values as lengths; columns of V that
+    // belong to rounding are not held to it.
     const MatrixXd product = matrix * svd.v;
     for (Eigen::Index k = 0; k < m; ++k) {
         EXPECT_NEAR(product.col(k).stableNorm(), svd.singular_values[k], 1e-13 * largest);
@@ -51,7 +52,8 @@ TEST(JacobiSvd, AgreesWithEigenOnRandomMatrices) {
 }
 
 TEST(JacobiSvd, KeepsTinyValuesOfGradedMatrices) {
-    // Columns of length 10^-k: their relative accuracy survives, which a Gram matrix loses below 1e-8.
+    // Columns of length 10^-k: their relative accuracy survives, which a Gram matrix loses below
+    // 1e-8.
     constexpr int kSize = 15;
     const MatrixXd u = random_orthogonal(kSize, 4);
     MatrixXd matrix = u;

@@ -1,4 +1,5 @@
-// Folding rows into a triangular factor: its defining identity, Eigen's QR as reference, odd shapes.
+// Folding rows into a triangular factor: its defining identity, Eigen's QR as reference, odd
+// shapes.
 #include "compressor/encode/qr_update.h"
 
 #include <gtest/gtest.h>

@@ -131,8 +131,8 @@ TEST(PaimFile, HalfComponentsAreRoundedToNearest) {
     EXPECT_EQ(read.geometry.components, model.geometry.components);
     for (size_t j = 0; j < model.transfer.components.size(); ++j) {
         const float exact = model.transfer.components[j];
-        // Half floats have 11 significant bits: half a unit in the last place is at most 2^-11 of the
-        // value; below 2^-14 they are subnormal, with steps of 2^-24.
+        // Half floats have 11 significant bits: half a unit in the last place is at most 2^-11 of
+        // the value; below 2^-14 they are subnormal, with steps of 2^-24.
         EXPECT_LE(std::abs(read.transfer.components[j] - exact),
                   std::max(std::abs(exact) * 0x1p-11f, 0x1p-25f));
     }

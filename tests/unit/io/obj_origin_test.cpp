@@ -18,8 +18,8 @@ TEST(ObjOrigin, ScanReadsPositionsToTheNearestDouble) {
 }
 
 TEST(ObjOrigin, KeepsTheDigitsOfMeshesFarAway) {
-    // 0.1 is lost in float at 1e6: steps are 0.0625 there. Bounds of both poses: 1000000 … 1000004 and
-    // 0 … 2, diagonal 4.5, so the origin is the centre rounded to a multiple of 4.
+    // 0.1 is lost in float at 1e6: steps are 0.0625 there. Bounds of both poses: 1000000 … 1000004
+    // and 0 … 2, diagonal 4.5, so the origin is the centre rounded to a multiple of 4.
     const std::string faces = "f 1 2 3\n";
     const ObjTestFiles files({"v 1000000.1 0 0\nv 1000001.1 0 0\nv 1000000.1 2 0\n" + faces,
                               "v 1000000 0 0\nv 1000004 0 0\nv 1000003.3 2 0\n" + faces});
@@ -41,6 +41,26 @@ TEST(ObjOrigin, KeepsTheDigitsOfMeshesFarAway) {
 TEST(ObjOrigin, IsZeroWhereFloatsAreEnough) {
     const ObjTestFiles files({"v 10 0 0\nv 11 0 0\nv 10 1 0\nf 1 2 3\n"});
     EXPECT_EQ(ObjSequence(files.files()).origin(), Vec3d::Zero());
+}
+
+TEST(ObjOrigin, RefusesWhatNoFloatHoldsFromThere) {
+    // Floats end at 3.4e38.
+    const std::string near = "v -3e38 0 0\nv -3.01e38 0 0\nv -3e38 1e36 0\n", face = "f 1 2 3\n";
+    const auto expect_refused = [](const std::string& error, const std::string& file) {
+        EXPECT_TRUE(error.starts_with(file + ": coordinates are too large when counted from the "
+                                             "origin (-3"))
+            << error;
+    };
+    EXPECT_EQ(sequence_error({near + face, near + face}), "no error");
+    // A vertex without a face has no say in the origin, but is written like any other.
+    const std::string stray = near + "v 3e38 0 0\n";
+    expect_refused(sequence_error({stray + face}), "0.obj");
+    expect_refused(sequence_error({near + "v 0 0 0\n" + face, stray + face}), "1.obj");
+    // Scenery is counted from where the poses are.
+    ObjOptions options;
+    options.origin = Vec3d(-3e38, 0, 0);
+    expect_refused(sequence_error({"v 3e38 0 0\nv 3.01e38 0 0\nv 3e38 1e36 0\n" + face}, options),
+                   "0.obj");
 }
 
 TEST(ObjOrigin, DoesNotDependOnThreads) {

@@ -67,7 +67,8 @@ TEST(MeshReport, CountsFacesWithoutAreaInThisPose) {
 }
 
 TEST(MeshReport, CountsFacesThatLieOnOthers) {
-    // A second tetrahedron of its own vertices in the same place, in another order, one face flipped.
+    // A second tetrahedron of its own vertices in the same place, in another order, one face
+    // flipped.
     Topology two{8, kTetrahedron.triangles};
     for (const Triangle& t : kTetrahedron.triangles) {
         two.triangles.push_back({7 - t[1], 7 - t[2], 7 - t[0]});
@@ -87,7 +88,8 @@ TEST(MeshReport, CountsFacesThatLieOnOthers) {
 }
 
 TEST(MeshReport, NormalsCountEveryFaceOnce) {
-    // Two faces at a right angle. That one of them is there three times, once turned round, changes nothing.
+    // Two faces at a right angle. That one of them is there three times, once turned round, changes
+    // nothing.
     const std::vector<Vec3f> positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     const PoseSet once({4, {{0, 1, 2}, {0, 3, 1}}}, {positions});
     const PoseSet thrice({4, {{0, 1, 2}, {0, 3, 1}, {1, 0, 3}, {0, 1, 3}}}, {positions});

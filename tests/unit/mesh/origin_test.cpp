@@ -1,4 +1,5 @@
-// Where coordinates are counted from: the rule's borders, its rounding, and sizes at the ends of what floats hold.
+// Where coordinates are counted from: the rule's borders, its rounding, and sizes at the ends of
+// what floats hold.
 #include "paim/mesh/origin.h"
 
 #include <gtest/gtest.h>

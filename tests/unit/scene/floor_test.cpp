@@ -1,4 +1,5 @@
-// A ground under poses: where it lies, how fine it is, what it does to names, checksums and colours.
+// A ground under poses: where it lies, how fine it is, what it does to names, checksums and
+// colours.
 #include "compressor/scene/floor.h"
 
 #include <gtest/gtest.h>
@@ -148,6 +149,17 @@ TEST(PosesOnFloor, AddsTheSameGroundToEveryPose) {
     EXPECT_NE(PosesOnFloor(octopus, bounds, options).description(), on_floor.description());
 }
 
+TEST(PosesOnFloor, GoesByTheVerticesOfTriangles) {
+    const auto pose = [](float y) {
+        return std::vector<Vec3f>{{0, -100, 0}, {0, y, 0},  {1, 0, 0},
+                                  {0, 1, 0},    {90, 0, 0}, {0, 0, 90}};
+    };
+    const PoseSet stray({6, {{1, 2, 3}}}, {pose(0.0f), pose(-0.5f)});
+    const Bounds bounds = bounds_of(stray);
+    EXPECT_EQ(bounds.lower, Vec3f(0, -0.5f, 0));
+    EXPECT_EQ(bounds.upper, Vec3f(1, 1, 0));
+}
+
 TEST(PosesOnFloor, OneColourStaysOne) {
     const PoseSet sphere = poses::make_pose_set(*poses::make_sphere_sequence(50), 1);
     const PosesOnFloor on_floor(sphere, bounds_of(sphere), {100, sphere.albedo().at(0)});
@@ -166,8 +178,9 @@ TEST(PosesOnFloor, IsDarkWhereABoxStandsAndOpenFarAway) {
         const Vec3f& x = pose.positions[v];
         const double open = static_cast<double>(baked.transfer[v]) / y00;
         const double outside = std::max(std::abs(x.x()), std::abs(x.z())) - 1.0f;
-        // Under the box nothing is seen but its bottom, at a gap of 1e-3; farther in than ten gaps the
-        // strip of sky that is left subtends less than (gap / distance)² of the cosine-weighted sky.
+        // Under the box nothing is seen but its bottom, at a gap of 1e-3; farther in than ten gaps
+        // the strip of sky that is left subtends less than (gap / distance)² of the cosine-weighted
+        // sky.
         if (outside < -0.01) {
             EXPECT_LT(open, 0.01);
         }

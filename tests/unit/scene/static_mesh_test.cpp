@@ -95,8 +95,8 @@ TEST(StaticMesh, IsBakedOnceAloneAndFoundAgain) {
     const auto bytes = read_file(bake_scenery_file(bake), 1 << 20);
     const BakeReader reader(bake);
     ASSERT_TRUE(reader.scenery());
-    // Nothing above the upper plate's front, which faces down: open to all below but the lower plate,
-    // which it does not see.
+    // Nothing above the upper plate's front, which faces down: open to all below but the lower
+    // plate, which it does not see.
     EXPECT_EQ(reader.scenery()->pose.statistics.blocked, 0u);
     EXPECT_GT(reader.read_pose(0).statistics.blocked, 0u);
     std::filesystem::remove(bake_scenery_file(bake));

@@ -22,16 +22,16 @@ struct Lanes {
     }
 };
 
-// Largest error of a value of band l, relative to the largest value of the band and to the direction
-// before it was rounded to float.
+// Largest error of a value of band l, relative to the largest value of the band and to the
+// direction before it was rounded to float.
 double tolerance(int bands, int l) {
     const double steps = 0.5 * l * (l + 1.0);
-    // To 16 bands: half a rounding of z, 2^-25, times y_l0's slope l(l+1)/2 next to a pole, twice for those
-    // of the recurrence; 8 roundings are everything else.
+    // To 16 bands: half a rounding of z, 2^-25, times y_l0's slope l(l+1)/2 next to a pole, twice
+    // for those of the recurrence; 8 roundings are everything else.
     if (bands <= 16) return 0x1.0p-24 * (8.0 + steps);
-    // Above, in double: each coordinate's rounding, 2^-25, turns the direction by √3 · 2^-25 at most. No
-    // function of the band is steeper than sqrt(l(l+1)/2), as the squares of all slopes sum to l(l+1)/2
-    // in each tangent direction. Then the result is rounded once.
+    // Above, in double: each coordinate's rounding, 2^-25, turns the direction by √3 · 2^-25 at
+    // most. No function of the band is steeper than sqrt(l(l+1)/2), as the squares of all slopes
+    // sum to l(l+1)/2 in each tangent direction. Then the result is rounded once.
     return 0x1.0p-25 * std::sqrt(3.0 * steps) + 0x1.0p-24 * 1.001;
 }
 
@@ -106,8 +106,8 @@ TEST_P(BatchBasisOfBands, AccumulatesWeightedValues) {
             }
             for (size_t j = 0; j < BatchBasis::kSumLanes; ++j)
                 sum += sums[i * BatchBasis::kSumLanes + j];
-            // Sixteen weights of at most 2.5, each value's recurrence as above (in double only values[] is
-            // rounded, by less), and the sums' own roundings.
+            // Sixteen weights of at most 2.5, each value's recurrence as above (in double only
+            // values[] is rounded, by less), and the sums' own roundings.
             const double error =
                 16 * 2.5 * tolerance(bands, l) * band_maximum(l) + 0x1.0p-24 * 16.0;
             ASSERT_NEAR(sum, expected, error) << l << " " << m;
@@ -116,8 +116,8 @@ TEST_P(BatchBasisOfBands, AccumulatesWeightedValues) {
 }
 
 TEST(BatchBasis, LengthDoesNotMatterAboveSixteenBands) {
-    // A float's rounding leaves the sphere: what is off along the direction must not count. Zero, with which
-    // callers may pad, gives finite values.
+    // A float's rounding leaves the sphere: what is off along the direction must not count. Zero,
+    // with which callers may pad, gives finite values.
     const BatchBasis basis(64);
     Lanes lanes{}, longer{};
     for (int j = 1; j < kBatch; ++j) {

@@ -16,8 +16,8 @@ inline Vec3d random_direction(RandomStream& random) {
     return Vec3d(s * std::cos(phi), s * std::sin(phi), z).normalized();
 }
 
-// 96 uniform ones, 54 within 1e-20 … 1 of a pole, one 1e-3, 1e-4 … 1e-20 from each pole, and the six axes:
-// 192, a multiple of 16.
+// 96 uniform ones, 54 within 1e-20 … 1 of a pole, one 1e-3, 1e-4 … 1e-20 from each pole, and the
+// six axes: 192, a multiple of 16.
 inline std::vector<Vec3d> test_directions() {
     RandomStream random(stream_key(7, 0, 0));
     std::vector<Vec3d> directions;

@@ -39,8 +39,8 @@ std::vector<Eigen::Matrix3d> test_rotations() {
                     about(angle + near, Vec3d::Unit(axis) + Vec3d(near, near, near)));
             }
         }
-        // Half turns about axes for which two elements of the quaternion are alike or one is tiny, and
-        // the polar axis almost to the other pole, where two of three Euler angles are one.
+        // Half turns about axes for which two elements of the quaternion are alike or one is tiny,
+        // and the polar axis almost to the other pole, where two of three Euler angles are one.
         rotations.push_back(about(kPi - near, Vec3d(1, -1, near)));
         rotations.push_back(about(kPi - near, Vec3d(1, 1, 1)));
         rotations.push_back(about(0.7, Vec3d::UnitZ()) * about(kPi - near, Vec3d::UnitY()) *
@@ -89,8 +89,8 @@ TEST(Rotation, Composes) {
 }
 
 TEST(Rotation, EqualsProjectingTheTurnedFunctionAgain) {
-    // f = Σ c_i y_i of random c; f(R⁻¹ω) y_i(ω) has degree 62 at most: 32 Gauss–Legendre latitudes and 63
-    // equidistant longitudes integrate it exactly.
+    // f = Σ c_i y_i of random c; f(R⁻¹ω) y_i(ω) has degree 62 at most: 32 Gauss–Legendre latitudes
+    // and 63 equidistant longitudes integrate it exactly.
     constexpr int kLongitudes = 2 * kBands - 1;
     constexpr int kCoefficients = kBands * kBands;
     RandomStream random(stream_key(16, 0, 0));

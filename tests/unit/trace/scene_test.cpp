@@ -122,9 +122,9 @@ TEST(Scene, CountsTheSecondMeshAfterTheFirst) {
 }
 
 TEST(Scene, TrianglesWithoutAreaAreNeverHit) {
-    // Needles from a corner that lies anywhere, their other corners twice and three times as far off: these
-    // products are exact, and so all three are on a line. Rays aimed at points of it would hit some of
-    // them, for rounding leaves their products with an area.
+    // Needles from a corner that lies anywhere, their other corners twice and three times as far
+    // off: these products are exact, and so all three are on a line. Rays aimed at points of it
+    // would hit some of them, for rounding leaves their products with an area.
     RandomStream random(6);
     for (int j = 0; j < 2000; ++j) {
         const auto coordinate = [&] { return static_cast<float>(random.uniform() - 0.5); };
