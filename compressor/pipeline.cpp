@@ -10,6 +10,7 @@
 #include <span>
 
 #include "compressor/bake/bake_sequence.h"
+#include "compressor/encode_report.h"
 #include "compressor/io/obj_files.h"
 #include "compressor/io/obj_sequence.h"
 #include "compressor/mesh_warnings.h"
@@ -119,6 +120,10 @@ ordered_json bake(const CompressOptions& options, const std::filesystem::path& d
     json["poses_resumed"] = summary.resumed;
     json["bands"] = options.bake.bands;
     json["rays"] = options.bake.rays;
+    if (options.bake.transfer_error > 0.0) {
+        json["transfer_error"] = options.bake.transfer_error;
+        json["vertices_above_transfer_error"] = summary.total.above_target;
+    }
     json["bounces"] = options.bake.bounces;
     json["channels"] = baked_layout.channels;
     json["rays_traced"] = summary.total.rays;
@@ -132,13 +137,21 @@ ordered_json bake(const CompressOptions& options, const std::filesystem::path& d
             "{}: {} vertices, {} triangles, poses {}-{} of {} ({} baked, {} found), {} bands\n",
             directory.string(), num_vertices, poses.topology().triangles.size(), first, last,
             sequence.num_poses(), summary.baked, summary.resumed, options.bake.bands);
+        const double traced = static_cast<double>(num_vertices) * (last - first + 1.0) -
+                              static_cast<double>(summary.total.zero_normals);
         fmt::print(
-            "  {} rays a vertex, {:.1f} % blocked; estimated noise {:.2f} % of the transfer\n",
-            options.bake.rays,
+            "  {:.0f} rays a vertex, {:.1f} % blocked; estimated noise {:.2f} % of the transfer\n",
+            traced > 0.0 ? static_cast<double>(summary.total.rays) / traced : 0.0,
             summary.total.rays > 0 ? 100.0 * static_cast<double>(summary.total.blocked) /
                                          static_cast<double>(summary.total.rays)
                                    : 0.0,
             100.0 * noise);
+        if (summary.total.above_target > 0) {
+            fmt::print(
+                "  {} vertices (over all poses) had {} rays and are still above the transfer error "
+                "of {:g} %: raise --rays\n",
+                summary.total.above_target, options.bake.rays, 100.0 * options.bake.transfer_error);
+        }
         if (options.bake.bounces > 0) {
             fmt::print("  {} bounces in {}; {:.2g} % of the rays ended on the back of a face\n",
                        options.bake.bounces, baked_layout.channels == 3 ? "colour" : "grey",
@@ -176,50 +189,14 @@ ordered_json encode_to(const CompressOptions& options, const std::filesystem::pa
     const EncodeSummary summary = encode(reader, encode_options, options.output,
                                          [&](uint64_t rows) { encoding.advance(rows); });
     encoding.finish();
-    const auto part_json = [](uint32_t components, uint32_t rank, double theory, double energy) {
-        ordered_json json;
-        json["components"] = components;
-        json["rank"] = rank;
-        json["theory_error"] = theory;
-        json["energy_error"] = energy;
-        return json;
-    };
     ordered_json json;
     json["paim"] = options.output.string();
     json["num_vertices"] = reader.identity().num_vertices;
     json["num_poses"] = reader.num_poses();
-    json["bands"] = summary.bands;
-    json["geometry"] = part_json(summary.geometry_components, summary.geometry_rank,
-                                 summary.geometry_theory_error, summary.geometry_energy_error);
-    json["transfer"] = part_json(summary.transfer_components, summary.transfer_rank,
-                                 summary.transfer_theory_error, summary.transfer_energy_error);
-    json["transfer"]["above_noise"] = summary.transfer_above_noise;
-    json["transfer"]["signal_error"] = summary.transfer_signal_error;
-    json["transfer"]["shrunk"] = summary.shrunk;
-    json["transfer"]["expected_error"] = summary.expected_error();
-    json["transfer"]["expected_truncation_error"] = summary.expected_truncation_error;
-    json["transfer"]["expected_noise_error"] = summary.expected_noise_error;
-    json["size_bytes"] = summary.size_bytes;
-    if (!options.json) {
-        fmt::print("{}: {:.2f} MB, {} bands\n", options.output.string(),
-                   static_cast<double>(summary.size_bytes) / 1e6, summary.bands);
-        fmt::print(
-            "  geometry: {} of {} components, energy error {:.3g} %, theoretical error {:.3g} %\n",
-            summary.geometry_components, summary.geometry_rank,
-            100.0 * summary.geometry_energy_error, 100.0 * summary.geometry_theory_error);
-        fmt::print(
-            "  transfer: {} of {} components, energy error {:.3g} %, theoretical error {:.3g} %\n",
-            summary.transfer_components, summary.transfer_rank,
-            100.0 * summary.transfer_energy_error, 100.0 * summary.transfer_theory_error);
-        fmt::print(
-            "  expected error of the transfer: {:.2g} % ({:.2g} % dropped components, {:.2g} % "
-            "bake "
-            "noise{})\n",
-            100.0 * summary.expected_error(), 100.0 * summary.expected_truncation_error,
-            100.0 * summary.expected_noise_error, summary.shrunk ? ", shrunk" : "");
-    }
-    if (summary.expected_noise_error > summary.expected_truncation_error && !options.quiet &&
-        !options.json) {
+    json.update(encode_json(summary));
+    if (options.json) return json;
+    fmt::print("{}", encode_text(options.output.string(), summary));
+    if (more_rays_would_help(summary)) {
         fmt::print(stderr,
                    "note: most of the error is bake noise: more rays would help more than more "
                    "components\n");

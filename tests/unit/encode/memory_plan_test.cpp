@@ -62,7 +62,7 @@ TEST(MemoryPlan, RefusesMorePosesThanFitAndSaysWhatTheyNeed) {
         EXPECT_EQ(error.code(), ExitCode::unsupported);
         EXPECT_STREQ(
             error.what(),
-            "x.bake: 10000 poses of 0 vertices in 1 bands need 13 GB of memory to be encoded, "
+            "x.bake: 10000 poses of 104000 vertices in 5 bands need 13 GB of memory to be encoded, "
             "but --memory allows 1000 MB");
     }
 }

@@ -1,0 +1,68 @@
+// What paim-compress says of an encoding.
+#include "compressor/encode_report.h"
+
+#include <fmt/format.h>
+
+namespace paim {
+
+using nlohmann::ordered_json;
+
+namespace {
+
+ordered_json part_json(uint32_t components, uint32_t rank, double theory, double energy) {
+    ordered_json json;
+    json["components"] = components;
+    json["rank"] = rank;
+    json["theory_error"] = theory;
+    json["energy_error"] = energy;
+    return json;
+}
+
+std::string part_text(const char* part, uint32_t components, uint32_t rank, double theory,
+                      double energy) {
+    return fmt::format(
+        "  {}: {} of {} components, energy error {:.3g} %, theoretical error {:.3g} %\n", part,
+        components, rank, 100.0 * energy, 100.0 * theory);
+}
+
+}  // namespace
+
+ordered_json encode_json(const EncodeSummary& summary) {
+    ordered_json json;
+    json["bands"] = summary.bands;
+    json["geometry"] = part_json(summary.geometry_components, summary.geometry_rank,
+                                 summary.geometry_theory_error, summary.geometry_energy_error);
+    ordered_json transfer = part_json(summary.transfer_components, summary.transfer_rank,
+                                      summary.transfer_theory_error, summary.transfer_energy_error);
+    transfer["above_noise"] = summary.transfer_above_noise;
+    transfer["signal_error"] = summary.transfer_signal_error;
+    transfer["shrunk"] = summary.shrunk;
+    transfer["expected_error"] = summary.expected_error();
+    transfer["expected_truncation_error"] = summary.expected_truncation_error;
+    transfer["expected_noise_error"] = summary.expected_noise_error;
+    transfer["more_rays_would_help"] = more_rays_would_help(summary);
+    json["transfer"] = std::move(transfer);
+    json["size_bytes"] = summary.size_bytes;
+    return json;
+}
+
+std::string encode_text(const std::string& file, const EncodeSummary& summary) {
+    std::string text = fmt::format("{}: {:.2f} MB, {} bands\n", file,
+                                   static_cast<double>(summary.size_bytes) / 1e6, summary.bands);
+    text += part_text("geometry", summary.geometry_components, summary.geometry_rank,
+                      summary.geometry_theory_error, summary.geometry_energy_error);
+    text += part_text("transfer", summary.transfer_components, summary.transfer_rank,
+                      summary.transfer_theory_error, summary.transfer_energy_error);
+    text += fmt::format(
+        "  expected error of the transfer: {:.2g} % ({:.2g} % dropped components, {:.2g} % bake "
+        "noise{})\n",
+        100.0 * summary.expected_error(), 100.0 * summary.expected_truncation_error,
+        100.0 * summary.expected_noise_error, summary.shrunk ? ", shrunk" : "");
+    return text;
+}
+
+bool more_rays_would_help(const EncodeSummary& summary) {
+    return summary.expected_noise_error > summary.expected_truncation_error;
+}
+
+}  // namespace paim
