@@ -55,9 +55,11 @@ void add_bake_options(CLI::App& app, CompressOptions& options, RawOptions& raw) 
                                kMostRays))
         ->check(cli::in_range(uint32_t{2}, uint32_t{1} << 24))
         ->default_str(std::to_string(options.bake.rays));
-    app.add_option("--transfer-error", raw.transfer_error,
-                   "Instead of a fixed count: each vertex takes rays until the estimated error of "
-                   "its transfer is below this fraction (0.02, 2%) of an open vertex's");
+    app.add_option(
+        "--transfer-error", raw.transfer_error,
+        "Instead of a fixed count: each vertex takes rays until the estimated error of "
+        "its transfer is below this fraction (0.02, 2%) of that of a vertex that nothing "
+        "shadows; bounces come on top");
     app.add_option("--sampler", raw.sampler,
                    "Directions of the rays: 'cosine' (low-discrepancy, best), or as references "
                    "'uniform' (random over the sphere), 'uniform-sobol'")
@@ -172,8 +174,10 @@ void apply(const RawOptions& raw, CompressOptions& options) {
     }
     if (!raw.transfer_error.empty()) {
         options.bake.transfer_error = cli::parse_fraction(raw.transfer_error, "--transfer-error");
-        if (!(options.bake.transfer_error > 0.0)) {
-            throw_usage("--transfer-error: expected more than 0, got '{}'", raw.transfer_error);
+        if (!(options.bake.transfer_error > 0.0 && options.bake.transfer_error < 1.0)) {
+            throw_usage(
+                "--transfer-error: expected more than 0 and less than 1 (or 100%), got '{}'",
+                raw.transfer_error);
         }
         options.bake.rays = kMostRays;
     }

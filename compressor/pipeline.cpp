@@ -146,11 +146,18 @@ ordered_json bake(const CompressOptions& options, const std::filesystem::path& d
                                          static_cast<double>(summary.total.rays)
                                    : 0.0,
             100.0 * noise);
-        if (summary.total.above_target > 0) {
+        const double target = options.bake.transfer_error;
+        if (target > 0.0 && summary.total.above_target == 0) {
+            fmt::print(
+                "  noise at every vertex is within {:g} % of an unshadowed vertex's transfer, "
+                "before "
+                "any bounces\n",
+                100.0 * target);
+        } else if (target > 0.0) {
             fmt::print(
                 "  {} vertices (over all poses) had {} rays and are still above the transfer error "
                 "of {:g} %: raise --rays\n",
-                summary.total.above_target, options.bake.rays, 100.0 * options.bake.transfer_error);
+                summary.total.above_target, options.bake.rays, 100.0 * target);
         }
         if (options.bake.bounces > 0) {
             fmt::print("  {} bounces in {}; {:.2g} % of the rays ended on the back of a face\n",
@@ -199,7 +206,7 @@ ordered_json encode_to(const CompressOptions& options, const std::filesystem::pa
     if (more_rays_would_help(summary)) {
         fmt::print(stderr,
                    "note: most of the error is bake noise: more rays would help more than more "
-                   "components\n");
+                   "components (bake again with more --rays, into another .bake)\n");
     }
     return json;
 }

@@ -31,6 +31,8 @@ TEST_F(Usage, Compress) {
         {{"--rays", "15"}, {"--rays: expected an even number", "got 15"}},
         {{"--rays", "0"}, {"--rays: expected 2 to 16777216, got '0'"}},
         {{"--rays", "many"}, {"--rays", "many"}},
+        {{"--transfer-error", "0"}, {"--transfer-error: expected more than 0", "got '0'"}},
+        {{"--transfer-error", "3"}, {"--transfer-error: expected more than 0", "got '3'"}},
         {{"--bands", "0"}, {"--bands: expected 1 to 64, got '0'"}},
         {{"--bands", "65"}, {"--bands", "65"}},
         {{"--bands", "-1"}, {"--bands", "-1"}},
