@@ -107,12 +107,13 @@ class TransferBaker::PoseBake {
 
     size_t num_coefficients() const { return lobe_.size(); }
     bool has_normal(size_t v) const { return !pose_.normals[v].isZero(0.0f); }
+    Vec3f ray_origin(size_t v) const { return pose_.positions[v] + offsets_[v] * pose_.normals[v]; }
 
     // Traces another batch of a vertex's rays; adds them up only where their sums can matter.
     void shoot(size_t v, const DirectionSampler& batch, bool is_only_batch, Halves& halves,
                Workspace& work) const {
         const Vec3f& normal = pose_.normals[v];
-        const Vec3f origin = pose_.positions[v] + offsets_[v] * normal;
+        const Vec3f origin = ray_origin(v);
         for (uint32_t h = 0; h < 2; ++h) {
             const uint64_t key = half_key(options_, p_, static_cast<uint32_t>(v), h);
             work.tracers[h].trace(scene_, origin, normal, batch, key, halves[h]);
@@ -214,7 +215,7 @@ class TransferBaker::PoseBake {
             row.clear();
             if (num_blocked_[v] == 0) return;
             const Vec3f& normal = pose_.normals[v];
-            const Vec3f origin = pose_.positions[v] + offsets_[v] * normal;
+            const Vec3f origin = ray_origin(v);
             const uint64_t key =
                 half_key(options_, p_, static_cast<uint32_t>(v), static_cast<uint32_t>(half));
             HitTracer tracer(scene_, topology, positions);

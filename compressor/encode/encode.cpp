@@ -53,8 +53,9 @@ void stream(PaimWriter& writer, Part part, const RowSource& rows,
 }
 
 // Σ of squares of the bake's transfer in the first bands, over all rows and poses.
-double transfer_energy(const BakeReader& bake, const TransferLayout& layout) {
-    const std::vector<double> rms = bake.total_statistics().transfer_rms;
+double transfer_energy(const BakeReader& bake, const PoseStatistics& total,
+                       const TransferLayout& layout) {
+    const std::vector<double>& rms = total.transfer_rms;
     double energy = 0.0;
     for (size_t l = 0; l < layout.bands; ++l) {
         energy += static_cast<double>((2 * l + 1) * layout.channels) * rms[l] * rms[l];
@@ -62,8 +63,8 @@ double transfer_energy(const BakeReader& bake, const TransferLayout& layout) {
     return energy * bake.identity().num_vertices * bake.num_poses();
 }
 
-std::string provenance(const BakeReader& bake, const EncodeSummary& summary) {
-    const BakeIdentity& identity = bake.identity();
+std::string provenance(const BakeIdentity& identity, const PoseStatistics& total,
+                       const EncodeSummary& summary) {
     nlohmann::ordered_json json;
     json["bake_bands"] = identity.layout.bands;
     json["sampler"] = identity.sampler;
@@ -74,7 +75,7 @@ std::string provenance(const BakeReader& bake, const EncodeSummary& summary) {
     json["seed"] = fmt::format("{:016x}", identity.seed);
     json["normals"] = identity.normals;
     if (identity.bounces > 0) json["bounces"] = identity.bounces;
-    json["bake_noise"] = bake.total_statistics().relative_noise();
+    json["bake_noise"] = total.relative_noise();
     json["noise"] = summary.shrunk ? "shrink" : "keep";
     json["expected_transfer_error"] = summary.expected_error();
     return json.dump();
@@ -145,11 +146,12 @@ EncodeSummary encode(const BakeReader& bake, const EncodeOptions& options,
     const EncodedError error = summary.shrunk
                                    ? shrinkage.expected_error(summary.transfer_components)
                                    : expected_error_unshrunk(noise, summary.transfer_components);
-    if (const double energy = transfer_energy(bake, model.layout); energy > 0.0) {
+    const PoseStatistics total = bake.total_statistics();
+    if (const double energy = transfer_energy(bake, total, model.layout); energy > 0.0) {
         summary.expected_truncation_error = std::sqrt(error.truncation / energy);
         summary.expected_noise_error = std::sqrt(error.noise / energy);
     }
-    model.provenance_json = provenance(bake, summary);
+    model.provenance_json = provenance(bake.identity(), total, summary);
     model.geometry =
         start_matrix(bake, geometry_rows, geometry, summary.geometry_components, options);
     model.transfer =
