@@ -10,8 +10,6 @@
 
 namespace paim {
 
-enum class Part { geometry, transfer };
-
 struct ComponentId {
     Part part;
     uint32_t k;

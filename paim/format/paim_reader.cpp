@@ -47,9 +47,10 @@ void read_spectrum(const ContainerReader& reader, size_t i, LowRankMatrix& matri
 void read_matrix(const ContainerReader& reader, Part part, LowRankMatrix& matrix) {
     const auto i = static_cast<size_t>(part);
     const Section& mean = reader.require(section::kMean[i], ScalarType::f32);
-    expect_shape(reader, mean, matrix.num_planes, matrix.num_vertices);
-    matrix.mean = reader.read_f32(mean);
-    check_finite(reader, section::kMean[i], matrix.mean);
+    expect_shape(reader, mean, matrix.num_planes, matrix.num_points);
+    std::vector<float> mean_values = reader.read_f32(mean);
+    check_finite(reader, section::kMean[i], mean_values);
+    matrix.mean = std::move(mean_values);
 
     const Section& weights = reader.require(section::kWeights[i], ScalarType::f32);
     expect_shape(reader, weights, matrix.num_components, matrix.num_poses);
@@ -70,14 +71,14 @@ void read_matrix(const ContainerReader& reader, Part part, LowRankMatrix& matrix
         if (type != ScalarType::f32 && type != ScalarType::f16) {
             throw_unsupported("{}: components of {}", reader.path(), scalar_name(type));
         }
-        expect_shape(reader, *sections[k], matrix.num_planes, matrix.num_vertices);
+        expect_shape(reader, *sections[k], matrix.num_planes, matrix.num_points);
         matrix.precision = type == ScalarType::f16 ? Precision::f16 : Precision::f32;
     }
-    matrix.components.reserve(matrix.num_components * matrix.num_rows());
+    matrix.components.reserve(matrix.num_components);
     for (const Section* section : sections) {
-        const std::vector<float> values = reader.read_f32(*section);
+        std::vector<float> values = reader.read_f32(*section);
         check_finite(reader, section::kComponent[i], values);
-        matrix.components.insert(matrix.components.end(), values.begin(), values.end());
+        matrix.components.emplace_back(std::move(values));
     }
 }
 
@@ -113,7 +114,7 @@ Model read_paim(const std::filesystem::path& path) {
 
     const auto start = [&](const char* key, uint32_t num_planes) {
         LowRankMatrix matrix;
-        matrix.num_vertices = num_vertices;
+        matrix.num_points = num_vertices;
         matrix.num_planes = num_planes;
         matrix.num_poses = num_poses;
         // No matrix has more components than columns or rows.

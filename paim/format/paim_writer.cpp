@@ -17,10 +17,6 @@ namespace {
 
 constexpr Part kParts[] = {Part::geometry, Part::transfer};
 
-const LowRankMatrix& part_of(const Model& model, Part part) {
-    return part == Part::geometry ? model.geometry : model.transfer;
-}
-
 ScalarType scalar_type(Precision precision) {
     return precision == Precision::f16 ? ScalarType::f16 : ScalarType::f32;
 }
@@ -51,7 +47,7 @@ std::vector<ComponentId> component_order(const Model& model) {
     };
     std::vector<Ranked> ranked;
     for (const Part part : kParts) {
-        const LowRankMatrix& matrix = part_of(model, part);
+        const LowRankMatrix& matrix = model.part(part);
         const double largest = matrix.singular_values.empty() ? 0.0 : matrix.singular_values[0];
         double energy = 0.0;  // relative to the largest value, which may be too big to square
         for (const double s : matrix.singular_values) energy += (s / largest) * (s / largest);
@@ -87,7 +83,7 @@ struct PaimWriter::Index {
         for (const SectionSpec& spec : scenery_specs(model.scenery, model.layout)) add(spec);
         for (const Part part : kParts) {
             const auto i = static_cast<size_t>(part);
-            const LowRankMatrix& matrix = part_of(model, part);
+            const LowRankMatrix& matrix = model.part(part);
             spectrum[i] = add({section::kSpectrum[i],
                                ScalarType::f64,
                                0,
@@ -99,20 +95,18 @@ struct PaimWriter::Index {
         }
         for (const Part part : kParts) {
             const auto i = static_cast<size_t>(part);
-            const LowRankMatrix& matrix = part_of(model, part);
-            mean[i] = add({section::kMean[i],
-                           ScalarType::f32,
-                           0,
-                           {1, matrix.num_planes, matrix.num_vertices}});
+            const LowRankMatrix& matrix = model.part(part);
+            mean[i] = add(
+                {section::kMean[i], ScalarType::f32, 0, {1, matrix.num_planes, matrix.num_points}});
             component[i].resize(matrix.num_components);
         }
         for (const auto& [part, k] : component_order(model)) {
             const auto i = static_cast<size_t>(part);
-            const LowRankMatrix& matrix = part_of(model, part);
+            const LowRankMatrix& matrix = model.part(part);
             component[i][k] = add({section::kComponent[i],
                                    scalar_type(matrix.precision),
                                    k,
-                                   {1, matrix.num_planes, matrix.num_vertices}});
+                                   {1, matrix.num_planes, matrix.num_points}});
         }
     }
 
@@ -143,7 +137,7 @@ PaimWriter::PaimWriter(const std::filesystem::path& path, const Model& model, In
     append_scenery(writer_, index.scenery, model.scenery);
     for (const Part part : kParts) {
         const auto i = static_cast<size_t>(part);
-        const LowRankMatrix& matrix = part_of(model, part);
+        const LowRankMatrix& matrix = model.part(part);
         writer_.append(index.spectrum[i], std::span(matrix.singular_values));
         writer_.append(index.weights[i], std::span(matrix.weights));
     }
@@ -168,12 +162,12 @@ void PaimWriter::append_component(ComponentId id, std::span<const float> rows) {
 void write_paim(const std::filesystem::path& path, const Model& model) {
     PaimWriter writer(path, model);
     for (const Part part : kParts) {
-        const LowRankMatrix& matrix = part_of(model, part);
+        const LowRankMatrix& matrix = model.part(part);
         PAIM_CHECK_EQ(matrix.mean.size(), matrix.num_rows());
-        PAIM_CHECK_EQ(matrix.components.size(), matrix.num_components * matrix.num_rows());
-        writer.append_mean(part, matrix.mean);
+        PAIM_CHECK_EQ(matrix.components.size(), size_t{matrix.num_components});
+        writer.append_mean(part, matrix.mean.floats());
         for (uint32_t k = 0; k < matrix.num_components; ++k) {
-            writer.append_component({part, k}, matrix.component(k));
+            writer.append_component({part, k}, matrix.components[k].floats());
         }
     }
     writer.commit();

@@ -129,11 +129,11 @@ TEST(PaimFile, HalfComponentsAreRoundedToNearest) {
     const Model read = read_paim(directory / "x.paim");
     EXPECT_EQ(read.transfer.precision, Precision::f16);
     EXPECT_EQ(read.geometry.components, model.geometry.components);
-    for (size_t j = 0; j < model.transfer.components.size(); ++j) {
-        const float exact = model.transfer.components[j];
+    for (size_t j = 0; j < model.transfer.num_rows(); ++j) {
+        const float exact = model.transfer.components[1][j];
         // Half floats have 11 significant bits: half a unit in the last place is at most 2^-11 of
         // the value; below 2^-14 they are subnormal, with steps of 2^-24.
-        EXPECT_LE(std::abs(read.transfer.components[j] - exact),
+        EXPECT_LE(std::abs(read.transfer.components[1][j] - exact),
                   std::max(std::abs(exact) * 0x1p-11f, 0x1p-25f));
     }
 }
@@ -193,7 +193,9 @@ TEST(PaimFile, RefusesContentsThatCannotBePlayed) {
     EXPECT_NE(complaint(model).find("triangle 1: vertex 4, expected 0 to 3"), std::string::npos);
 
     model = make_example_model();
-    model.transfer.components[5] = std::nanf("");
+    std::vector<float> values = model.transfer.components[0].floats();
+    values[5] = std::nanf("");
+    model.transfer.components[0] = std::move(values);
     EXPECT_NE(complaint(model).find("section TCMP: value 5 is nan"), std::string::npos)
         << complaint(model);
 
