@@ -143,6 +143,15 @@ TEST_F(Verify, RefusesWhatCannotBeTold) {
     expect_failure(analyze({path("x.bake")}), 1, {"--output is required"});
 }
 
+TEST_F(Verify, RefusesADamagedBake) {
+    const std::string file = state();
+    const auto pose = bake_pose_file(path("x.bake"), 2);
+    std::vector<char> bytes = read_file(pose, uint64_t{1} << 20);
+    bytes[bytes.size() - 100] ^= 1;  // of its noise
+    write_file(pose, std::string(bytes.begin(), bytes.end()));
+    expect_failure(verify(file), 2, {"pose_000002.bin"});
+}
+
 TEST_F(Verify, RefusesAnotherAnimation) {
     const std::string file = state();
     const auto bake = [&](const std::string& shape, uint32_t num_poses, uint32_t bands) {

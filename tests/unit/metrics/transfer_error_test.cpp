@@ -179,11 +179,12 @@ class KnownTruth : public testing::Test {
   protected:
     static constexpr Index kVertices = 12'000, kPoses = 24, kRank = 4;
 
-    KnownTruth() {
+    // most_noise  standard deviation at the last vertex
+    void make(double most_noise) {
         const Index rows = 4 * kVertices;
         sigma_.resize(rows);
         for (Index r = 0; r < rows; ++r)
-            sigma_(r) = 0.5 * static_cast<double>(r % kVertices) / kVertices;
+            sigma_(r) = most_noise * static_cast<double>(r % kVertices) / kVertices;
         movements_ = gaussian(kPoses, kRank, 11).householderQr().householderQ() *
                      MatrixXd::Identity(kPoses, kRank);
         truth_ = 3.0 * gaussian(rows, kRank, 12) * movements_.transpose();
@@ -212,7 +213,7 @@ class KnownTruth : public testing::Test {
         // And the floats' rounding, 2^-24 of everything.
         const double expected = true_energy / squared(animation_.baked);
         EXPECT_NEAR(error.error * error.error, expected, spread + 1e-6 * expected) << what;
-        EXPECT_LT(spread / expected, 0.1) << "else this would not say much";
+        EXPECT_LT(spread / expected, 0.2) << "else this would not say much";
     }
 
     Eigen::VectorXd sigma_;
@@ -221,6 +222,7 @@ class KnownTruth : public testing::Test {
 };
 
 TEST_F(KnownTruth, IsMetByWhatIsExpected) {
+    make(0.5);
     const MatrixXd projector = kept_ * kept_.transpose();
     expect_true_error(bake_ * projector, "projected");
     const MatrixXd mean = bake_.rowwise().mean().replicate(1, kPoses);
@@ -229,8 +231,9 @@ TEST_F(KnownTruth, IsMetByWhatIsExpected) {
 }
 
 TEST_F(KnownTruth, IsMetWhereVerticesAreShrunkDifferently) {
-    // Wiener's factors: 9 of signal in each direction.
-    const Eigen::VectorXd factors = (9.0 / (9.0 + sigma_.array().square() * 8.0)).matrix();
+    make(6.0);
+    // Wiener's factors, 9 of signal in each direction: 1 … 1/5.
+    const Eigen::VectorXd factors = (9.0 / (9.0 + sigma_.array().square())).matrix();
     const MatrixXd mean = bake_.rowwise().mean().replicate(1, kPoses);
     const MatrixXd moved = (bake_ - mean) * kept_ * kept_.transpose();
     expect_true_error(mean + factors.asDiagonal() * moved, "shrunk");
