@@ -21,7 +21,8 @@ struct RawOptions {
     uint32_t floor_vertices = FloorOptions().num_vertices;
     std::string geometry_components = "auto";
     std::string transfer_components = "auto";
-    std::string precision = "f32";
+    std::string precision = "auto";
+    RawTarget target;
     std::string noise = "shrink";
     std::string auto_transfer_error = "1%";
     std::string memory = "1G";
@@ -125,11 +126,14 @@ void add_encode_options(CLI::App& app, CompressOptions& options, RawOptions& raw
                    "them is noise, 'keep' leaves them ('all' components are always kept as baked)")
         ->check(CLI::IsMember({"shrink", "keep"}))
         ->capture_default_str();
-    app.add_option("--precision", raw.precision,
-                   "How components are stored: f32 or f16 (half the size, relative rounding "
-                   "0.05 %); means and weights are always f32")
-        ->check(CLI::IsMember({"f32", "f16"}))
+    app.add_option(
+           "--precision", raw.precision,
+           "How components are stored: f32, f16 (half the size, relative rounding 0.05 %; "
+           "means and weights stay f32), or integers that the error allows: 'auto' is those "
+           "with --max-error or --max-size, else f32")
+        ->check(CLI::IsMember({"auto", "f32", "f16"}))
         ->capture_default_str();
+    add_target_options(app, raw.target);
     app.add_option(
            "--memory", raw.memory,
            "Memory that encoding stays below, bytes or with K, M, G or T for powers of 1000; "
@@ -202,7 +206,10 @@ void apply(const RawOptions& raw, CompressOptions& options) {
         throw_usage("--memory: expected at least 64M, got '{}'", raw.memory);
     }
     options.encode.noise = raw.noise == "keep" ? NoiseTreatment::keep : NoiseTreatment::shrink;
+    options.target = parse_target(raw.target);
+    options.light_spectrum = raw.target.light_spectrum;
     options.encode.precision = raw.precision == "f16" ? Precision::f16 : Precision::f32;
+    if (options.target && raw.precision == "auto") options.encode.precision = Precision::i16;
     if (raw.encode_bands > 0) options.encode.bands = raw.encode_bands;
 }
 
@@ -222,7 +229,8 @@ std::optional<CompressOptions> parse_options(int argc, const char* const* argv, 
     app.footer(
         "In one go, the bake is kept beside the output as X.bake, where a killed run goes on; "
         "--discard-bake\nremoves it at the end.\n"
-        "Exit codes: 0 ok, 1 usage, 2 bad input, 3 unsupported, 4 output failed.");
+        "Exit codes: 0 ok, 1 usage, 2 bad input, 3 unsupported, 4 output failed,\n5 the error "
+        "asked for cannot be met.");
     const std::string bands_help = fmt::format(
         "Spherical-harmonic bands, 1 to {}; B bands are B*B coefficients", sh::kMaxBands);
     const auto bands_range = cli::in_range(1, static_cast<int>(sh::kMaxBands));

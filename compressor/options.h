@@ -10,6 +10,7 @@
 #include "compressor/bake/transfer_baker.h"
 #include "compressor/encode/encode.h"
 #include "compressor/scene/floor.h"
+#include "compressor/target_options.h"
 
 namespace paim {
 
@@ -30,6 +31,8 @@ struct CompressOptions {
     // Encode.
     std::filesystem::path bake_directory;  // of `encode`
     EncodeOptions encode;
+    std::optional<EncodeTarget> target;  // without its spectrum
+    std::string light_spectrum;          // flat, natural or a file
 
     std::filesystem::path output;
     int num_threads = 0;

@@ -15,6 +15,7 @@
 #include "compressor/io/obj_sequence.h"
 #include "compressor/mesh_warnings.h"
 #include "compressor/scene/floor.h"
+#include "compressor/target_report.h"
 #include "paim/base/error.h"
 #include "paim/base/file.h"
 #include "paim/base/parallel.h"
@@ -184,6 +185,24 @@ ordered_json bake(const CompressOptions& options, const std::filesystem::path& d
     return json;
 }
 
+ordered_json encode_target_to(const CompressOptions& options, const EncodeOptions& encode_options,
+                              const BakeReader& reader) {
+    EncodeTarget target = *options.target;
+    target.spectrum = parse_light_spectrum(options.light_spectrum, reader.identity().layout.bands);
+    const auto say = [&](const char* step) {
+        if (!options.quiet && !options.json) fmt::print(stderr, "{} ...\n", step);
+    };
+    const TargetSummary summary =
+        encode_to_target(reader, encode_options, target, options.output, say);
+    ordered_json json;
+    json["paim"] = options.output.string();
+    json["num_vertices"] = summary.num_vertices;
+    json["num_poses"] = summary.num_poses;
+    json.update(target_json(summary));
+    if (!options.json) fmt::print("{}", target_text(options.output.string(), summary));
+    return json;
+}
+
 ordered_json encode_to(const CompressOptions& options, const std::filesystem::path& directory) {
     check_paim_output(options.output);
     const BakeReader reader(directory);
@@ -191,6 +210,7 @@ ordered_json encode_to(const CompressOptions& options, const std::filesystem::pa
     encode_options.name = options.output.stem().string();
     check_memory(reader, encode_options);
     reader.verify_all();
+    if (options.target) return encode_target_to(options, encode_options, reader);
     cli::Progress encoding("encoding", "rows", num_rows_to_read(reader, encode_options),
                            options.quiet || options.json);
     const EncodeSummary summary = encode(reader, encode_options, options.output,

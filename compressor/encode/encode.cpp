@@ -2,7 +2,6 @@
 // Based on: Cardoso and Kry, Error Analysis of Precomputed Radiance Transfer for Deforming Geometry, 2012
 #include "compressor/encode/encode.h"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -12,6 +11,7 @@
 #include "compressor/encode/memory_plan.h"
 #include "compressor/encode/playable_scenery.h"
 #include "compressor/encode/principal_components.h"
+#include "compressor/encode/provenance.h"
 #include "compressor/encode/shrinkage.h"
 #include "paim/base/file.h"
 #include "paim/format/paim_file.h"
@@ -65,17 +65,7 @@ double transfer_energy(const BakeReader& bake, const PoseStatistics& total,
 
 std::string provenance(const BakeIdentity& identity, const PoseStatistics& total,
                        const EncodeSummary& summary) {
-    nlohmann::ordered_json json;
-    json["bake_bands"] = identity.layout.bands;
-    json["sampler"] = identity.sampler;
-    json["streams"] = identity.streams;
-    json["rays"] = identity.rays;
-    if (identity.transfer_error > 0.0) json["transfer_error"] = identity.transfer_error;
-    if (!identity.floor.empty()) json["floor"] = identity.floor;
-    json["seed"] = fmt::format("{:016x}", identity.seed);
-    json["normals"] = identity.normals;
-    if (identity.bounces > 0) json["bounces"] = identity.bounces;
-    json["bake_noise"] = total.relative_noise();
+    auto json = nlohmann::ordered_json::parse(bake_provenance(identity, total));
     json["noise"] = summary.shrunk ? "shrink" : "keep";
     json["expected_transfer_error"] = summary.expected_error();
     return json.dump();

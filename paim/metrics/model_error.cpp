@@ -1,14 +1,17 @@
 // A compressed animation, whatever its codec, against the bake it was made from.
 #include "paim/metrics/model_error.h"
 
+#include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "paim/base/error.h"
 #include "paim/base/parallel.h"
 #include "paim/codec/component_planes.h"
 #include "paim/codec/pose_parts.h"
 #include "paim/format/metadata.h"
+#include "paim/mesh/locality.h"
 #include "paim/metrics/pose_space.h"
 
 namespace paim {
@@ -18,7 +21,48 @@ using Eigen::MatrixXf;
 
 namespace {
 
-void check_same_animation(const Model& model, const BakeReader& bake) {
+// The bake's vertices and triangles in the order of the model.
+LocalOrder vertex_order(const Model& model, const BakeReader& bake) {
+    if (model.vertex_order == VertexOrder::local) return local_order(bake.topology());
+    LocalOrder order{{}, bake.topology()};
+    order.old_vertex.resize(bake.identity().num_vertices);
+    std::iota(order.old_vertex.begin(), order.old_vertex.end(), 0u);
+    return order;
+}
+
+// In the same order, but each may be turned.
+bool same_triangles(const Topology& a, const Topology& b) {
+    const auto turned = [](Triangle t) {
+        std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+        return t;
+    };
+    return a.num_vertices == b.num_vertices &&
+           std::equal(a.triangles.begin(), a.triangles.end(), b.triangles.begin(),
+                      b.triangles.end(),
+                      [&](const Triangle& s, const Triangle& t) { return turned(s) == turned(t); });
+}
+
+// Planes of V values of the bake, in the order of a model.
+class Reordered {
+  public:
+    explicit Reordered(const std::vector<uint32_t>& old_vertex)
+        : old_vertex_(old_vertex), buffer_(old_vertex.size()) {}
+
+    // values [planes][V], in place
+    void apply(float* values, size_t num_planes) {
+        for (size_t j = 0; j < num_planes; ++j) {
+            float* const plane = values + j * old_vertex_.size();
+            std::copy_n(plane, buffer_.size(), buffer_.begin());
+            for (size_t v = 0; v < buffer_.size(); ++v) plane[v] = buffer_[old_vertex_[v]];
+        }
+    }
+
+  private:
+    const std::vector<uint32_t>& old_vertex_;
+    std::vector<float> buffer_;
+};
+
+LocalOrder check_same_animation(const Model& model, const BakeReader& bake) {
     const BakeIdentity& identity = bake.identity();
     const auto expect = [&](const char* what, uint64_t expected, uint64_t got) {
         if (expected == got) return;
@@ -27,7 +71,8 @@ void check_same_animation(const Model& model, const BakeReader& bake) {
     };
     expect("vertices", identity.num_vertices, model.topology.num_vertices);
     expect("poses", identity.num_poses(), model.num_poses());
-    if (!(model.topology == bake.topology())) {
+    const LocalOrder order = vertex_order(model, bake);
+    if (!same_triangles(model.topology, order.topology)) {
         throw_bad_input("{}: expected a file made from this bake, got other triangles",
                         bake.directory().string());
     }
@@ -39,10 +84,12 @@ void check_same_animation(const Model& model, const BakeReader& bake) {
             bake.directory().string(), identity.layout.bands, identity.layout.channels,
             model.layout.bands, model.layout.channels);
     }
+    return order;
 }
 
 TransferError measure_transfer(const Model& model, const BakeReader& bake,
-                               const LightSpectrum& spectrum) {
+                               const LightSpectrum& spectrum,
+                               const std::vector<uint32_t>& old_vertex) {
     const TransferLayout& layout = bake.identity().layout;
     const uint32_t num_vertices = bake.identity().num_vertices;
     const uint32_t num_poses = bake.num_poses();
@@ -57,6 +104,9 @@ TransferError measure_transfer(const Model& model, const BakeReader& bake,
             const auto pose = static_cast<uint32_t>(p);
             bake.read_transfer_rows(pose, first, num_vertices, baked.col(column).data());
             bake.read_noise_rows(pose, first, num_vertices, noise.col(column).data());
+            Reordered reordered(old_vertex);
+            reordered.apply(baked.col(column).data(), 1);
+            reordered.apply(noise.col(column).data(), 1);
         });
         const uint32_t i = plane % layout.num_coefficients();
         const uint32_t channel = plane / layout.num_coefficients();
@@ -69,12 +119,15 @@ TransferError measure_transfer(const Model& model, const BakeReader& bake,
     return meter.result();
 }
 
-GeometryError measure_geometry(const Model& model, const BakeReader& bake) {
+GeometryError measure_geometry(const Model& model, const BakeReader& bake,
+                               const std::vector<uint32_t>& old_vertex) {
+    Reordered reordered(old_vertex);
     GeometryError error;
     DecodedPose pose;
     std::vector<float> baked(size_t{3} * bake.identity().num_vertices);
     for (uint32_t p = 0; p < bake.num_poses(); ++p) {
         bake.read_position_rows(p, 0, baked.size(), baked.data());
+        reordered.apply(baked.data(), 3);
         decode_positions(model, p, {}, pose);
         error.add(pose.positions, baked, p);
     }
@@ -85,8 +138,9 @@ GeometryError measure_geometry(const Model& model, const BakeReader& bake) {
 
 ModelError measure_model(const Model& model, const BakeReader& bake,
                          const LightSpectrum& spectrum) {
-    check_same_animation(model, bake);
-    return {measure_transfer(model, bake, spectrum), measure_geometry(model, bake)};
+    const LocalOrder order = check_same_animation(model, bake);
+    return {measure_transfer(model, bake, spectrum, order.old_vertex),
+            measure_geometry(model, bake, order.old_vertex)};
 }
 
 std::vector<NamedError> named_errors(const ModelError& error) {

@@ -1,0 +1,144 @@
+// Everything about a bake that ways to code it are compared on.
+#include "compressor/encode/material.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "compressor/encode/bake_rows.h"
+#include "compressor/encode/component_noise.h"
+#include "compressor/encode/memory_plan.h"
+#include "compressor/encode/playable_scenery.h"
+
+namespace paim {
+
+namespace {
+
+// Components that are dropped beforehand may take this share of the error that is asked for.
+constexpr double kDroppedShare = 0.15;
+
+// Floats, as a file of floats would have them.
+LowRankMatrix unquantised(const Scores& scores) {
+    LowRankMatrix matrix;
+    matrix.num_points = scores.num_points;
+    matrix.num_planes = scores.num_planes;
+    matrix.num_poses = scores.num_poses();
+    matrix.num_components = scores.num_components();
+    matrix.mean = scores.mean;
+    matrix.components.assign(scores.components.begin(), scores.components.end());
+    matrix.singular_values = scores.singular_values;
+    for (Eigen::Index k = 0; k < scores.weights.rows(); ++k) {
+        for (Eigen::Index p = 0; p < scores.weights.cols(); ++p) {
+            matrix.weights.push_back(static_cast<float>(scores.weights(k, p)));
+        }
+    }
+    return matrix;
+}
+
+// The fewest components whose rest is at most `most`, in squares of singular values.
+template <typename EnergyOf>
+uint32_t components_for(uint32_t all, double most, const EnergyOf& energy_of) {
+    double dropped = 0.0;
+    uint32_t k = all;
+    while (k > 0 && dropped + energy_of(k - 1) <= most) dropped += energy_of(--k);
+    return k;
+}
+
+Albedo in_order(const Albedo& albedo, const std::vector<uint32_t>& old_vertex) {
+    if (albedo.values.size() == 1) return albedo;
+    Albedo ordered;
+    ordered.values.clear();
+    for (const uint32_t old : old_vertex) ordered.values.push_back(albedo.values[old]);
+    return ordered;
+}
+
+// Largest diagonal of a pose's bounding box.
+double largest_diagonal(const BakeReader& bake) {
+    GeometryError measured;
+    std::vector<float> positions(size_t{3} * bake.identity().num_vertices);
+    for (uint32_t p = 0; p < bake.num_poses(); ++p) {
+        bake.read_position_rows(p, 0, positions.size(), positions.data());
+        measured.add(positions, positions, p);
+    }
+    return measured.diagonal;
+}
+
+}  // namespace
+
+Material read_material(const BakeReader& bake, const EncodeOptions& options,
+                       const EncodeTarget& target) {
+    const uint32_t in_flight = choose_num_in_flight(
+        encode_size(bake, options), options.memory_bytes, bake.directory().string());
+    const BakeIdentity& identity = bake.identity();
+    Material material{
+        bake, identity.layout, target.spectrum, bake.total_statistics(), {}, {}, {}, {}, {}, {},
+        0.0};
+    material.layout.bands = std::min(options.bands, identity.layout.bands);
+    LocalOrder order = local_order(bake.topology());
+    Model& frame = material.frame;
+    frame.topology = std::move(order.topology);
+    frame.vertex_order = VertexOrder::local;
+    frame.albedo = in_order(bake.albedo(), order.old_vertex);
+    frame.layout = material.layout;
+    frame.origin = identity.origin;
+    frame.frames_per_second = options.frames_per_second;
+    frame.name = options.name;
+    frame.scenery = playable_scenery(bake, material.layout.bands);
+    material.predictor = PlanePredictor(frame.topology);
+    for (uint32_t channel = 0; channel < material.layout.channels; ++channel) {
+        for (uint32_t i = 0; i < material.layout.num_coefficients(); ++i) {
+            const auto band = static_cast<uint32_t>(sh::band_of(static_cast<int>(i)));
+            // Light has some of every band, if little: no band may err without bounds.
+            material.plane_weight.push_back(std::max(1e-6, target.spectrum.weight(band)));
+        }
+    }
+
+    const double asked = target.transfer_error.value_or(0.001);
+    {
+        const GeometryRows rows(bake);
+        const PrincipalComponents pca = principal_components(rows, in_flight);
+        const double rms = largest_diagonal(bake) *
+                           target.geometry_error.value_or(kGeometryPerTransferError * asked);
+        const double most = kDroppedShare * kDroppedShare * rms * rms *
+                            static_cast<double>(identity.num_vertices) * bake.num_poses();
+        const auto energy = [&](uint32_t k) {
+            return pca.singular_values[k] * pca.singular_values[k];
+        };
+        material.geometry = read_scores(rows, pca, components_for(pca.rank(), most, energy),
+                                        nullptr, order.old_vertex, in_flight);
+    }
+    {
+        const TransferRows rows(bake, material.layout.bands);
+        const TransferRows noise_rows(bake, material.layout.bands, TransferRows::Content::noise);
+        const PrincipalComponents pca = principal_components(rows, in_flight);
+        const ComponentNoise noise =
+            measure_component_noise(rows, noise_rows, material.layout, pca, in_flight);
+        const Shrinkage shrinkage(noise);
+        double energy = 0.0;
+        for (size_t l = 0; l < material.layout.bands; ++l) {
+            const double rms = material.statistics.transfer_rms[l];
+            energy += static_cast<double>(2 * l + 1) * material.layout.channels * rms * rms;
+        }
+        energy *= static_cast<double>(identity.num_vertices) * bake.num_poses();
+        const auto signal = [&](uint32_t k) {
+            return noise.signal_of(static_cast<Eigen::Index>(k));
+        };
+        const double most = kDroppedShare * kDroppedShare * asked * asked * energy;
+        const bool shrink = options.noise == NoiseTreatment::shrink;
+        material.transfer =
+            read_scores(rows, pca, components_for(noise.num_above_noise, most, signal),
+                        shrink ? &shrinkage : nullptr, order.old_vertex, in_flight);
+    }
+
+    Model floor = material.frame;
+    floor.geometry = unquantised(material.geometry);
+    floor.transfer = unquantised(material.transfer);
+    material.floor = material.measure(floor);
+    for (uint32_t l = 0; l < identity.layout.bands; ++l) {
+        material.transfer_energy +=
+            target.spectrum.weight(l) * material.floor.transfer.bands[l].baked;
+    }
+    return material;
+}
+
+}  // namespace paim

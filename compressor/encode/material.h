@@ -1,0 +1,34 @@
+// Everything about a bake that ways to code it are compared on.
+#pragma once
+
+#include <vector>
+
+#include "compressor/encode/encode.h"
+#include "compressor/encode/encode_target.h"
+#include "compressor/encode/scores.h"
+#include "paim/format/plane_predictor.h"
+#include "paim/mesh/locality.h"
+#include "paim/metrics/model_error.h"
+
+namespace paim {
+
+struct Material {
+    const BakeReader& bake;
+    TransferLayout layout;  // bands as asked for
+    LightSpectrum spectrum;
+    PoseStatistics statistics;
+    Model frame;  // all but geometry and transfer; vertices in local order
+    PlanePredictor predictor;
+    Scores geometry, transfer;         // as many components as can matter; noise taken out
+    std::vector<double> plane_weight;  // [planes of layout] of squared transfer errors
+    ModelError floor;                  // of these components, not quantised: the best there is
+    double transfer_energy = 0.0;      // weighted ‖y‖² of the whole bake
+
+    ModelError measure(const Model& model) const { return measure_model(model, bake, spectrum); }
+};
+
+// Errors: unsupported if memory does not suffice.
+Material read_material(const BakeReader& bake, const EncodeOptions& options,
+                       const EncodeTarget& target);
+
+}  // namespace paim
