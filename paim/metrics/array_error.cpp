@@ -23,7 +23,7 @@ double ArrayError::rms() const {
 
 double ArrayError::relative() const {
     if (reference_squared_sum > 0.0) return std::sqrt(squared_sum / reference_squared_sum);
-    return squared_sum > 0.0 ? std::numeric_limits<double>::infinity() : 0.0;
+    return squared_sum > 0.0 ? std::numeric_limits<double>::infinity() : squared_sum;
 }
 
 void ArrayError::add(std::span<const float> values, std::span<const float> reference,
