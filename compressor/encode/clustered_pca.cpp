@@ -53,6 +53,7 @@ ClusteredPca analyse(const PointSource& points, const MatrixXf& projected,
     pca.energy.resize(pca.num_clusters);
     pca.singular_values = Eigen::MatrixXd::Zero(pca.num_clusters, pca.num_components);
     pca.coefficients = MatrixXf::Zero(points.num_points(), pca.num_components);
+    if (pca.num_clusters == 0) return pca;
     std::vector<uint32_t> small, large;
     for (uint32_t c = 0; c < pca.num_clusters; ++c) {
         pca.size.push_back(members.size(c));
@@ -84,14 +85,22 @@ ClusteredPca components_of_clusters(const PointSource& points, const Clustering&
                                     const ClusteringOptions& options) {
     PAIM_CHECK_EQ(clustering.cluster.size(), points.num_points());
     check_memory(points, options, "clustered PCA");
-    return analyse(points, project_points(points, options.projection, options.seed), clustering,
-                   options);
+    // Only what is too large for a Gram matrix starts from the projection.
+    const ClusterMembers members(clustering.cluster, clustering.num_clusters);
+    bool large = false;
+    for (size_t c = 0; c < clustering.num_clusters; ++c) {
+        large = large || members.size(c) > kMaxGramMembers;
+    }
+    return analyse(
+        points, large ? project_points(points, options.num_dimensions(), options.seed) : MatrixXf(),
+        clustering, options);
 }
 
 ClusteredPca clustered_pca(const PointSource& points, const ClusteringOptions& options,
                            const PointGraph* graph, const std::string& what) {
     check_memory(points, options, what);
-    const MatrixXf projected = project_points(points, options.projection, options.seed);
+    if (points.num_points() == 0) return analyse(points, {}, {}, options);
+    const MatrixXf projected = project_points(points, options.num_dimensions(), options.seed);
     return analyse(points, projected, cluster_points(projected, options, graph), options);
 }
 

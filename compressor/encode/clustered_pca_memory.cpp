@@ -25,8 +25,8 @@ struct Need {
           clusters(std::clamp<uint64_t>(options.num_clusters, 1, std::max<uint64_t>(1, points))),
           assumed(options.assumed_components),
           components(options.max_components),
-          dimensions(std::min<uint64_t>(options.projection, source.num_dimensions())),
-          sketch(sketch_columns(options.projection, source.num_dimensions())),
+          dimensions(std::min<uint64_t>(options.num_dimensions(), source.num_dimensions())),
+          sketch(sketch_columns(options.num_dimensions(), source.num_dimensions())),
           threads(static_cast<uint64_t>(max_parallelism())) {}
 
     uint64_t plane() const { return points * columns * kFloat; }

@@ -58,9 +58,8 @@ class Rounds {
 
 Clustering cluster_points(const Eigen::MatrixXf& points, const ClusteringOptions& options,
                           const PointGraph* graph) {
-    const auto num_clusters = static_cast<uint32_t>(std::clamp<Eigen::Index>(
-        options.num_clusters, 1, std::max<Eigen::Index>(1, points.cols())));
-    if (points.cols() == 0) return {};
+    const auto num_clusters =
+        static_cast<uint32_t>(std::clamp<Eigen::Index>(options.num_clusters, 1, points.cols()));
     ClusterSubspaces subspaces(points.rows(), num_clusters, 0);
     const std::vector<uint32_t> seeds = seed_clusters(points, num_clusters, options.seed);
     for (uint32_t c = 0; c < num_clusters; ++c) {
@@ -73,7 +72,8 @@ Clustering cluster_points(const Eigen::MatrixXf& points, const ClusteringOptions
     for (uint32_t round = 1; round < options.mean_rounds && moved; ++round) {
         moved = rounds.run(subspaces);
     }
-    const uint64_t most = options.assumed_components;
+    const uint64_t most = std::min<uint64_t>(options.assumed_components,
+                                             static_cast<uint64_t>(points.rows() + 1) / 2);
     for (uint64_t round = 0; round < options.affine_rounds && most > 0; ++round) {
         // From 1 to all, evenly over the rounds.
         const auto components = static_cast<uint32_t>(1 + round * most / options.affine_rounds);

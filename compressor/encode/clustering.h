@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -24,13 +25,17 @@ struct ClusteringOptions {
     uint32_t assumed_components = 8;  // of the affine subspaces that points are assigned to
     uint32_t max_components = 8;      // of the result; more or fewer than assumed
     uint64_t seed = 1;
-    uint32_t mean_rounds = 8;     // by distance to the clusters' means
-    uint32_t affine_rounds = 16;  // by distance to their affine subspaces
-    uint32_t projection = 96;     // dimensions that the points are clustered in
+    uint32_t mean_rounds = 4;     // by distance to the clusters' means, at least 1
+    uint32_t affine_rounds = 32;  // by distance to affine subspaces of 1 … assumed components
+    uint32_t projection = 64;     // dimensions to cluster in, at least; see num_dimensions()
     // Cost of each neighbour in another cluster, in mean squared distances of a point to its
     // cluster. 0: no regard to neighbours.
     float coherence = 0.0f;
     uint64_t memory_bytes = 1'000'000'000;
+
+    // Dimensions that points are projected to: twice what subspaces fill, for only what is beside
+    // them tells one from another.
+    uint32_t num_dimensions() const { return std::max(projection, 2 * assumed_components); }
 };
 
 struct Clustering {
@@ -39,7 +44,8 @@ struct Clustering {
 };
 
 // points  [d][V], a column a point
-// Fewer clusters than asked for come back if there are fewer different points.
+// Fewer clusters than asked for come back if there are fewer different points. Subspaces take at
+// most half of the d dimensions.
 Clustering cluster_points(const Eigen::MatrixXf& points, const ClusteringOptions& options,
                           const PointGraph* graph = nullptr);
 
