@@ -1,16 +1,16 @@
 // How small and how fast clustered principal components are: the table of docs/equations.md.
-//   paim-cluster-study X.bake [--curves] [CLUSTERSxCOMPONENTS]...
-//   paim-cluster-study --synthetic VxPLANESxCOLUMNS [CLUSTERSxCOMPONENTS]...
+//   paim-cluster-study X.bake|VxPLANESxCOLUMNS [--curves] [--rounds MEANxAFFINE] [--projection D]
+//                      [--seed S] [CLUSTERSxCOMPONENTS[xASSUMED]]...
+// A size in place of a bake stands for synthetic points.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "analysis/bench/synthetic_points.h"
@@ -22,8 +22,6 @@
 
 namespace paim {
 namespace {
-
-using Shape = std::pair<uint32_t, uint32_t>;  // clusters, components
 
 double sum_of_squares(const PointSource& points) {
     Eigen::MatrixXf plane(points.num_points(), points.num_columns());
@@ -42,22 +40,19 @@ double seconds(Body&& body) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-void measure(const PointSource& points, Shape shape, double total, bool curve) {
-    ClusteringOptions options;
-    options.num_clusters = shape.first;
-    options.assumed_components = options.max_components = shape.second;
-    options.memory_bytes = 4'000'000'000;
+void measure(const PointSource& points, const ClusteringOptions& options, double total,
+             bool curve) {
     ClusteredPca pca;
     Eigen::MatrixXf projected;
     Clustering clustering;
-    const double projecting_s =
-        seconds([&] { projected = project_points(points, options.num_dimensions(), options.seed); });
+    const double projecting_s = seconds(
+        [&] { projected = project_points(points, options.num_dimensions(), options.seed); });
     const double clustering_s = seconds([&] { clustering = cluster_points(projected, options); });
     const double whole_s = seconds([&] { pca = clustered_pca(points, options); });
     fmt::print("{}x{}: error {:.5f}, {:.2f} s ({:.2f} s projecting, {:.2f} s clustering), {} MB\n",
-               shape.first, shape.second, std::sqrt(pca.squared_error(pca.num_components) / total),
-               whole_s, projecting_s, clustering_s,
-               clustered_pca_memory_bytes(points, options) / 1'000'000);
+               options.num_clusters, options.max_components,
+               std::sqrt(pca.squared_error(pca.num_components) / total), whole_s, projecting_s,
+               clustering_s, clustered_pca_memory_bytes(points, options) / 1'000'000);
     for (uint32_t k = 0; curve && k <= pca.num_components; ++k) {
         fmt::print("{}{:.5f}", k == 0 ? "    " : " ", std::sqrt(pca.squared_error(k) / total));
     }
@@ -65,35 +60,68 @@ void measure(const PointSource& points, Shape shape, double total, bool curve) {
     std::fflush(stdout);
 }
 
-std::vector<uint32_t> numbers(const std::string& text, size_t count) {
+// Numbers with an x between; nothing if there is anything else.
+std::vector<uint32_t> numbers(const std::string& text) {
     std::vector<uint32_t> values;
+    if (text.empty() || text.find_first_not_of("0123456789x") != std::string::npos) return values;
     for (size_t at = 0; at <= text.size(); at = std::min(text.find('x', at), text.size()) + 1) {
         values.push_back(static_cast<uint32_t>(std::strtoul(text.c_str() + at, nullptr, 10)));
     }
-    if (values.size() != count) throw_usage("{}: expected {} numbers with x between", text, count);
     return values;
 }
 
-void run(int argc, char** argv) {
-    if (argc < 2) throw_usage("expected X.bake or --synthetic VxPLANESxCOLUMNS");
-    const bool synthetic = std::strcmp(argv[1], "--synthetic") == 0 && argc > 2;
-    int at = synthetic ? 3 : 2;
-    const bool curve = at < argc && std::strcmp(argv[at], "--curves") == 0;
-    at += curve ? 1 : 0;
-    std::vector<Shape> shapes;
-    for (; at < argc; ++at) {
-        const auto shape = numbers(argv[at], 2);
-        shapes.emplace_back(shape[0], shape[1]);
+struct Study {
+    std::vector<ClusteringOptions> runs;
+    bool curves = false;
+};
+
+Study parse(const std::vector<std::string>& words) {
+    Study study;
+    ClusteringOptions options;
+    options.memory_bytes = 4'000'000'000;
+    std::vector<std::vector<uint32_t>> shapes;
+    for (size_t at = 0; at < words.size(); ++at) {
+        const std::string& word = words[at];
+        if (word == "--curves") {
+            study.curves = true;
+            continue;
+        }
+        const bool option = word.starts_with("--");
+        const auto values = numbers(option && at + 1 < words.size() ? words[++at] : word);
+        if (word == "--rounds" && values.size() == 2) {
+            options.mean_rounds = values[0];
+            options.affine_rounds = values[1];
+        } else if (word == "--projection" && values.size() == 1) {
+            options.projection = values[0];
+        } else if (word == "--seed" && values.size() == 1) {
+            options.seed = values[0];
+        } else if (!option && (values.size() == 2 || values.size() == 3)) {
+            shapes.push_back(values);
+        } else {
+            throw_usage("{}: expected CLUSTERSxCOMPONENTS or an option and its numbers", word);
+        }
     }
     if (shapes.empty()) shapes = {{64, 24}, {256, 8}, {256, 12}, {512, 8}, {1024, 6}};
+    for (const auto& shape : shapes) {
+        options.num_clusters = shape[0];
+        options.max_components = shape[1];
+        options.assumed_components = shape.back();
+        study.runs.push_back(options);
+    }
+    return study;
+}
+
+void run(const std::vector<std::string>& words) {
+    if (words.empty()) throw_usage("expected X.bake or VxPLANESxCOLUMNS");
+    const Study study = parse({words.begin() + 1, words.end()});
+    const std::vector<uint32_t> size = numbers(words[0]);
     std::unique_ptr<BakeReader> bake;
     std::unique_ptr<RowSource> rows;
     std::unique_ptr<PointSource> points;
-    if (synthetic) {
-        const auto size = numbers(argv[2], 3);
+    if (size.size() == 3) {
         points = std::make_unique<bench::SyntheticPoints>(size[0], size[1], size[2]);
     } else {
-        bake = std::make_unique<BakeReader>(argv[1]);
+        bake = std::make_unique<BakeReader>(words[0]);
         const TransferLayout& layout = bake->identity().layout;
         rows = std::make_unique<TransferRows>(*bake, layout.bands);
         points = std::make_unique<RowPlanes>(*rows, static_cast<uint32_t>(layout.num_planes()));
@@ -101,7 +129,9 @@ void run(int argc, char** argv) {
     const double total = sum_of_squares(*points);
     fmt::print("{} points, {} planes of {}\n", points->num_points(), points->num_planes(),
                points->num_columns());
-    for (const Shape& shape : shapes) measure(*points, shape, total, curve);
+    for (const ClusteringOptions& options : study.runs) {
+        measure(*points, options, total, study.curves);
+    }
 }
 
 }  // namespace
@@ -109,7 +139,7 @@ void run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     try {
-        paim::run(argc, argv);
+        paim::run({argv + 1, argv + argc});
         return 0;
     } catch (const paim::Error& error) {
         fmt::print(stderr, "{}\n", error.what());

@@ -158,7 +158,9 @@ TEST(ClusteredPca, SaysTheErrorThatIsLeftOfALargeCluster) {
 
 // --- slow reference
 
-void expect_svd(Index num_points, Index num_columns, float factor, uint32_t num_components) {
+// tolerance of singular values, relative to the first
+void expect_svd(Index num_points, Index num_columns, float factor, uint32_t num_components,
+                double tolerance) {
     const MatrixXf matrix = falling(num_points, num_columns, factor, 51);
     const ClusteredPca pca = clustered_pca(MatrixPoints(matrix, 4), with(1, num_components));
     MatrixXd centred = matrix.cast<double>();
@@ -166,26 +168,30 @@ void expect_svd(Index num_points, Index num_columns, float factor, uint32_t num_
     const Eigen::BDCSVD<MatrixXd> svd(centred, Eigen::ComputeThinU);
     for (Index k = 0; k < static_cast<Index>(num_components); ++k) {
         const double s = svd.singularValues()[k];
-        // Ritz values converge as the square of the vectors' angle; iteration stops when the sum of
-        // squares grows by less than 2^-40 of all.
-        EXPECT_NEAR(pca.singular_values(0, k), s, 1e-6 * svd.singularValues()[0]);
+        EXPECT_NEAR(pca.singular_values(0, k), s, tolerance * svd.singularValues()[0]);
         const double cosine = pca.coefficients.col(k).cast<double>().dot(svd.matrixU().col(k)) /
                               std::sqrt(static_cast<double>(num_points));
-        EXPECT_NEAR(std::abs(cosine), 1.0, 1e-4);
+        // An angle squared costs as much of a value as values next to each other differ by: a
+        // hundredth and more in all of these.
+        EXPECT_NEAR(std::abs(cosine), 1.0, 100.0 * tolerance);
     }
     const double left =
         centred.squaredNorm() - svd.singularValues().head(num_components).squaredNorm();
-    EXPECT_NEAR(pca.squared_error(num_components), left, 1e-5 * left);
+    EXPECT_NEAR(pca.squared_error(num_components), left, 10.0 * tolerance * left);
 }
 
 TEST(ClusteredPca, OfOneClusterIsEigensSvd) {
-    expect_svd(40, 100, 0.8f, 6);    // decomposed whole
-    expect_svd(1000, 100, 0.8f, 6);  // iterated
-    expect_svd(1000, 20, 0.8f, 12);  // fewer dimensions than are iterated
+    // Iteration stops when the sum of squares grows by less than 2^-40 of all in two steps.
+    expect_svd(40, 100, 0.8f, 6, 1e-6);     // decomposed whole
+    expect_svd(1000, 100, 0.95f, 6, 1e-6);  // iterated
+    expect_svd(1000, 20, 0.8f, 12, 1e-6);   // fewer dimensions than are iterated
 }
 
 TEST(ClusteredPca, OfOneLargeClusterIsEigensSvd) {
-    expect_svd(kMaxGramMembers + 100, 100, 0.8f, 6);
+    expect_svd(kMaxGramMembers + 100, 100, 0.8f, 6, 1e-6);
+    // More directions than the projection keeps, and falling slowly: three passes do not converge.
+    // Measured: 4e-5, and more than 1e-3 after one pass.
+    expect_svd(kMaxGramMembers + 100, 300, 0.98f, 6, 1e-4);
 }
 
 // --- more is never worse
