@@ -37,7 +37,7 @@ uint64_t limited_size_bytes(const Model& model, const DecodeLimits& limits) {
     limited.provenance_json = model.provenance_json;
     const auto limit_part = [](const LowRankMatrix& from, uint32_t num_planes, uint32_t limit) {
         LowRankMatrix to;
-        to.num_vertices = from.num_vertices;
+        to.num_points = from.num_points;
         to.num_planes = num_planes;
         to.num_poses = from.num_poses;
         to.num_components = std::min(limit, from.num_components);

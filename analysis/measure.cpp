@@ -7,7 +7,7 @@
 #include <chrono>
 #include <span>
 
-#include "paim/codec/svd_decoder.h"
+#include "paim/codec/make_decoder.h"
 #include "paim/metrics/image_error.h"
 
 namespace paim {
@@ -49,7 +49,7 @@ std::vector<Image> measure_curves(const BakeReader& bake, const Model& model, co
                                   std::vector<Curve>& curves,
                                   const std::function<void()>& on_step) {
     using Clock = std::chrono::steady_clock;
-    const SvdDecoder decoder(model);
+    const std::unique_ptr<Decoder> decoder = make_decoder(model);
     std::vector<CurvePoint*> points;
     for (Curve& curve : curves) {
         for (CurvePoint& point : curve.points) points.push_back(&point);
@@ -64,10 +64,10 @@ std::vector<Image> measure_curves(const BakeReader& bake, const Model& model, co
         std::vector<Image> reference = stage.render_pose(baked);
         for (size_t j = 0; j < points.size(); ++j) {
             CurvePoint& point = *points[j];
-            decoder.decode(p, point.limits,
-                           decoded);  // takes the memory, so that the clock sees work
+            decoder->decode(p, point.limits,
+                            decoded);  // takes the memory, so that the clock sees work
             const auto start = Clock::now();
-            decoder.decode(p, point.limits, decoded);
+            decoder->decode(p, point.limits, decoded);
             sums[j].times_ms.push_back(
                 std::chrono::duration<double, std::milli>(Clock::now() - start).count());
             std::vector<Image> images = stage.render_pose(decoded);

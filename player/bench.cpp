@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "paim/base/parallel.h"
-#include "paim/codec/svd_decoder.h"
+#include "paim/codec/make_decoder.h"
 #include "paim/light/environment.h"
 #include "paim/shade/shade.h"
 #include "player/gl/check.h"
@@ -65,13 +65,13 @@ Times measure_cpu(const Options& options, const Scene& scene, Frame frame) {
     const uint32_t bands = options.limits.bands;
     const LightCoefficients light =
         EnvironmentLight(scene.environment).coefficients(Vec3f::Zero(), static_cast<int>(bands));
-    const SvdDecoder decoder(scene.model);
+    const std::unique_ptr<Decoder> decoder = make_decoder(scene.model);
     DecodedPose pose;
     std::vector<Vec3f> radiance;
     const int num_frames = *options.bench_frames;
     return measure(num_frames, [&](int i) {
         set_frame(frame, i, num_frames, scene.model.num_poses());
-        decoder.decode(frame.time, frame.limits, pose);
+        decoder->decode(frame.time, frame.limits, pose);
         shade(pose.layout, pose.transfer, scene.model.albedo,
               turn_about_y(light, frame.env_rotation_rad), radiance);
     });

@@ -21,16 +21,19 @@ inline Model make_example_model(uint32_t bands = 2, uint32_t channels = 1, uint3
     model.layout = {TransferKind::diffuse, bands, channels};
     const auto fill = [&](uint32_t num_planes) {
         LowRankMatrix matrix;
-        matrix.num_vertices = 4;
+        matrix.num_points = 4;
         matrix.num_planes = num_planes;
         matrix.num_poses = num_poses;
         matrix.num_components = num_components;
         const auto number = [&] { return static_cast<float>(2.0 * random.uniform() - 1.0); };
-        matrix.mean.resize(matrix.num_rows());
-        matrix.components.resize(num_components * matrix.num_rows());
+        std::vector<float> rows(matrix.num_rows());
+        std::generate(rows.begin(), rows.end(), number);
+        matrix.mean = rows;
+        for (uint32_t k = 0; k < num_components; ++k) {
+            std::generate(rows.begin(), rows.end(), number);
+            matrix.components.emplace_back(rows);
+        }
         matrix.weights.resize(size_t{num_components} * num_poses);
-        std::generate(matrix.mean.begin(), matrix.mean.end(), number);
-        std::generate(matrix.components.begin(), matrix.components.end(), number);
         std::generate(matrix.weights.begin(), matrix.weights.end(), number);
         for (uint32_t k = 0; k < num_components; ++k) {
             matrix.singular_values.push_back(std::pow(0.5, k) * (num_planes == 3 ? 1.0 : 0.9));
@@ -40,6 +43,66 @@ inline Model make_example_model(uint32_t bands = 2, uint32_t channels = 1, uint3
     model.geometry = fill(3);
     model.transfer = fill(model.layout.num_planes());
     return model;
+}
+
+// The same with integers instead of floats: i16 components, of which the last are i8.
+inline Model quantise_example(Model model) {
+    RandomStream random(9);
+    for (LowRankMatrix* matrix : {&model.geometry, &model.transfer}) {
+        const auto integer = [&](double limit) { return limit * (2.0 * random.uniform() - 1.0); };
+        matrix->precision = Precision::i16;
+        for (uint32_t j = 0; j < matrix->num_planes; ++j) {
+            matrix->steps.push_back(0.001f * static_cast<float>(1 + j));
+        }
+        std::vector<int16_t> wide(matrix->num_rows());
+        std::vector<int8_t> narrow(matrix->num_rows());
+        const auto fill_wide = [&] {
+            for (int16_t& q : wide) q = static_cast<int16_t>(integer(2000));
+        };
+        fill_wide();
+        matrix->mean = wide;
+        for (uint32_t k = 0; k < matrix->num_components; ++k) {
+            fill_wide();
+            for (int8_t& q : narrow) q = static_cast<int8_t>(integer(127));
+            matrix->components[k] =
+                2 * k < matrix->num_components ? StoredValues(wide) : StoredValues(narrow);
+        }
+    }
+    return model;
+}
+
+// The tetrahedron with clustered transfer: two clusters of two vertices, and so many components in
+// each; components over time and numbers as in make_example_model().
+inline Model make_clustered_example(uint32_t bands = 2, uint32_t channels = 1,
+                                    uint32_t num_cluster_components = 1, bool integers = false) {
+    RandomStream random(10);
+    const auto number = [&] { return static_cast<float>(2.0 * random.uniform() - 1.0); };
+    Model model = make_example_model(bands, channels);
+    VertexClusters& clusters = model.clusters;
+    clusters.num_clusters = 2;
+    clusters.num_components = num_cluster_components;
+    clusters.cluster = {1, 0, 0, 1};
+    for (uint32_t j = 0; j < num_cluster_components; ++j) {
+        if (integers) {
+            clusters.coefficients.emplace_back(std::vector<int8_t>{-127, 3, 0, 90});
+        } else {
+            std::vector<float> values(4);
+            std::generate(values.begin(), values.end(), number);
+            clusters.coefficients.emplace_back(values);
+        }
+    }
+    clusters.scales.resize(clusters.num_rows());
+    std::generate(clusters.scales.begin(), clusters.scales.end(), number);
+    LowRankMatrix& matrix = model.transfer;
+    matrix.num_points = clusters.num_rows();
+    std::vector<float> rows(matrix.num_rows());
+    const auto fill = [&] {
+        std::generate(rows.begin(), rows.end(), number);
+        return rows;
+    };
+    matrix.mean = fill();
+    for (StoredValues& component : matrix.components) component = fill();
+    return integers ? quantise_example(model) : model;
 }
 
 // Two triangles of three colours.

@@ -22,12 +22,17 @@ void fill(std::vector<float>& values, size_t count) {
 
 LowRankMatrix random_matrix(uint32_t num_vertices, uint32_t num_planes, uint32_t num_components) {
     LowRankMatrix matrix;
-    matrix.num_vertices = num_vertices;
+    matrix.num_points = num_vertices;
     matrix.num_planes = num_planes;
     matrix.num_poses = 50;
     matrix.num_components = num_components;
-    fill(matrix.mean, matrix.num_rows());
-    fill(matrix.components, matrix.num_rows() * num_components);
+    std::vector<float> values;
+    fill(values, matrix.num_rows());
+    matrix.mean = values;
+    for (uint32_t k = 0; k < num_components; ++k) {
+        fill(values, matrix.num_rows());
+        matrix.components.emplace_back(values);
+    }
     fill(matrix.weights, size_t{num_components} * matrix.num_poses);
     return matrix;
 }

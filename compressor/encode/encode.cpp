@@ -26,8 +26,8 @@ LowRankMatrix start_matrix(const BakeReader& bake, const RowSource& rows,
                            const PrincipalComponents& components, uint32_t num_components,
                            const EncodeOptions& options) {
     LowRankMatrix matrix;
-    matrix.num_vertices = bake.identity().num_vertices;
-    matrix.num_planes = static_cast<uint32_t>(rows.num_rows() / matrix.num_vertices);
+    matrix.num_points = bake.identity().num_vertices;
+    matrix.num_planes = static_cast<uint32_t>(rows.num_rows() / matrix.num_points);
     matrix.num_poses = bake.num_poses();
     matrix.precision = options.precision;
     matrix.singular_values = components.singular_values;

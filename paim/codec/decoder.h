@@ -14,6 +14,7 @@ struct DecodeLimits {
     uint32_t geometry_components = std::numeric_limits<uint32_t>::max();
     uint32_t transfer_components = std::numeric_limits<uint32_t>::max();
     uint32_t bands = std::numeric_limits<uint32_t>::max();
+    uint32_t cluster_components = std::numeric_limits<uint32_t>::max();  // of clustered transfer
 };
 
 // One rebuilt pose.

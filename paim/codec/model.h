@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "paim/codec/stored_values.h"
 #include "paim/mesh/topology.h"
 #include "paim/transfer/layout.h"
 
@@ -14,28 +15,52 @@ namespace paim {
 // The most poses that a file may hold: twelve hours at 24 frames a second.
 constexpr uint32_t kMaxPoses = 1u << 20;
 
-// How components are stored in the file; means and weights are always f32.
-enum class Precision : uint32_t { f32 = 0, f16 = 1 };
+// Geometry or transfer of an animation: each is compressed on its own.
+enum class Part { geometry, transfer };
 
 // A data matrix as mean + components · weights (E3, E4): column p is
 //   mean + Σ_k weights[k][p] · components[k].
-// Rows are plane-major: row = plane · V + v. Components have unit RMS (|component_k|² = rows) before
-// noise is taken out of them, so that half floats hold them well; weights carry the singular value.
+// Rows are plane-major: row = plane · N + n, with a point n for every vertex, or, where vertices share
+// bases (VertexClusters), for every row of a basis. Floats: components have unit RMS (|component_k|² =
+// rows) before noise is taken out of them, so that half floats hold them well, and weights carry the
+// singular value. Integers: values are multiples of their plane's step, and weights have about unit
+// RMS, so that one step costs about the same error in every component.
 struct LowRankMatrix {
-    uint32_t num_vertices = 0;
+    uint32_t num_points = 0;
     uint32_t num_planes = 0;
     uint32_t num_poses = 0;
     uint32_t num_components = 0;
-    Precision precision = Precision::f32;
-    std::vector<float> mean;              // [planes][V]
-    std::vector<float> components;        // [K][planes][V]
-    std::vector<float> weights;           // [K][P]
+    Precision precision = Precision::f32;  // of the file; integers may need fewer bits than it says
+    std::vector<float> steps;              // [planes], of integers; floats: empty, 1 each
+    StoredValues mean;                     // [planes][N], in steps
+    std::vector<StoredValues> components;  // [K] of [planes][N], in steps
+    std::vector<float> weights;            // [K][P]
+    // [K] integers times which the weights of a component are, or none: floats as they are.
+    std::vector<float> weight_steps;
     std::vector<double> singular_values;  // [rank of the full matrix], descending, unshrunk
 
-    size_t num_rows() const { return size_t{num_planes} * num_vertices; }
-    std::span<const float> component(uint32_t k) const {
-        return std::span(components).subspan(k * num_rows(), num_rows());
-    }
+    size_t num_rows() const { return size_t{num_planes} * num_points; }
+    float step(uint32_t plane) const { return steps.empty() ? 1.0f : steps[plane]; }
+};
+
+constexpr uint32_t kMaxClusters = 32767;
+constexpr uint32_t kMaxClusterComponents = 255;  // of one cluster
+
+// Clustered PCA: every vertex is a mean and a few components of its cluster, so that light and
+// pose can be applied to the bases of the clusters instead of to every vertex.
+// Based on: Sloan, Hall, Hart and Snyder, Clustered Principal Components for Precomputed Radiance
+//           Transfer, 2003
+struct VertexClusters {
+    uint32_t num_clusters = 0;               // 0: vertices have values of their own
+    uint32_t num_components = 0;             // of a cluster, beside its mean
+    std::vector<uint32_t> cluster;           // [V]
+    std::vector<StoredValues> coefficients;  // [components] of [V]
+    // [clusters][1 + components] what the rows of a basis are multiplied by. Row 0 is the mean.
+    std::vector<float> scales;
+
+    bool empty() const { return num_clusters == 0; }
+    uint32_t rows_per_cluster() const { return num_components + 1; }
+    uint32_t num_rows() const { return num_clusters * rows_per_cluster(); }
 };
 
 // What stands still beside an animation, stored once. It blocks and bounces the animation's light;
@@ -49,22 +74,35 @@ struct Scenery {
     bool empty() const { return topology.num_vertices == 0; }
 };
 
+// Whose order vertices and triangles have.
+enum class VertexOrder : uint32_t {
+    baked = 0,  // the bake's
+    local = 1,  // what local_order() makes of it (mesh/locality.h)
+};
+
 struct Model {
     Topology topology;
     Albedo albedo;
     TransferLayout layout;
     LowRankMatrix geometry;  // 3 planes: x, y, z
     LowRankMatrix transfer;  // layout.num_planes() planes
+    // None: a point of the transfer is a vertex. Else a row of a basis, and vertex v of cluster c has
+    //   t(v) = scales[c][0] · row(c, 0) + Σ_j coefficients[j][v] · scales[c][1 + j] · row(c, 1 + j).
+    VertexClusters clusters;
     Scenery scenery;
     // What the geometry is counted from, scene units: adding it, in double, gives scene
     // coordinates. Zero unless the mesh was far from the world's origin; whoever shows one model
     // alone may ignore it.
     Vec3d origin = Vec3d::Zero();
     float frames_per_second = 24.0f;
+    VertexOrder vertex_order = VertexOrder::baked;
     std::string name;
     std::string provenance_json;  // a JSON object: how it was made, for people and paim-info
 
     uint32_t num_poses() const { return geometry.num_poses; }
+    const LowRankMatrix& part(Part which) const {
+        return which == Part::geometry ? geometry : transfer;
+    }
 };
 
 }  // namespace paim

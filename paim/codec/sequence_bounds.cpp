@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "paim/codec/svd_decoder.h"
+#include "paim/codec/pose_parts.h"
 #include "paim/mesh/planes.h"
 
 namespace paim {
@@ -37,10 +37,8 @@ Bounds with_scenery(const Bounds& bounds, std::span<const float> scenery_positio
 Bounds positions_bounds(const Model& model, double time, uint32_t num_geometry_components) {
     DecodeLimits limits;
     limits.geometry_components = num_geometry_components;
-    limits.transfer_components = 0;
-    limits.bands = 1;
     DecodedPose pose;
-    SvdDecoder(model).decode(time, limits, pose);
+    decode_positions(model, time, limits, pose);
     Bounds bounds;
     bounds.extend(from_planes(pose.positions));
     return bounds;

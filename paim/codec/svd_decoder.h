@@ -10,8 +10,8 @@ namespace paim {
 
 class SvdDecoder : public Decoder {
   public:
-    // Keeps a reference to the model.
-    explicit SvdDecoder(const Model& model) : model_(model) {}
+    // Keeps a reference to the model, whose transfer is not clustered (checked).
+    explicit SvdDecoder(const Model& model);
 
     uint32_t num_vertices() const override { return model_.topology.num_vertices; }
     uint32_t num_poses() const override { return model_.num_poses(); }
@@ -20,9 +20,5 @@ class SvdDecoder : public Decoder {
   private:
     const Model& model_;
 };
-
-// The weights of all components at `time` (in poses, clamped to 0 … P−1), linearly interpolated.
-// weights [K]
-void interpolate_weights(const LowRankMatrix& matrix, double time, std::vector<float>& weights);
 
 }  // namespace paim

@@ -1,6 +1,4 @@
 // Writes .paim files.
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <utility>
 
@@ -8,6 +6,8 @@
 #include "paim/base/half.h"
 #include "paim/format/mesh_sections.h"
 #include "paim/format/paim_file.h"
+#include "paim/format/paim_metadata.h"
+#include "paim/format/paim_packer.h"
 #include "paim/format/paim_sections.h"
 #include "paim/format/scenery_sections.h"
 
@@ -17,29 +17,8 @@ namespace {
 
 constexpr Part kParts[] = {Part::geometry, Part::transfer};
 
-const LowRankMatrix& part_of(const Model& model, Part part) {
-    return part == Part::geometry ? model.geometry : model.transfer;
-}
-
 ScalarType scalar_type(Precision precision) {
     return precision == Precision::f16 ? ScalarType::f16 : ScalarType::f32;
-}
-
-std::string metadata(const Model& model) {
-    nlohmann::ordered_json json;
-    json["name"] = model.name;
-    json["num_vertices"] = model.topology.num_vertices;
-    json["num_poses"] = model.num_poses();
-    json["frames_per_second"] = model.frames_per_second;
-    if (const Vec3d& o = model.origin; !o.isZero(0.0)) json["origin"] = {o.x(), o.y(), o.z()};
-    json["transfer_kind"] = "diffuse";
-    json["bands"] = model.layout.bands;
-    json["channels"] = model.layout.channels;
-    json["geometry_components"] = model.geometry.num_components;
-    json["transfer_components"] = model.transfer.num_components;
-    json["provenance"] =
-        nlohmann::ordered_json::parse(model.provenance_json.empty() ? "{}" : model.provenance_json);
-    return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace
@@ -51,7 +30,7 @@ std::vector<ComponentId> component_order(const Model& model) {
     };
     std::vector<Ranked> ranked;
     for (const Part part : kParts) {
-        const LowRankMatrix& matrix = part_of(model, part);
+        const LowRankMatrix& matrix = model.part(part);
         const double largest = matrix.singular_values.empty() ? 0.0 : matrix.singular_values[0];
         double energy = 0.0;  // relative to the largest value, which may be too big to square
         for (const double s : matrix.singular_values) energy += (s / largest) * (s / largest);
@@ -71,23 +50,23 @@ std::vector<ComponentId> component_order(const Model& model) {
 // Which section holds what.
 struct PaimWriter::Index {
     std::string metadata;
-    std::vector<SectionSpec> specs;
+    std::vector<SectionPlan> specs;
     size_t scenery;  // the first of its sections
     size_t spectrum[2], weights[2], mean[2];
     std::vector<size_t> component[2];
 
-    explicit Index(const Model& model) : metadata(paim::metadata(model)) {
-        specs.push_back({section::kMetadata,
-                         ScalarType::u8,
-                         0,
-                         {1, 1, static_cast<uint32_t>(metadata.size())}});
+    explicit Index(const Model& model) : metadata(paim_metadata(model)) {
+        add({section::kMetadata,
+             ScalarType::u8,
+             0,
+             {1, 1, static_cast<uint32_t>(metadata.size())}});
         specs.push_back(triangles_spec(model.topology));
         specs.push_back(albedo_spec(model.albedo));
         scenery = specs.size();
         for (const SectionSpec& spec : scenery_specs(model.scenery, model.layout)) add(spec);
         for (const Part part : kParts) {
             const auto i = static_cast<size_t>(part);
-            const LowRankMatrix& matrix = part_of(model, part);
+            const LowRankMatrix& matrix = model.part(part);
             spectrum[i] = add({section::kSpectrum[i],
                                ScalarType::f64,
                                0,
@@ -99,20 +78,18 @@ struct PaimWriter::Index {
         }
         for (const Part part : kParts) {
             const auto i = static_cast<size_t>(part);
-            const LowRankMatrix& matrix = part_of(model, part);
-            mean[i] = add({section::kMean[i],
-                           ScalarType::f32,
-                           0,
-                           {1, matrix.num_planes, matrix.num_vertices}});
+            const LowRankMatrix& matrix = model.part(part);
+            mean[i] = add(
+                {section::kMean[i], ScalarType::f32, 0, {1, matrix.num_planes, matrix.num_points}});
             component[i].resize(matrix.num_components);
         }
         for (const auto& [part, k] : component_order(model)) {
             const auto i = static_cast<size_t>(part);
-            const LowRankMatrix& matrix = part_of(model, part);
+            const LowRankMatrix& matrix = model.part(part);
             component[i][k] = add({section::kComponent[i],
                                    scalar_type(matrix.precision),
                                    k,
-                                   {1, matrix.num_planes, matrix.num_vertices}});
+                                   {1, matrix.num_planes, matrix.num_points}});
         }
     }
 
@@ -123,10 +100,11 @@ struct PaimWriter::Index {
 };
 
 uint64_t paim_size_bytes(const Model& model) {
-    return container_size_bytes(PaimWriter::section_specs(model));
+    if (needs_packing(model)) return PackedFile(model).size_bytes();
+    return container_size_bytes(PaimWriter::section_plans(model));
 }
 
-std::vector<SectionSpec> PaimWriter::section_specs(const Model& model) {
+std::vector<SectionPlan> PaimWriter::section_plans(const Model& model) {
     return Index(model).specs;
 }
 
@@ -137,13 +115,13 @@ PaimWriter::PaimWriter(const std::filesystem::path& path, const Model& model, In
     : precision_{model.geometry.precision, model.transfer.precision},
       mean_section_{index.mean[0], index.mean[1]},
       component_section_{std::move(index.component[0]), std::move(index.component[1])},
-      writer_(path, section::kKindAnimation, std::move(index.specs)) {
+      writer_(path, section::kKindAnimation, index.specs) {
     writer_.append(0, index.metadata.data(), index.metadata.size());
     append_mesh(writer_, 1, 2, model.topology, model.albedo);
     append_scenery(writer_, index.scenery, model.scenery);
     for (const Part part : kParts) {
         const auto i = static_cast<size_t>(part);
-        const LowRankMatrix& matrix = part_of(model, part);
+        const LowRankMatrix& matrix = model.part(part);
         writer_.append(index.spectrum[i], std::span(matrix.singular_values));
         writer_.append(index.weights[i], std::span(matrix.weights));
     }
@@ -166,14 +144,18 @@ void PaimWriter::append_component(ComponentId id, std::span<const float> rows) {
 }
 
 void write_paim(const std::filesystem::path& path, const Model& model) {
+    if (needs_packing(model)) {
+        PackedFile(model).write(path);
+        return;
+    }
     PaimWriter writer(path, model);
     for (const Part part : kParts) {
-        const LowRankMatrix& matrix = part_of(model, part);
+        const LowRankMatrix& matrix = model.part(part);
         PAIM_CHECK_EQ(matrix.mean.size(), matrix.num_rows());
-        PAIM_CHECK_EQ(matrix.components.size(), matrix.num_components * matrix.num_rows());
-        writer.append_mean(part, matrix.mean);
+        PAIM_CHECK_EQ(matrix.components.size(), size_t{matrix.num_components});
+        writer.append_mean(part, matrix.mean.floats());
         for (uint32_t k = 0; k < matrix.num_components; ++k) {
-            writer.append_component({part, k}, matrix.component(k));
+            writer.append_component({part, k}, matrix.components[k].floats());
         }
     }
     writer.commit();

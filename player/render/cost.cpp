@@ -9,7 +9,7 @@ namespace {
 
 uint64_t part_bytes(const LowRankMatrix& matrix, uint64_t planes, uint64_t num_components) {
     const uint64_t component_bytes = matrix.precision == Precision::f16 ? 2 : 4;
-    const uint64_t rows = planes * matrix.num_vertices;
+    const uint64_t rows = planes * matrix.num_points;
     return 4 * rows + num_components * (component_bytes * rows + 4 * uint64_t{matrix.num_poses});
 }
 

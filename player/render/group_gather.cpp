@@ -25,10 +25,15 @@ void gather_groups(const PlaneView& view, int64_t first, std::span<float> out) {
                 for (int64_t v = 0; v < count; ++v) target[v * kGroupSize + lane] = 0.0f;
                 continue;
             }
-            const float* source =
-                view.values + (int64_t{channel} * view.planes_per_channel + plane) * num_vertices +
-                first_vertex;
-            for (int64_t v = 0; v < count; ++v) target[v * kGroupSize + lane] = source[v];
+            const int64_t source_plane = int64_t{channel} * view.planes_per_channel + plane;
+            const float step =
+                view.steps.empty() ? 1.0f : view.steps[static_cast<size_t>(source_plane)];
+            const auto first_value =
+                static_cast<size_t>(source_plane * num_vertices + first_vertex);
+            view.values->for_each(first_value, static_cast<size_t>(count),
+                                  [&](size_t j, float value) {
+                                      target[(j - first_value) * kGroupSize + lane] = step * value;
+                                  });
         }
         texel += count;
         target += count * kGroupSize;

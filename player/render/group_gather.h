@@ -4,11 +4,14 @@
 #include <cstdint>
 #include <span>
 
+#include "paim/codec/stored_values.h"
+
 namespace paim::player {
 
 // Planes of `num_vertices` values each, channel after channel, as they lie in a mean or component.
 struct PlaneView {
-    const float* values;
+    const StoredValues* values;
+    std::span<const float> steps;  // of the planes in memory; none: 1 each
     uint32_t num_vertices;
     uint32_t planes_per_channel;  // in memory
     uint32_t planes_used;         // the first of each channel that are wanted

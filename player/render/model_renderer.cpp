@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "paim/base/error.h"
-#include "paim/codec/svd_decoder.h"
+#include "paim/codec/low_rank.h"
 #include "player/gl/check.h"
 #include "player/render/clip_from_world.h"
 #include "player/render/depth_range.h"
@@ -35,7 +35,7 @@ struct PartView {
 
     void gather_mean(int64_t first, std::span<float> out) const {
         PlaneView mean = planes;
-        mean.values = matrix.mean.data();
+        mean.values = &matrix.mean;
         gather_groups(mean, first, out);
     }
 
@@ -47,7 +47,7 @@ struct PartView {
             const auto count =
                 std::min<size_t>(out.size(), static_cast<size_t>(stride - texel) * kGroupSize);
             PlaneView component = planes;
-            component.values = matrix.component(static_cast<uint32_t>(k)).data();
+            component.values = &matrix.components[static_cast<size_t>(k)];
             gather_groups(component, texel, out.first(count));
             out = out.subspan(count);
             first += static_cast<int64_t>(count / kGroupSize);
@@ -94,10 +94,10 @@ ModelRenderer::ModelRenderer(const Model& model, const DecodeLimits& limits)
       albedo_("the albedo", TexelFormat::rgba32f, plan_.width_log2,
               at_least_one(static_cast<int64_t>(model.albedo.values.size()))) {
     const uint32_t num_vertices = model.topology.num_vertices;
-    upload_part({model.geometry, {nullptr, num_vertices, 3, 3, 1}}, geometry_mean_,
-                geometry_components_, plan_.geometry_components);
+    upload_part({model.geometry, {nullptr, model.geometry.steps, num_vertices, 3, 3, 1}},
+                geometry_mean_, geometry_components_, plan_.geometry_components);
     upload_part({model.transfer,
-                 {nullptr, num_vertices, model.layout.num_coefficients(),
+                 {nullptr, model.transfer.steps, num_vertices, model.layout.num_coefficients(),
                   plan_.layout.num_coefficients(), plan_.groups_per_channel}},
                 transfer_mean_, transfer_components_, plan_.transfer_components);
     upload_albedo();

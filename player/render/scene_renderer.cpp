@@ -17,7 +17,7 @@ Model scenery_model(const Model& model) {
     still.layout = model.layout;
     const auto matrix = [&](uint32_t num_planes, const std::vector<float>& mean) {
         LowRankMatrix part;
-        part.num_vertices = scenery.topology.num_vertices;
+        part.num_points = scenery.topology.num_vertices;
         part.num_planes = num_planes;
         part.num_poses = model.num_poses();
         part.mean = mean;

@@ -32,10 +32,10 @@ float expected(uint32_t texel, uint32_t lane, uint32_t planes_used, uint32_t gro
 }
 
 TEST(GatherGroups, PutsFourPlanesIntoATexelFromAnyStart) {
-    const std::vector<float> planes = make_planes();
+    const StoredValues planes = make_planes();
     for (const uint32_t planes_used : {9u, 4u, 1u}) {
         const uint32_t groups = (planes_used + 3) / 4;
-        const PlaneView view{planes.data(), kVertices, kPlanes, planes_used, groups};
+        const PlaneView view{&planes, {}, kVertices, kPlanes, planes_used, groups};
         const uint32_t num_texels = 2 * groups * kVertices;
         for (uint32_t first = 0; first < num_texels; ++first) {
             for (uint32_t end = first + 1; end <= num_texels; ++end) {

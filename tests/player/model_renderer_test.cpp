@@ -184,9 +184,9 @@ TEST_P(ModelRendererTest, DrawsNothingOfAnEmptyModel) {
     Model model = make_test_model(options);
     model.topology = {};
     for (LowRankMatrix* matrix : {&model.geometry, &model.transfer}) {
-        matrix->num_vertices = 0;
-        matrix->mean.clear();
-        matrix->components.clear();
+        matrix->num_points = 0;
+        matrix->mean = {};
+        matrix->components.assign(matrix->num_components, {});
     }
     ModelRenderer renderer(model, {});
     const Image image = draw(renderer, make_frame(model, 0.0), make_test_light(5));

@@ -132,7 +132,8 @@ TEST_P(SceneTest, SceneryStandsBesideTheModel) {
         options.geometry_components = options.transfer_components = 0;
         options.albedo_per_vertex = true;
         const Model still = make_test_model(options);
-        model.scenery = {still.topology, still.albedo, still.geometry.mean, still.transfer.mean};
+        model.scenery = {still.topology, still.albedo, still.geometry.mean.floats(),
+                         still.transfer.mean.floats()};
         for (size_t v = 0; v < still.topology.num_vertices; ++v) model.scenery.positions[v] += 1.2f;
 
         const EnvironmentLight environment(make_environment());

@@ -7,6 +7,7 @@
 
 #include "paim/base/seed.h"
 #include "paim/codec/svd_decoder.h"
+#include "paim/mesh/planes.h"
 #include "paim/shade/shade.h"
 
 namespace paim::player {
@@ -73,8 +74,14 @@ void fill(LowRankMatrix& matrix, const std::vector<Vec3f>& positions, uint64_t s
             }
         }
     };
-    append_waves(matrix.mean, mean_scale, false);
-    for (uint32_t k = 0; k < matrix.num_components; ++k) append_waves(matrix.components, 1.0, half);
+    std::vector<float> mean;
+    append_waves(mean, mean_scale, false);
+    matrix.mean = std::move(mean);
+    for (uint32_t k = 0; k < matrix.num_components; ++k) {
+        std::vector<float> component;
+        append_waves(component, 1.0, half);
+        matrix.components.emplace_back(std::move(component));
+    }
     for (uint32_t i = 0; i < matrix.num_components * matrix.num_poses; ++i) {
         matrix.weights.push_back(static_cast<float>(weight_scale * (random.uniform() - 0.5)));
     }
@@ -84,7 +91,7 @@ void fill(LowRankMatrix& matrix, const std::vector<Vec3f>& positions, uint64_t s
 LowRankMatrix matrix_of(const Topology& topology, uint32_t num_planes, uint32_t num_components,
                         const TestModelOptions& options) {
     LowRankMatrix matrix;
-    matrix.num_vertices = topology.num_vertices;
+    matrix.num_points = topology.num_vertices;
     matrix.num_planes = num_planes;
     matrix.num_poses = options.num_poses;
     matrix.num_components = num_components;
@@ -104,21 +111,18 @@ Model make_test_model(const TestModelOptions& options) {
     model.layout.channels = options.channels;
     model.geometry = matrix_of(model.topology, 3, options.geometry_components, options);
     fill(model.geometry, positions, 1, 0.0, 0.2);
-    for (size_t v = 0; v < positions.size(); ++v) {
-        for (size_t axis = 0; axis < 3; ++axis) {
-            model.geometry.mean[axis * positions.size() + v] =
-                positions[v][static_cast<Eigen::Index>(axis)];
-        }
-    }
+    model.geometry.mean = to_planes(positions);
     model.transfer =
         matrix_of(model.topology, model.layout.num_planes(), options.transfer_components, options);
     fill(model.transfer, positions, 2, 0.3, 0.3);
+    std::vector<float> mean = model.transfer.mean.floats();
     // The constant coefficient of each channel keeps radiance away from zero.
     for (uint32_t channel = 0; channel < options.channels; ++channel) {
-        float* plane = model.transfer.mean.data() +
-                       size_t{model.layout.plane(channel, 0)} * model.topology.num_vertices;
+        float* plane =
+            mean.data() + size_t{model.layout.plane(channel, 0)} * model.topology.num_vertices;
         for (size_t v = 0; v < positions.size(); ++v) plane[v] += 2.0f;
     }
+    model.transfer.mean = std::move(mean);
     if (options.albedo_per_vertex) {
         RandomStream random(stream_key(3, 0, 0));
         model.albedo.values.clear();

@@ -18,7 +18,7 @@ Model dimensions(uint32_t num_vertices, uint32_t bands, uint32_t channels,
     model.topology.num_vertices = num_vertices;
     model.layout.bands = bands;
     model.layout.channels = channels;
-    model.geometry.num_vertices = model.transfer.num_vertices = num_vertices;
+    model.geometry.num_points = model.transfer.num_points = num_vertices;
     model.geometry.num_planes = 3;
     model.transfer.num_planes = model.layout.num_planes();
     model.geometry.num_components = geometry_components;

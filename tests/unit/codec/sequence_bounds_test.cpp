@@ -15,22 +15,23 @@ Model moving_points(uint32_t num_poses) {
     Model model;
     model.topology.num_vertices = 2;
     model.layout.bands = 1;
-    model.geometry.num_vertices = 2;
+    model.geometry.num_points = 2;
     model.geometry.num_planes = 3;
     model.geometry.num_poses = num_poses;
     model.geometry.num_components = 2;
-    model.geometry.mean = {0, 1, 0, 2, 0, 3};  // x x y y z z
-    model.geometry.components = {0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0};
+    model.geometry.mean = std::vector<float>{0, 1, 0, 2, 0, 3};  // x x y y z z
+    model.geometry.components = {std::vector<float>{0, 1, 0, 0, 0, 0},
+                                 std::vector<float>{0, 0, 0, 0, 1, 0}};
     for (uint32_t p = 0; p < num_poses; ++p) {
         model.geometry.weights.push_back(static_cast<float>(p));
     }
     for (uint32_t p = 0; p < num_poses; ++p) {
         model.geometry.weights.push_back(p == 1 ? -4.0f : 0.0f);
     }
-    model.transfer.num_vertices = 2;
+    model.transfer.num_points = 2;
     model.transfer.num_planes = 1;
     model.transfer.num_poses = num_poses;
-    model.transfer.mean = {0, 0};
+    model.transfer.mean = std::vector<float>{0, 0};
     return model;
 }
 
@@ -80,8 +81,8 @@ TEST(SequenceBounds, OfNothingAreEmpty) {
     Model model = moving_points(3);
     model.topology.num_vertices = 0;
     for (LowRankMatrix* matrix : {&model.geometry, &model.transfer}) {
-        matrix->num_vertices = 0;
-        matrix->mean.clear();
+        matrix->num_points = 0;
+        matrix->mean = {};
         matrix->components.clear();
     }
     EXPECT_TRUE(sequence_bounds(model).empty());

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "paim/codec/low_rank.h"
 #include "tests/example_model.h"
 
 namespace paim {
@@ -12,7 +13,7 @@ namespace {
 float element(const LowRankMatrix& matrix, size_t row, size_t p, uint32_t num_components) {
     double value = matrix.mean[row];
     for (uint32_t k = 0; k < num_components; ++k) {
-        value += static_cast<double>(matrix.component(k)[row]) *
+        value += static_cast<double>(matrix.components[k][row]) *
                  matrix.weights[size_t{k} * matrix.num_poses + p];
     }
     return static_cast<float>(value);

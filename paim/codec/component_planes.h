@@ -1,0 +1,16 @@
+// Planes of a decoded animation over all of its poses, whatever its codec: what errors are measured on.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cstdint>
+
+#include "paim/codec/model.h"
+
+namespace paim {
+
+// Plane 0 … 2 of the positions (scene units), or plane (layout.plane(channel, i)) of the transfer.
+// returns [V][P]
+Eigen::MatrixXf decode_plane(const Model& model, Part part, uint32_t plane);
+
+}  // namespace paim

@@ -1,0 +1,64 @@
+// Rebuilding a low-rank matrix.
+// Based on: Cardoso and Kry, Error Analysis of Precomputed Radiance Transfer for Deforming
+//           Geometry, 2012
+#include "paim/codec/low_rank.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "paim/base/parallel.h"
+
+namespace paim {
+
+void interpolate_weights(const LowRankMatrix& matrix, double time, std::vector<float>& weights) {
+    const double last = static_cast<double>(matrix.num_poses) - 1.0;
+    const double clamped = std::clamp(std::isnan(time) ? 0.0 : time, 0.0, last);
+    const auto p = static_cast<size_t>(clamped);
+    const size_t next = std::min(p + 1, size_t{matrix.num_poses} - 1);
+    const auto fraction = static_cast<float>(clamped - static_cast<double>(p));
+    weights.resize(matrix.num_components);
+    for (uint32_t k = 0; k < matrix.num_components; ++k) {
+        const float* row = matrix.weights.data() + size_t{k} * matrix.num_poses;
+        weights[k] = row[p] + fraction * (row[next] - row[p]);
+    }
+}
+
+void rebuild_planes(const LowRankMatrix& matrix, std::span<const uint32_t> planes,
+                    std::span<const float> weights, uint32_t num_components,
+                    std::vector<float>& out) {
+    const size_t num_points = matrix.num_points;
+    out.resize(planes.size() * num_points);
+    parallel_for(planes.size(), 1, [&](size_t j, size_t) {
+        const size_t first_row = planes[j] * num_points;
+        const std::span<float> plane(out.data() + j * num_points, num_points);
+        matrix.mean.widen(first_row, plane);
+        for (uint32_t k = 0; k < num_components; ++k) {
+            matrix.components[k].add_to(weights[k], first_row, plane);
+        }
+        const float step = matrix.step(planes[j]);
+        if (step == 1.0f) return;
+        for (float& value : plane) value *= step;
+    });
+}
+
+Eigen::MatrixXf rebuild_sequence(const LowRankMatrix& matrix, uint32_t plane) {
+    using Eigen::Index;
+    const auto num_points = static_cast<Index>(matrix.num_points);
+    const auto num_components = static_cast<Index>(matrix.num_components);
+    const size_t first_row = plane * size_t{matrix.num_points};
+    Eigen::VectorXf mean(num_points);
+    matrix.mean.widen(first_row, std::span(mean.data(), matrix.num_points));
+    Eigen::MatrixXf components(num_points, num_components);
+    for (Index k = 0; k < num_components; ++k) {
+        matrix.components[static_cast<size_t>(k)].widen(
+            first_row, std::span(components.col(k).data(), matrix.num_points));
+    }
+    using Weights = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    const Eigen::Map<const Weights> weights(matrix.weights.data(), num_components,
+                                            static_cast<Index>(matrix.num_poses));
+    Eigen::MatrixXf sequence = components * weights;
+    sequence.colwise() += mean;
+    return sequence * matrix.step(plane);
+}
+
+}  // namespace paim

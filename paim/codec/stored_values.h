@@ -1,0 +1,103 @@
+// Values of a matrix as memory holds them: floats, or small integers that count steps.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "paim/base/check.h"
+
+namespace paim {
+
+// How values are stored. Half floats are floats again in memory; integers stay integers.
+enum class Precision : uint32_t { f32 = 0, f16 = 1, i16 = 2, i8 = 3 };
+
+constexpr bool is_integer(Precision precision) {
+    return precision == Precision::i16 || precision == Precision::i8;
+}
+
+// The largest magnitude an integer of this precision has: 127 or 32767, so that the range is
+// symmetrical.
+constexpr int32_t largest_integer(Precision precision) {
+    return precision == Precision::i8 ? 127 : 32767;
+}
+
+class StoredValues {
+  public:
+    using Values = std::variant<std::vector<float>, std::vector<int16_t>, std::vector<int8_t>>;
+
+    StoredValues() = default;
+    StoredValues(std::vector<float> values) : values_(std::move(values)) {}
+    StoredValues(std::vector<int16_t> values) : values_(std::move(values)) {}
+    StoredValues(std::vector<int8_t> values) : values_(std::move(values)) {}
+
+    size_t size() const {
+        return std::visit([](const auto& values) { return values.size(); }, values_);
+    }
+    size_t size_bytes() const {
+        return std::visit([](const auto& values) { return std::span(values).size_bytes(); },
+                          values_);
+    }
+    bool empty() const { return size() == 0; }
+    bool holds_floats() const { return std::holds_alternative<std::vector<float>>(values_); }
+    bool holds_i8() const { return std::holds_alternative<std::vector<int8_t>>(values_); }
+
+    // Value j, in steps.
+    float operator[](size_t j) const {
+        return std::visit([j](const auto& values) { return static_cast<float>(values[j]); },
+                          values_);
+    }
+
+    // out[j] = value first + j, in steps.
+    void widen(size_t first, std::span<float> out) const {
+        std::visit(
+            [&](const auto& values) {
+                for (size_t j = 0; j < out.size(); ++j) {
+                    out[j] = static_cast<float>(values[first + j]);
+                }
+            },
+            values_);
+    }
+
+    // The floats (checked).
+    const std::vector<float>& floats() const {
+        PAIM_CHECK(holds_floats());
+        return std::get<std::vector<float>>(values_);
+    }
+
+    // use(j, value j in steps) for j in [first, first + count)
+    template <typename Use>
+    void for_each(size_t first, size_t count, const Use& use) const {
+        std::visit(
+            [&](const auto& values) {
+                for (size_t j = first; j < first + count; ++j) {
+                    use(j, static_cast<float>(values[j]));
+                }
+            },
+            values_);
+    }
+
+    // out[j] += weight · value first + j, in steps.
+    void add_to(float weight, size_t first, std::span<float> out) const {
+        std::visit(
+            [&](const auto& values) {
+                const auto* from = values.data() + first;
+                float* to = out.data();
+                for (size_t j = 0; j < out.size(); ++j)
+                    to[j] += weight * static_cast<float>(from[j]);
+            },
+            values_);
+    }
+
+    const Values& values() const { return values_; }
+
+    bool operator==(const StoredValues&) const = default;
+
+  private:
+    Values values_;
+};
+
+}  // namespace paim
