@@ -1,0 +1,52 @@
+// Cuts points into clusters that few principal components each describe well.
+// Based on: Linde, Buzo and Gray, An Algorithm for Vector Quantizer Design, 1980; Kambhatla and
+//           Leen, Dimension Reduction by Local Principal Component Analysis, 1997; Sloan, Hall,
+//           Hart and Snyder, Clustered Principal Components for Precomputed Radiance Transfer,
+//           2003; Sattler, Sarlette and Klein, Simple and Efficient Compression of Animation
+//           Sequences, 2005
+#pragma once
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace paim {
+
+// Which points are neighbours: of point v those at [first[v], first[v + 1]).
+struct PointGraph {
+    std::vector<uint32_t> first;      // [V + 1]
+    std::vector<uint32_t> neighbour;  // each edge twice
+};
+
+struct ClusteringOptions {
+    uint32_t num_clusters = 256;
+    uint32_t assumed_components = 8;  // of the affine subspaces that points are assigned to
+    uint32_t max_components = 8;      // of the result; more or fewer than assumed
+    uint64_t seed = 1;
+    uint32_t mean_rounds = 4;     // by distance to the clusters' means, at least 1
+    uint32_t affine_rounds = 32;  // by distance to affine subspaces of 1 … assumed components
+    uint32_t projection = 64;     // dimensions to cluster in, at least; see num_dimensions()
+    // Cost of each neighbour in another cluster, in mean squared distances of a point to its
+    // cluster. 0: no regard to neighbours.
+    float coherence = 0.0f;
+    uint64_t memory_bytes = 1'000'000'000;
+
+    // Dimensions that points are projected to: twice what subspaces fill, for only what is beside
+    // them tells one from another.
+    uint32_t num_dimensions() const { return std::max(projection, 2 * assumed_components); }
+};
+
+struct Clustering {
+    uint32_t num_clusters = 0;      // none of them empty
+    std::vector<uint32_t> cluster;  // [V]
+};
+
+// points  [d][V], a column a point
+// Fewer clusters than asked for come back if there are fewer different points. Subspaces take at
+// most half of the d dimensions.
+Clustering cluster_points(const Eigen::MatrixXf& points, const ClusteringOptions& options,
+                          const PointGraph* graph = nullptr);
+
+}  // namespace paim

@@ -1,0 +1,33 @@
+// The largest eigenvalues of a Gram matrix, with their eigenvectors.
+// Based on: Rutishauser, Simultaneous Iteration Method for Symmetric Matrices, 1970; Halko,
+//           Martinsson and Tropp 2011 (the random start, and what is kept beside what is wanted)
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cstdint>
+
+namespace paim {
+
+struct Eigenpairs {
+    Eigen::VectorXd values;   // [m] descending, at least 0
+    Eigen::MatrixXd vectors;  // [n][m] orthonormal columns
+};
+
+// Directions that are iterated for so many that are wanted of n.
+Eigen::Index iterated_directions(Eigen::Index wanted, Eigen::Index n);
+
+// The best of the span of orthonormal columns Q (Rayleigh and Ritz), given G Q.
+Eigenpairs ritz_pairs(const Eigen::MatrixXd& q, const Eigen::MatrixXd& gram_q, Eigen::Index wanted);
+
+// An orthonormal basis of the span of columns, as many of them.
+Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns);
+
+// gram  [n][n] symmetric, positive semidefinite, both halves filled
+// Small matrices are decomposed whole. Others are iterated until the sum of the wanted values grows
+// by less than 2^-40 of the trace a step: what is found is orthonormal and its values are exact
+// for it (v · G v), so that energies add up, converged or not.
+// key  of the random start
+Eigenpairs top_eigenpairs(const Eigen::MatrixXd& gram, Eigen::Index wanted, uint64_t key);
+
+}  // namespace paim
