@@ -11,7 +11,7 @@ namespace paim {
 namespace {
 
 // Points whose sums stay in the first-level cache while all components are added.
-constexpr size_t kPoints = 4096;
+constexpr size_t kPoints = 8192;
 
 // The next components that can be added at once: some of one type.
 Columns columns_from(std::span<const StoredValues> components, size_t k, size_t first) {

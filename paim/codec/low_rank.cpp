@@ -29,7 +29,7 @@ void rebuild_planes(const LowRankMatrix& matrix, std::span<const uint32_t> plane
                     std::vector<float>& out) {
     // Long enough that components are read in long runs, and short enough that all threads have
     // something to do even of three planes.
-    constexpr size_t kPoints = 4096;
+    constexpr size_t kPoints = 8192;
     const size_t num_points = matrix.num_points;
     const size_t num_pieces = (num_points + kPoints - 1) / kPoints;
     out.resize(planes.size() * num_points);

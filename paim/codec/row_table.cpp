@@ -67,18 +67,18 @@ void combine_tile(const RowCombination& combination, size_t first, size_t count,
     for (size_t v = 0; v < count; ++v) {
         const size_t row = size_t{combination.cluster[first + v]} * combination.rows_per_cluster;
         block.rows[v] = table.values.data() + row * block.stride + plane;
-        std::copy_n(block.rows[v], W, sums.data() + v * W);
     }
     const std::span<const StoredValues> coefficients = combination.coefficients;
-    for (size_t j = 0; j < coefficients.size(); j += block.num_rows) {
+    size_t j = 0;
+    do {
+        block.first_row = 1 + j;
         block.num_rows = std::min(kMaxColumns, coefficients.size() - j);
-        for (size_t i = 0; i < block.num_rows; ++i) {
-            use.widen(type_of(coefficients[j + i]), values_from(coefficients[j + i], first),
+        for (size_t i = 0; i < block.num_rows; ++i, ++j) {
+            use.widen(type_of(coefficients[j]), values_from(coefficients[j], first),
                       block.coefficients[i].data(), count);
         }
-        block.first_row = 1 + j;
         add_rows(block, sums.data());
-    }
+    } while (j < coefficients.size());
     const size_t num_vertices = combination.cluster.size();
     store_planes<W>(sums.data(), count, std::min<size_t>(W, table.num_planes - plane), num_vertices,
                     out + plane * num_vertices + first);
@@ -117,11 +117,15 @@ void combine(const RowCombination& combination, size_t first, size_t count, std:
         const size_t some = std::min(kVertices, first + count - v);
         if (table.padded_planes == kNarrowTile) {
             combine_tile<kNarrowTile>(combination, v, some, 0, use.combine_narrow, use, out.data());
-        } else {
-            for (size_t plane = 0; plane < table.num_planes; plane += kWideTile) {
-                combine_tile<kWideTile>(combination, v, some, plane, use.combine_wide, use,
-                                        out.data());
-            }
+            continue;
+        }
+        size_t plane = 0;
+        for (; plane + kWidestTile <= table.padded_planes; plane += kWidestTile) {
+            combine_tile<kWidestTile>(combination, v, some, plane, use.combine_widest, use,
+                                      out.data());
+        }
+        if (plane < table.padded_planes) {
+            combine_tile<kWideTile>(combination, v, some, plane, use.combine_wide, use, out.data());
         }
     }
 }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <new>
 #include <span>
 #include <vector>
 
@@ -11,11 +12,28 @@
 
 namespace paim {
 
+// Memory that begins where a cache line does.
+template <typename T>
+struct LineAllocator {
+    using value_type = T;
+    static constexpr std::align_val_t kLine{64};
+
+    LineAllocator() = default;
+    template <typename Other>
+    LineAllocator(const LineAllocator<Other>&) {}
+
+    T* allocate(size_t count) { return static_cast<T*>(::operator new(count * sizeof(T), kLine)); }
+    void deallocate(T* values, size_t) { ::operator delete(values, kLine); }
+
+    bool operator==(const LineAllocator&) const { return true; }
+};
+
 // Bases of clusters as combine() wants them: rows of padded planes.
 struct RowTable {
     uint32_t num_planes = 0;
     uint32_t padded_planes = 0;
-    std::vector<float> values;  // [rows][padded planes]
+    // [rows][padded planes], from a cache line's beginning: vectors that straddle two lines cost twice
+    std::vector<float, LineAllocator<float>> values;
 
     // Takes rows times their scales. Reuses what the table holds.
     // rows    [planes][R]

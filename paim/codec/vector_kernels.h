@@ -15,6 +15,7 @@ constexpr size_t kMaxColumns = 8;
 // Planes of a row that are summed at once, and vertices.
 constexpr int kNarrowTile = 4;
 constexpr int kWideTile = 16;
+constexpr int kWidestTile = 32;
 constexpr size_t kVertices = 64;
 
 // Values of some components (or coefficients), of one type.
@@ -29,7 +30,7 @@ struct Columns {
 // Vertices with some rows that are added to each, tile by tile.
 struct RowBlock {
     size_t count = 0;                          // of vertices
-    size_t first_row = 0;                      // of these, counted from rows[v]
+    size_t first_row = 0;                      // of these, counted from rows[v]; 1 starts a sum
     size_t num_rows = 0;                       // at most kMaxColumns
     size_t stride = 0;                         // from row to row
     std::array<const float*, kVertices> rows;  // row 0 of each vertex, from the tile's first plane
@@ -43,10 +44,11 @@ struct VectorKernels {
     void (*add)(const Columns& columns, const float* weights, float* to, size_t count);
     // values[j] *= factor
     void (*scale)(float factor, float* values, size_t count);
-    // sums[v][i] += Σ_j coefficients[j][v] · row(v, first_row + j)[i] for the planes i of a tile, in
-    // order of j
+    // sums[v][i] (from first_row = 1: row(v, 0)[i]) + Σ_j coefficients[j][v] · row(v, first_row + j)[i]
+    // for the planes i of a tile, in order of j
     void (*combine_narrow)(const RowBlock& block, float* sums);
     void (*combine_wide)(const RowBlock& block, float* sums);
+    void (*combine_widest)(const RowBlock& block, float* sums);
 };
 
 // Of any unit but plain (checked), which the machine must have.

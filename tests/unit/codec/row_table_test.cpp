@@ -52,15 +52,20 @@ std::vector<uint32_t> bits(std::span<const float> values) {
     return result;
 }
 
+std::vector<float> values(const RowTable& table) {
+    return {table.values.begin(), table.values.end()};
+}
+
 TEST(RowTable, IsScaledAndPaddedWithZeros) {
     RowTable table;
     table.assign(std::vector<float>{1, 2, 3, 4, 5, 6}, std::vector<float>{10, 100});
     EXPECT_EQ(table.num_planes, 3u);
     EXPECT_EQ(table.padded_planes, 4u);
-    EXPECT_EQ(table.values, (std::vector<float>{10, 30, 50, 0, 200, 400, 600, 0}));
+    EXPECT_EQ(reinterpret_cast<uintptr_t>(table.values.data()) % 64, 0u);
+    EXPECT_EQ(values(table), (std::vector<float>{10, 30, 50, 0, 200, 400, 600, 0}));
     // What was there before is gone, padding too.
     table.assign(std::vector<float>{1, 2}, std::vector<float>{10, 100});
-    EXPECT_EQ(table.values, (std::vector<float>{10, 0, 0, 0, 200, 0, 0, 0}));
+    EXPECT_EQ(values(table), (std::vector<float>{10, 0, 0, 0, 200, 0, 0, 0}));
 }
 
 TEST(Combine, IsTheSumItStandsFor) {
