@@ -24,8 +24,8 @@ struct DecodedPose {
     std::vector<float> positions;  // [3][V] scene units
     std::vector<float> transfer;   // [layout.num_planes()][V]
     // Work space of clustered transfer, kept from frame to frame.
-    std::vector<float> basis_rows;  // [layout.num_planes()][rows of all bases]
-    RowTable row_table;
+    std::vector<float> basis_rows = {};  // [layout.num_planes()][rows of all bases]
+    RowTable row_table = {};
 };
 
 class Decoder {
