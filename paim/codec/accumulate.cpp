@@ -10,7 +10,7 @@ namespace paim {
 
 namespace {
 
-// Points whose sums stay in the first-level cache while all components are added.
+// Points whose sums (32 KB) stay in the first- or second-level cache while all components are added.
 constexpr size_t kPoints = 8192;
 
 // The next components that can be added at once: some of one type.
