@@ -11,6 +11,7 @@ install(EXPORT paim-targets NAMESPACE paim:: DESTINATION ${package_dir})
 # The rooms of paim::paim, without the headers that only their own sources include.
 set(public_rooms base codec format image light mesh metrics sh shade transfer)
 set(private_headers
+    codec/vector_kernels.h
     format/bake_manifest.h
     format/matrix_sections.h
     format/mesh_sections.h

@@ -11,17 +11,26 @@
 
 namespace paim {
 
+namespace {
+
+// out[plane][v], all planes of the table
+void combine_all(const VertexClusters& clusters, const RowTable& table, uint32_t num_components,
+                 std::span<float> out) {
+    constexpr size_t kVerticesATask = 1024;
+    const RowCombination combination{table, clusters.cluster,
+                                     std::span(clusters.coefficients).first(num_components),
+                                     clusters.rows_per_cluster()};
+    parallel_for(clusters.cluster.size(), kVerticesATask,
+                 [&](size_t begin, size_t end) { combine(combination, begin, end - begin, out); });
+}
+
+}  // namespace
+
 void combine_rows(const VertexClusters& clusters, std::span<const float> rows,
                   uint32_t num_components, std::span<float> out) {
-    const uint32_t stride = clusters.rows_per_cluster();
-    std::vector<float> scaled(rows.size());
-    for (size_t r = 0; r < rows.size(); ++r) scaled[r] = clusters.scales[r] * rows[r];
-    for (size_t v = 0; v < out.size(); ++v) out[v] = scaled[clusters.cluster[v] * stride];
-    for (uint32_t j = 0; j < num_components; ++j) {
-        clusters.coefficients[j].for_each(0, out.size(), [&](size_t v, float coefficient) {
-            out[v] += coefficient * scaled[clusters.cluster[v] * stride + 1 + j];
-        });
-    }
+    RowTable table;
+    table.assign(rows, clusters.scales);
+    combine_all(clusters, table, num_components, out);
 }
 
 ClusterDecoder::ClusterDecoder(const Model& model) : model_(model) {
@@ -31,18 +40,11 @@ ClusterDecoder::ClusterDecoder(const Model& model) : model_(model) {
 
 void ClusterDecoder::decode(double time, const DecodeLimits& limits, DecodedPose& out) const {
     decode_positions(model_, time, limits, out);
-    std::vector<float> rows;
-    decode_transfer_points(model_, time, limits, out.layout, rows);
-    const size_t num_rows = model_.transfer.num_points;
-    const size_t num_vertices = model_.topology.num_vertices;
-    const uint32_t num_components =
-        std::min(limits.cluster_components, model_.clusters.num_components);
-    out.transfer.resize(size_t{out.layout.num_planes()} * num_vertices);
-    parallel_for(out.layout.num_planes(), 1, [&](size_t plane, size_t) {
-        combine_rows(model_.clusters, std::span(rows).subspan(plane * num_rows, num_rows),
-                     num_components,
-                     std::span(out.transfer).subspan(plane * num_vertices, num_vertices));
-    });
+    decode_transfer_points(model_, time, limits, out.layout, out.basis_rows);
+    out.row_table.assign(out.basis_rows, model_.clusters.scales);
+    out.transfer.resize(size_t{out.layout.num_planes()} * model_.topology.num_vertices);
+    combine_all(model_.clusters, out.row_table,
+                std::min(limits.cluster_components, model_.clusters.num_components), out.transfer);
 }
 
 }  // namespace paim

@@ -21,9 +21,9 @@ class ClusterDecoder : public Decoder {
     const Model& model_;
 };
 
-// Every vertex's value from values of the rows of its cluster's basis.
-// rows  [clusters · (1 + components)], scales not applied
-// out   [V]
+// Every vertex's values from values of the rows of its cluster's basis, on all threads.
+// rows  [planes][clusters · (1 + components)], scales not applied
+// out   [planes][V]
 void combine_rows(const VertexClusters& clusters, std::span<const float> rows,
                   uint32_t num_components, std::span<float> out);
 

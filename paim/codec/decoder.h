@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "paim/codec/row_table.h"
 #include "paim/transfer/layout.h"
 
 namespace paim {
@@ -22,6 +23,9 @@ struct DecodedPose {
     TransferLayout layout;         // bands as limited
     std::vector<float> positions;  // [3][V] scene units
     std::vector<float> transfer;   // [layout.num_planes()][V]
+    // Work space of clustered transfer, kept from frame to frame.
+    std::vector<float> basis_rows = {};  // [layout.num_planes()][rows of all bases]
+    RowTable row_table = {};
 };
 
 class Decoder {

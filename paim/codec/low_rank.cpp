@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "paim/base/parallel.h"
+#include "paim/codec/accumulate.h"
 
 namespace paim {
 
@@ -26,18 +27,20 @@ void interpolate_weights(const LowRankMatrix& matrix, double time, std::vector<f
 void rebuild_planes(const LowRankMatrix& matrix, std::span<const uint32_t> planes,
                     std::span<const float> weights, uint32_t num_components,
                     std::vector<float>& out) {
+    // Long enough that components are read in long runs, and short enough that all threads have
+    // something to do even of three planes.
+    constexpr size_t kPoints = 8192;
     const size_t num_points = matrix.num_points;
+    const size_t num_pieces = (num_points + kPoints - 1) / kPoints;
     out.resize(planes.size() * num_points);
-    parallel_for(planes.size(), 1, [&](size_t j, size_t) {
-        const size_t first_row = planes[j] * num_points;
-        const std::span<float> plane(out.data() + j * num_points, num_points);
-        matrix.mean.widen(first_row, plane);
-        for (uint32_t k = 0; k < num_components; ++k) {
-            matrix.components[k].add_to(weights[k], first_row, plane);
-        }
-        const float step = matrix.step(planes[j]);
-        if (step == 1.0f) return;
-        for (float& value : plane) value *= step;
+    const std::span components = std::span(matrix.components).first(num_components);
+    parallel_for(planes.size() * num_pieces, 1, [&](size_t task, size_t) {
+        const size_t j = task / num_pieces;
+        const size_t first = task % num_pieces * kPoints;
+        const size_t count = std::min(kPoints, num_points - first);
+        accumulate(matrix.mean, components, weights.first(num_components), matrix.step(planes[j]),
+                   planes[j] * num_points + first,
+                   std::span(out).subspan(j * num_points + first, count));
     });
 }
 

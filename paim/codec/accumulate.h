@@ -1,0 +1,20 @@
+// Sums of weighted components: where a decoded frame's time goes. Written for the vector units of the
+// machine at hand; the bytes are the same with all of them, for the order of operations is fixed and
+// none is fused.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "paim/codec/stored_values.h"
+#include "paim/codec/vector_unit.h"
+
+namespace paim {
+
+// out[n] = step · (… ((mean[first + n] + weights[0] · components[0][first + n]) + weights[1] · …)).
+// components and weights have one size (checked), values [first, first + out.size()) exist (checked).
+void accumulate(const StoredValues& mean, std::span<const StoredValues> components,
+                std::span<const float> weights, float step, size_t first, std::span<float> out,
+                VectorUnit unit = best_vector_unit());
+
+}  // namespace paim

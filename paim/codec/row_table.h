@@ -1,0 +1,58 @@
+// Sums of weighted rows of clusters' bases: every vertex gathers its own, all planes at once.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <new>
+#include <span>
+#include <vector>
+
+#include "paim/codec/stored_values.h"
+#include "paim/codec/vector_unit.h"
+
+namespace paim {
+
+// Memory that begins where a cache line does.
+template <typename T>
+struct LineAllocator {
+    using value_type = T;
+    static constexpr std::align_val_t kLine{64};
+
+    LineAllocator() = default;
+    template <typename Other>
+    LineAllocator(const LineAllocator<Other>&) {}
+
+    T* allocate(size_t count) { return static_cast<T*>(::operator new(count * sizeof(T), kLine)); }
+    void deallocate(T* values, size_t) { ::operator delete(values, kLine); }
+
+    bool operator==(const LineAllocator&) const { return true; }
+};
+
+// Bases of clusters as combine() wants them: rows of padded planes.
+struct RowTable {
+    uint32_t num_planes = 0;
+    uint32_t padded_planes = 0;
+    // [rows][padded planes], from a cache line's beginning: vectors that straddle two lines cost twice
+    std::vector<float, LineAllocator<float>> values;
+
+    // Takes rows times their scales. Reuses what the table holds.
+    // rows    [planes][R]
+    // scales  [R]
+    void assign(std::span<const float> rows, std::span<const float> scales);
+};
+
+// What every vertex of a cluster is made from.
+struct RowCombination {
+    const RowTable& table;
+    std::span<const uint32_t> cluster;           // [V]
+    std::span<const StoredValues> coefficients;  // [components] of [V]
+    uint32_t rows_per_cluster;                   // the components may be fewer than it has
+};
+
+// Vertex v of [first, first + count) in every plane, at out[plane · V + v], V = cluster.size():
+//   (row(v, 0) + coefficients[0][v] · row(v, 1)) + coefficients[1][v] · row(v, 2) …
+// where row(v, j) is row cluster[v] · rows_per_cluster + j of the table.
+void combine(const RowCombination& combination, size_t first, size_t count, std::span<float> out,
+             VectorUnit unit = best_vector_unit());
+
+}  // namespace paim

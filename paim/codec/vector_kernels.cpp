@@ -1,0 +1,151 @@
+// The inner loops of decoding, once for every vector unit.
+#include "paim/codec/vector_kernels.h"
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
+#include <bit>
+#include <cstdint>
+
+#include "paim/base/check.h"
+
+namespace paim {
+
+namespace {
+
+using Type = Columns::Type;
+
+constexpr size_t kLineBytes = 64;
+// How far ahead of the sums components are fetched: the processor's own prefetching takes a while to
+// see each of so many streams.
+constexpr size_t kAheadBytes = 1024;
+
+typedef float FourFloats __attribute__((vector_size(16)));
+
+struct FourLanes {
+    using TileVector = FourFloats;
+};
+
+// May point past the values: nothing is read from there.
+__attribute__((always_inline)) inline void fetch_ahead(const void* from, size_t offset_bytes) {
+    __builtin_prefetch(
+        reinterpret_cast<const void*>(std::bit_cast<uintptr_t>(from) + offset_bytes + kAheadBytes));
+}
+
+namespace portable {
+
+#define PAIM_TARGET
+#define PAIM_TARGET_INLINE __attribute__((always_inline)) inline
+struct Lanes {
+    using Vector = float;
+    using TileVector = FourFloats;
+    static constexpr size_t kLanes = 1;
+    template <typename T>
+    static float load(const T* values) {
+        return static_cast<float>(*values);
+    }
+};
+#include "paim/codec/vector_kernels.inc"
+#undef PAIM_TARGET
+#undef PAIM_TARGET_INLINE
+
+}  // namespace portable
+
+#if defined(__x86_64__)
+
+namespace avx2 {
+
+#define PAIM_TARGET __attribute__((target("avx2")))
+#define PAIM_TARGET_INLINE __attribute__((target("avx2"), always_inline)) inline
+struct Lanes {
+    using Vector = __m256;
+    using TileVector = __m256;
+    static constexpr size_t kLanes = 8;
+    PAIM_TARGET_INLINE static Vector load(const float* values) { return _mm256_loadu_ps(values); }
+    PAIM_TARGET_INLINE static Vector load(const int16_t* values) {
+        const __m128i narrow = _mm_loadu_si128(reinterpret_cast<const __m128i*>(values));
+        return _mm256_cvtepi32_ps(_mm256_cvtepi16_epi32(narrow));
+    }
+    PAIM_TARGET_INLINE static Vector load(const int8_t* values) {
+        const __m128i narrow = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(values));
+        return _mm256_cvtepi32_ps(_mm256_cvtepi8_epi32(narrow));
+    }
+};
+#include "paim/codec/vector_kernels.inc"
+#undef PAIM_TARGET
+#undef PAIM_TARGET_INLINE
+
+}  // namespace avx2
+
+namespace avx512 {
+
+#define PAIM_TARGET __attribute__((target("avx512f")))
+#define PAIM_TARGET_INLINE __attribute__((target("avx512f"), always_inline)) inline
+struct Lanes {
+    using Vector = __m512;
+    using TileVector = __m512;
+    static constexpr size_t kLanes = 16;
+    // With a mask, though it hides nothing and costs nothing: GCC 12 warns of what its own header
+    // leaves uninitialised in the others.
+    static constexpr __mmask16 kAll = 0xffff;
+    PAIM_TARGET_INLINE static Vector to_floats(const __m512i& values) {
+        return _mm512_maskz_cvtepi32_ps(kAll, values);
+    }
+    PAIM_TARGET_INLINE static Vector load(const float* values) { return _mm512_loadu_ps(values); }
+    PAIM_TARGET_INLINE static Vector load(const int16_t* values) {
+        const __m256i narrow = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(values));
+        return to_floats(_mm512_maskz_cvtepi16_epi32(kAll, narrow));
+    }
+    PAIM_TARGET_INLINE static Vector load(const int8_t* values) {
+        const __m128i narrow = _mm_loadu_si128(reinterpret_cast<const __m128i*>(values));
+        return to_floats(_mm512_maskz_cvtepi8_epi32(kAll, narrow));
+    }
+};
+#include "paim/codec/vector_kernels.inc"
+#undef PAIM_TARGET
+#undef PAIM_TARGET_INLINE
+
+}  // namespace avx512
+
+#endif
+
+}  // namespace
+
+const VectorKernels& vector_kernels(VectorUnit unit) {
+#if defined(__x86_64__)
+    if (unit == VectorUnit::avx512) return avx512::kKernels;
+    if (unit == VectorUnit::avx2) return avx2::kKernels;
+#endif
+    PAIM_CHECK(unit == VectorUnit::portable);
+    return portable::kKernels;
+}
+
+std::span<const VectorUnit> vector_units() {
+    static constexpr std::array kAll{VectorUnit::plain, VectorUnit::portable, VectorUnit::avx2,
+                                     VectorUnit::avx512};
+    static const size_t num_here = [] {
+#if defined(__x86_64__)
+        if (__builtin_cpu_supports("avx512f")) return size_t{4};
+        if (__builtin_cpu_supports("avx2")) return size_t{3};
+#endif
+        return size_t{2};
+    }();
+    return std::span(kAll).first(num_here);
+}
+
+VectorUnit best_vector_unit() {
+    return vector_units().back();
+}
+
+Columns::Type type_of(const StoredValues& stored) {
+    if (stored.holds_floats()) return Columns::Type::f32;
+    return stored.holds_i8() ? Columns::Type::i8 : Columns::Type::i16;
+}
+
+const void* values_from(const StoredValues& stored, size_t first) {
+    return std::visit([first](const auto& values) -> const void* { return values.data() + first; },
+                      stored.values());
+}
+
+}  // namespace paim

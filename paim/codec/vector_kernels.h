@@ -1,0 +1,60 @@
+// The inner loops of decoding, once for every vector unit. For accumulate.cpp and row_table.cpp.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "paim/codec/stored_values.h"
+#include "paim/codec/vector_unit.h"
+
+namespace paim {
+
+// Components that are added at once, so that sums stay in registers: with their weights they fill
+// the 16 registers of AVX2.
+constexpr size_t kMaxColumns = 8;
+// Planes of a row that are summed at once, and vertices.
+constexpr int kNarrowTile = 4;
+constexpr int kWideTile = 16;
+constexpr int kWidestTile = 32;
+constexpr size_t kVertices = 64;
+
+// Values of some components (or coefficients), of one type.
+struct Columns {
+    enum class Type { f32, i16, i8 };
+
+    Type type = Type::f32;
+    size_t count = 0;
+    std::array<const void*, kMaxColumns> values{};
+};
+
+// Vertices with some rows that are added to each, tile by tile.
+struct RowBlock {
+    size_t count = 0;                          // of vertices
+    size_t first_row = 0;                      // of these, counted from rows[v]; 1 starts a sum
+    size_t num_rows = 0;                       // at most kMaxColumns
+    size_t stride = 0;                         // from row to row
+    std::array<const float*, kVertices> rows;  // row 0 of each vertex, from the tile's first plane
+    std::array<std::array<float, kVertices>, kMaxColumns> coefficients;  // [row][vertex]
+};
+
+struct VectorKernels {
+    // to[j] = from[j]
+    void (*widen)(Columns::Type type, const void* from, float* to, size_t count);
+    // to[j] += Σ_k weights[k] · columns[k][j], in order of k
+    void (*add)(const Columns& columns, const float* weights, float* to, size_t count);
+    // values[j] *= factor
+    void (*scale)(float factor, float* values, size_t count);
+    // sums[v][i] (from first_row = 1: row(v, 0)[i]) + Σ_j coefficients[j][v] · row(v, first_row + j)[i]
+    // for the planes i of a tile, in order of j
+    void (*combine_narrow)(const RowBlock& block, float* sums);
+    void (*combine_wide)(const RowBlock& block, float* sums);
+    void (*combine_widest)(const RowBlock& block, float* sums);
+};
+
+// Of any unit but plain (checked), which the machine must have.
+const VectorKernels& vector_kernels(VectorUnit unit);
+
+Columns::Type type_of(const StoredValues& stored);
+const void* values_from(const StoredValues& stored, size_t first);
+
+}  // namespace paim
