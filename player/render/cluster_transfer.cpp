@@ -80,7 +80,6 @@ void ClusterTransfer::update_products(const Frame& frame, const LightCoefficient
     DecodeLimits limits = frame.limits;
     limits.bands = std::min(limits.bands, plan_.layout.bands);
     limits.transfer_components = std::min(limits.transfer_components, plan_.transfer_components);
-    limits.cluster_components = std::min(limits.cluster_components, plan_.cluster_components);
     light_.light_products(frame.time, limits, light, row_products_);
     const uint32_t stride = clusters_.rows_per_cluster();
     for (size_t c = 0; c < clusters_.num_clusters; ++c) {
