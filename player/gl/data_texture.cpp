@@ -33,8 +33,8 @@ Format gl_format(TexelFormat format) {
             return {GL_R32F, GL_RED, GL_FLOAT, 1, 4};
         case TexelFormat::rgba16f:
             return {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 4, 8};
-        case TexelFormat::r32i:
-            return {GL_R32I, GL_RED_INTEGER, GL_INT, 1, 4};
+        case TexelFormat::r16i:
+            return {GL_R16I, GL_RED_INTEGER, GL_SHORT, 1, 2};
         case TexelFormat::rgba16i:
             return {GL_RGBA16I, GL_RGBA_INTEGER, GL_SHORT, 4, 8};
         case TexelFormat::rgba8i:
@@ -64,7 +64,7 @@ int bytes_per_texel(TexelFormat format) {
 }
 
 const char* sampler_type(TexelFormat format) {
-    const bool integers = format == TexelFormat::r32i || format == TexelFormat::rgba16i ||
+    const bool integers = format == TexelFormat::r16i || format == TexelFormat::rgba16i ||
                           format == TexelFormat::rgba8i;
     return integers ? "isampler2D" : "sampler2D";
 }
@@ -138,8 +138,7 @@ void DataTexture::upload_rows(int first_row, int width, int num_rows,
             return send(values.data());
         case TexelFormat::rgba16f:
             return send(convert<Eigen::half>(values).data());
-        case TexelFormat::r32i:
-            return send(convert<int32_t>(values).data());
+        case TexelFormat::r16i:
         case TexelFormat::rgba16i:
             return send(convert<int16_t>(values).data());
         case TexelFormat::rgba8i:

@@ -16,7 +16,7 @@ enum class TexelFormat {
     r32f,     // 1 float
     rgba32f,  // 4 floats
     rgba16f,  // 4 floats, stored as half floats
-    r32i,     // 1 integer of 32 bits
+    r16i,     // 1 integer of 16 bits
     rgba16i,  // 4 integers of 16 bits
     rgba8i,   // 4 integers of 8 bits
 };
@@ -30,7 +30,7 @@ const char* sampler_type(TexelFormat format);
 class DataTexture {
   public:
     // Writes texels [first, first + values.size() / values_per_texel) into values: integers too,
-    // which floats hold exactly to 2^24.
+    // which floats hold exactly.
     using Fill = std::function<void(int64_t first, std::span<float> values)>;
 
     // Room for num_texels >= 1, rows of 2^width_log2 texels. Throws Error(unsupported) if the

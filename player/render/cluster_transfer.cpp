@@ -26,7 +26,7 @@ FormatSplit split_of(const VertexClusters& clusters, const UploadPlan& plan) {
 
 DataTexture upload_indices(const VertexClusters& clusters, const UploadPlan& plan) {
     const auto num_vertices = static_cast<int64_t>(clusters.cluster.size());
-    DataTexture texture("the clusters", TexelFormat::r32i, plan.width_log2,
+    DataTexture texture("the clusters", TexelFormat::r16i, plan.width_log2,
                         at_least_one(num_vertices));
     if (num_vertices == 0) return texture;
     texture.upload([&](int64_t first, std::span<float> out) {

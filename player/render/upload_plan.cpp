@@ -50,8 +50,7 @@ int64_t largest_of_vertices(const Model& model, const UploadPlan& plan, int max_
 
 // The same of clusters.
 int64_t largest_of_clusters(const Model& model, const UploadPlan& plan, int max_texture_size) {
-    // Their indices are uploaded through floats.
-    constexpr uint32_t kMaxClusters = 1u << 24;
+    constexpr uint32_t kMaxClusters = 1u << 15;  // textures hold indices of 16 bits, with a sign
     const uint32_t num_clusters = model.clusters.num_clusters;
     const int64_t coefficients = int64_t{plan.cluster_groups()} * model.topology.num_vertices;
     const int64_t products = int64_t{plan.product_texels()} * num_clusters;

@@ -212,7 +212,7 @@ TEST_P(ModelRendererTest, UploadsIntegersAsTheyAre) {
     options.cluster_components = 6;
     options.coefficient_precisions = {i16, i8};
     EXPECT_EQ(ModelRenderer(make_test_model(options), {}).texture_bytes(),
-              bytes(4, 0, 3, (4 + 8 + 4) * num_vertices + 16 * 9 * (1 + 2 * 3)));
+              bytes(4, 0, 3, (2 + 8 + 4) * num_vertices + 16 * 9 * (1 + 2 * 3)));
 }
 
 TEST_P(ModelRendererTest, DrawsFractionalPoses) {
