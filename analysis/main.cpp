@@ -1,6 +1,7 @@
-// paim-analyze: error curves of a bake.
+// paim-analyze: error curves of a bake, and whether a .paim is as good as it says.
 #include "analysis/analyze.h"
 #include "analysis/options.h"
+#include "analysis/verify.h"
 #include "paim/cli/run_main.h"
 
 int main(int argc, char** argv) {
@@ -8,7 +9,7 @@ int main(int argc, char** argv) {
         int exit_code = 0;
         const auto options = paim::parse_options(argc, argv, exit_code);
         if (options) {
-            paim::analyze(*options);
+            options->verify.empty() ? paim::analyze(*options) : paim::verify(*options);
             exit_code = 0;
         }
         return exit_code;

@@ -43,7 +43,9 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
     double elevation_deg = kDefaultElevation_rad * 180.0 / kPi;
     CLI::App app(
         "Measures what components and bands cost in accuracy, bytes and time, and what they save.\n"
-        "Writes CSV tables, SVG curves, images and an index.html that shows them together.",
+        "Writes CSV tables, SVG curves, images and an index.html that shows them together.\n"
+        "With --verify, measures a .paim against its bake instead: whether it is as good as it "
+        "says.",
         "paim-analyze");
     app.set_version_flag("--version", cli::version_text("paim-analyze"));
     app.footer(
@@ -51,9 +53,11 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
         "(E5),\n"
         "energy_error its root-mean-square form, visual_error what is seen in rendered images "
         "(E6).\n"
-        "Exit codes: 0 ok, 1 usage, 2 bad input, 3 unsupported, 4 output failed.");
+        "Exit codes: 0 ok, 1 usage, 2 bad input, 3 unsupported, 4 output failed, 5 an error is "
+        "larger than stated.");
     app.add_option("BAKE", options.bake_directory, "The .bake directory to measure")->required();
-    app.add_option("-o,--output", options.output, "Directory for the results")->required();
+    app.add_option("-o,--output", options.output,
+                   "Directory for the results, required without --verify");
     app.add_option("--env", options.environments,
                    "Lat-long environment map (OpenEXR); may be given several times; default: the "
                    "built-in sky");
@@ -78,6 +82,21 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
                    "Camera angle above the horizon, degrees, -89 to 89")
         ->check(cli::in_range(-89.0, 89.0))
         ->capture_default_str();
+    CLI::Option* const verify = app.add_option(
+        "--verify", options.verify,
+        "A .paim made from this bake: measure its errors anew and compare them with those that it "
+        "states; exit code 5 if one is larger (by more than 0.000001 of it, for rounding)");
+    // Whatever has been added so far is about curves.
+    for (CLI::Option* const option : app.get_options()) {
+        const std::string name = option->get_name();
+        if (name == "BAKE" || name == "--help" || name == "--version" || option == verify) continue;
+        verify->excludes(option);
+    }
+    app.add_option("--light-spectrum", options.light_spectrum,
+                   "What errors of the transfer are weighted with: 'flat' (random light of the "
+                   "bake's bands), 'natural' (real light on average) or an environment map "
+                   "(OpenEXR); default: what the file's errors are of")
+        ->needs(verify);
     app.add_option("--threads", options.num_threads, "Threads, 0 to 1024; 0 takes every core")
         ->check(cli::in_range(0, 1024))
         ->capture_default_str();
@@ -85,6 +104,7 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
     app.add_flag("--quiet", options.quiet, "Show no progress");
     exit_code = cli::parse(app, argc, argv);
     if (exit_code >= 0) return std::nullopt;
+    if (options.verify.empty() && options.output.empty()) throw_usage("--output is required");
     options.components = parse_list(components, "--components", 0, 1u << 20);
     options.bands = parse_list(bands, "--bands", 1, sh::kMaxBands);
     options.azimuth_rad = azimuth_deg * kPi / 180.0;

@@ -6,6 +6,8 @@ find_package(TBB REQUIRED)
 find_package(PkgConfig REQUIRED)
 list(APPEND CMAKE_MODULE_PATH ${PROJECT_SOURCE_DIR}/cmake)
 find_package(xxHash REQUIRED)
+find_package(zstd REQUIRED)
+find_package(meshoptimizer REQUIRED)
 
 # OpenEXR 3 brings a CMake package; OpenEXR 2 (Ubuntu 22.04) is found through pkg-config. Consumers of
 # the installed library find the same one, so the target is named here and linked by that name.

@@ -12,9 +12,16 @@ install(EXPORT paim-targets NAMESPACE paim:: DESTINATION ${package_dir})
 set(public_rooms base codec format image light mesh metrics sh shade transfer)
 set(private_headers
     format/bake_manifest.h
+    format/matrix_sections.h
     format/mesh_sections.h
     format/metadata.h
+    format/index_codec.h
+    format/paim_metadata.h
+    format/paim_packer.h
     format/paim_sections.h
+    format/plane_codec.h
+    format/plane_predictor.h
+    format/zstd_codec.h
     image/exr_header.h
     sh/recurrence.h)
 foreach(header IN LISTS private_headers)
@@ -39,5 +46,6 @@ install(FILES
     ${PROJECT_BINARY_DIR}/paim-config.cmake
     ${PROJECT_BINARY_DIR}/paim-config-version.cmake
     ${PROJECT_SOURCE_DIR}/cmake/FindxxHash.cmake
+    ${PROJECT_SOURCE_DIR}/cmake/Findzstd.cmake
     DESTINATION ${package_dir})
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

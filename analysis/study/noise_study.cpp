@@ -12,6 +12,8 @@
 #include "compressor/encode/encode.h"
 #include "compressor/encode/principal_components.h"
 #include "compressor/encode/shrinkage.h"
+#include "paim/metrics/pose_space.h"
+#include "paim/metrics/transfer_error.h"
 
 namespace paim::study {
 
@@ -26,6 +28,8 @@ using Eigen::VectorXd;
 struct Case {
     const StudyOptions& options;
     const Truth& truth;
+    const BakedMatrices& baked;
+    const TransferLayout& layout;
     std::string label;  // rays and streams
     VectorXd mean;
     MatrixXd scores;  // [rows][K] A'V
@@ -33,10 +37,30 @@ struct Case {
     VectorXd singular_values;
 };
 
+// The error from the truth that is expected from the bake alone, relative to the truth as Truth's is.
+double expected_error(const Case& c, Index num_components, const MatrixXf& approximation) {
+    const Index poses = c.v.rows();
+    const Index vertices = approximation.rows() / static_cast<Index>(c.layout.num_planes());
+    const MatrixXf weights = c.v.leftCols(num_components).cast<float>();
+    const MatrixXd kept = orthonormal_pose_space(
+        {weights.data(), static_cast<size_t>(weights.size())}, static_cast<uint32_t>(poses));
+    TransferErrorMeter meter(c.layout, static_cast<uint32_t>(vertices),
+                             static_cast<uint32_t>(poses), LightSpectrum::flat(c.layout.bands),
+                             kept);
+    for (uint32_t plane = 0; plane < c.layout.num_planes(); ++plane) {
+        const Index first = static_cast<Index>(plane) * vertices;
+        meter.add(plane, c.baked.transfer.middleRows(first, vertices),
+                  c.baked.noise.middleRows(first, vertices),
+                  approximation.middleRows(first, vertices));
+    }
+    const TransferError result = meter.result();
+    return result.error / std::sqrt(1.0 - result.bake_noise * result.bake_noise);
+}
+
 void print(const Case& c, const char* method, Index num_components, const MatrixXf& approximation) {
     const double flicker = c.truth.flicker(approximation);
-    fmt::print("{},{},{},{},{:.5f},{}\n", c.options.name, c.label, method, num_components,
-               c.truth.error(approximation),
+    fmt::print("{},{},{},{},{:.5f},{:.5f},{}\n", c.options.name, c.label, method, num_components,
+               c.truth.error(approximation), expected_error(c, num_components, approximation),
                std::isfinite(flicker) ? fmt::format("{:.4f}", flicker) : "");
     std::fflush(stdout);
 }
@@ -85,7 +109,8 @@ void study_bake(const BakedMatrices& baked, const TransferLayout& layout,
     const ComponentNoise noise = measure_component_noise(transfer, noise_rows, layout, components);
     const Shrinkage shrinkage(noise);
     const auto rank = static_cast<Index>(components.rank());
-    Case c{options, truth, std::move(label), {}, {}, components.v.leftCols(rank), {}};
+    Case c{options, truth, baked, layout, std::move(label), {}, {}, components.v.leftCols(rank),
+           {}};
     const MatrixXd values = baked.transfer.cast<double>();
     c.mean = values.rowwise().mean();
     c.scores = (values.colwise() - c.mean) * c.v;
@@ -109,8 +134,8 @@ void study_bake(const BakedMatrices& baked, const TransferLayout& layout,
     print(c, "auto", automatic, rebuild_shrunk(c, shrinkage, automatic));
     const EncodedError expected = shrinkage.expected_error(static_cast<uint32_t>(automatic));
     const double energy = values.squaredNorm() - baked.noise.cast<double>().squaredNorm();
-    fmt::print("{},{},auto (as it estimates itself),{},{:.5f},\n", options.name, c.label, automatic,
-               std::sqrt(expected.total() / energy));
+    fmt::print("{},{},auto (as it estimates itself),{},{:.5f},,\n", options.name, c.label,
+               automatic, std::sqrt(expected.total() / energy));
 }
 
 }  // namespace
@@ -123,7 +148,7 @@ void study_noise(const PoseSource& source, const StudyOptions& options) {
     const Truth truth(bake_matrices(source, bake, options.num_poses));
     const TransferLayout layout{TransferKind::diffuse, options.bands, 1};
     bake.seed = 1;
-    fmt::print("sequence,rays,streams,method,components,true_error,flicker\n");
+    fmt::print("sequence,rays,streams,method,components,true_error,expected_error,flicker\n");
     for (const uint32_t rays : options.rays) {
         for (const Streams streams : {Streams::per_pose, Streams::shared, Streams::mixed}) {
             bake.rays = rays;

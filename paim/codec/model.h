@@ -35,11 +35,16 @@ struct LowRankMatrix {
     StoredValues mean;                     // [planes][N], in steps
     std::vector<StoredValues> components;  // [K] of [planes][N], in steps
     std::vector<float> weights;            // [K][P]
-    std::vector<double> singular_values;   // [rank of the full matrix], descending, unshrunk
+    // [K] integers times which the weights of a component are, or none: floats as they are.
+    std::vector<float> weight_steps;
+    std::vector<double> singular_values;  // [rank of the full matrix], descending, unshrunk
 
     size_t num_rows() const { return size_t{num_planes} * num_points; }
     float step(uint32_t plane) const { return steps.empty() ? 1.0f : steps[plane]; }
 };
+
+constexpr uint32_t kMaxClusters = 32767;
+constexpr uint32_t kMaxClusterComponents = 255;  // of one cluster
 
 // Clustered PCA: every vertex is a mean and a few components of its cluster, so that light and
 // pose can be applied to the bases of the clusters instead of to every vertex.
@@ -69,6 +74,12 @@ struct Scenery {
     bool empty() const { return topology.num_vertices == 0; }
 };
 
+// Whose order vertices and triangles have.
+enum class VertexOrder : uint32_t {
+    baked = 0,  // the bake's
+    local = 1,  // what local_order() makes of it (mesh/locality.h)
+};
+
 struct Model {
     Topology topology;
     Albedo albedo;
@@ -84,6 +95,7 @@ struct Model {
     // alone may ignore it.
     Vec3d origin = Vec3d::Zero();
     float frames_per_second = 24.0f;
+    VertexOrder vertex_order = VertexOrder::baked;
     std::string name;
     std::string provenance_json;  // a JSON object: how it was made, for people and paim-info
 

@@ -44,16 +44,17 @@ bool holds_only_a_beginning(const std::filesystem::path& directory) {
     return true;
 }
 
-std::vector<SectionSpec> pose_specs(const std::string& metadata, uint32_t num_vertices,
+std::vector<SectionPlan> pose_specs(const std::string& metadata, uint32_t num_vertices,
                                     uint32_t num_planes) {
     const auto planes = [&](Tag tag, uint32_t count) {
         return SectionSpec{tag, ScalarType::f32, 0, {1, count, num_vertices}};
     };
-    return {{section::kMetadata, ScalarType::u8, 0, {1, 1, static_cast<uint32_t>(metadata.size())}},
-            planes(section::kPositions, 3),
-            planes(section::kNormals, 3),
-            planes(section::kTransfer, num_planes),
-            {section::kNoise, ScalarType::f16, 0, {1, num_planes, num_vertices}}};
+    return {
+        SectionSpec{
+            section::kMetadata, ScalarType::u8, 0, {1, 1, static_cast<uint32_t>(metadata.size())}},
+        planes(section::kPositions, 3), planes(section::kNormals, 3),
+        planes(section::kTransfer, num_planes),
+        SectionSpec{section::kNoise, ScalarType::f16, 0, {1, num_planes, num_vertices}}};
 }
 
 // Fills the sections of pose_specs(), which come first.
@@ -155,10 +156,10 @@ void BakeWriter::write_scenery(const BakedScenery& scenery) const {
     PAIM_CHECK_EQ(scenery.pose.noise.size(), scenery.pose.transfer.size());
     const std::string metadata =
         pose_metadata(identity_checksum_, kSceneryPose, scenery.pose.statistics);
-    std::vector<SectionSpec> specs = pose_specs(metadata, num_vertices, num_planes);
+    std::vector<SectionPlan> specs = pose_specs(metadata, num_vertices, num_planes);
     specs.push_back(triangles_spec(scenery.topology));
     specs.push_back(albedo_spec(scenery.albedo));
-    ContainerWriter writer(bake_scenery_file(directory_), section::kKindMesh, std::move(specs));
+    ContainerWriter writer(bake_scenery_file(directory_), section::kKindMesh, specs);
     append_pose(writer, metadata, scenery.pose);
     append_mesh(writer, 5, 6, scenery.topology, scenery.albedo);
     writer.commit();

@@ -23,13 +23,15 @@ struct Tag {
     bool operator==(const Tag&) const = default;
 };
 
-enum class ScalarType : uint8_t { u8 = 0, u32 = 1, f16 = 2, f32 = 3, f64 = 4 };
+enum class ScalarType : uint8_t { u8 = 0, u32 = 1, f16 = 2, f32 = 3, f64 = 4, i8 = 5, i16 = 6 };
 
 // Bytes of one value; 0 for a number that is no ScalarType.
 constexpr uint64_t scalar_size_bytes(ScalarType type) {
     switch (type) {
         case ScalarType::u8:
+        case ScalarType::i8:
             return 1;
+        case ScalarType::i16:
         case ScalarType::u32:
             return 4;
         case ScalarType::f16:
@@ -43,6 +45,14 @@ constexpr uint64_t scalar_size_bytes(ScalarType type) {
 }
 
 std::string_view scalar_name(ScalarType type);
+
+// How the values of a section became the bytes that are stored.
+enum class SectionCodec : uint8_t {
+    none = 0,     // they are the same
+    zstd = 1,     // one Zstandard frame
+    indices = 2,  // triangles: meshoptimizer's index codec, then as zstd (format/index_codec.h)
+    planes = 3,   // integers: predicted and packed, then as zstd (format/plane_codec.h)
+};
 
 // What a section holds: an array of up to three dimensions, the last one contiguous. Unused
 // dimensions come first and are 1.
@@ -63,7 +73,13 @@ struct Section {
     uint64_t offset = 0;
     uint64_t stored_size_bytes = 0;
     uint64_t xxh3 = 0;
+    SectionCodec codec = SectionCodec::none;
 };
+
+// The values of all sections of a file take at most this many bytes and the file's size times the
+// expansion below; anything else claims more than it can hold.
+constexpr uint64_t kMaxFreeBytes = uint64_t{1} << 26;
+constexpr uint64_t kMaxExpansion = 1024;
 
 namespace container {
 
@@ -88,7 +104,7 @@ static_assert(sizeof(Header) == 64);
 struct TableEntry {
     Tag tag;
     uint8_t type;
-    uint8_t codec;        // 0: stored as it is
+    SectionCodec codec;
     uint16_t reserved_a;  // 0
     uint32_t index;
     std::array<uint32_t, 3> shape;

@@ -15,6 +15,7 @@
 #include "paim/base/error.h"
 #include "paim/base/half.h"
 #include "paim/base/hash.h"
+#include "paim/format/zstd_codec.h"
 
 namespace paim {
 
@@ -33,6 +34,10 @@ std::string_view scalar_name(ScalarType type) {
             return "f32";
         case ScalarType::f64:
             return "f64";
+        case ScalarType::i8:
+            return "i8";
+        case ScalarType::i16:
+            return "i16";
     }
     return "unknown";
 }
@@ -79,12 +84,12 @@ Section check_entry(const std::string& path, const TableEntry& entry, uint64_t f
         throw_unsupported("{}: section {} {}: unknown value type {}", path, name, entry.index,
                           entry.type);
     }
-    if (entry.codec != 0) {
+    if (entry.codec > SectionCodec::planes) {
         throw_unsupported("{}: section {} {}: unknown codec {}", path, name, entry.index,
-                          entry.codec);
+                          static_cast<int>(entry.codec));
     }
     if (saturating_product(num_values, scalar_bytes) != entry.raw_size_bytes ||
-        entry.raw_size_bytes != entry.stored_size_bytes) {
+        (entry.codec == SectionCodec::none && entry.raw_size_bytes != entry.stored_size_bytes)) {
         throw_bad_input("{}: section {} {}: {} bytes for {} x {} x {} values of {}", path, name,
                         entry.index, entry.stored_size_bytes, entry.shape[0], entry.shape[1],
                         entry.shape[2], scalar_name(type));
@@ -97,7 +102,8 @@ Section check_entry(const std::string& path, const TableEntry& entry, uint64_t f
     return {{entry.tag, type, entry.index, entry.shape},
             entry.offset,
             entry.stored_size_bytes,
-            entry.xxh3};
+            entry.xxh3,
+            entry.codec};
 }
 
 }  // namespace
@@ -126,6 +132,9 @@ ContainerReader::ContainerReader(const std::filesystem::path& path, Tag kind)
         }
         sections_.reserve(table.size());
         uint64_t total_bytes = 0;
+        uint64_t value_bytes = 0;
+        const uint64_t most_value_bytes =
+            kMaxFreeBytes + saturating_product(kMaxExpansion, file_size_bytes_);
         for (const TableEntry& entry : table) {
             sections_.push_back(
                 check_entry(path_, entry, file_size_bytes_, sizeof(header) + table_bytes));
@@ -135,6 +144,11 @@ ContainerReader::ContainerReader(const std::filesystem::path& path, Tag kind)
                 throw_bad_input("{}: sections overlap: more than {} bytes in all", path_,
                                 file_size_bytes_ - sizeof(header) - table_bytes);
             }
+            if (entry.raw_size_bytes > most_value_bytes - value_bytes) {
+                throw_bad_input("{}: sections claim more than {} bytes of values", path_,
+                                most_value_bytes);
+            }
+            value_bytes += entry.raw_size_bytes;
         }
     } catch (...) {
         ::close(descriptor_);
@@ -185,11 +199,32 @@ template <typename T>
 std::vector<T> ContainerReader::read_values(const Section& section, ScalarType type) const {
     PAIM_CHECK(section.spec.type == type);
     std::vector<T> values(section.spec.num_values());
+    if (section.codec == SectionCodec::zstd) {
+        const std::vector<uint8_t> stored = read_stored(section);
+        const std::span bytes(reinterpret_cast<uint8_t*>(values.data()), values.size() * sizeof(T));
+        if (!zstd_decompress(stored, bytes)) {
+            throw_bad_input("{}: holds no {} bytes of Zstandard", label(section), bytes.size());
+        }
+        return values;
+    }
+    if (section.codec != SectionCodec::none) {
+        throw_unsupported("{}: codec {} for {}", label(section), static_cast<int>(section.codec),
+                          scalar_name(type));
+    }
     read_bytes(section.offset, values.data(), section.stored_size_bytes);
     if (xxh3(values.data(), section.stored_size_bytes) != section.xxh3) {
         throw_bad_input("{}: damaged: the checksum does not match", label(section));
     }
     return values;
+}
+
+std::vector<uint8_t> ContainerReader::read_stored(const Section& section) const {
+    std::vector<uint8_t> bytes(section.stored_size_bytes);
+    read_bytes(section.offset, bytes.data(), bytes.size());
+    if (xxh3(bytes.data(), bytes.size()) != section.xxh3) {
+        throw_bad_input("{}: damaged: the checksum does not match", label(section));
+    }
+    return bytes;
 }
 
 std::vector<uint8_t> ContainerReader::read_u8(const Section& section) const {
@@ -219,6 +254,9 @@ std::string ContainerReader::read_text(const Section& section) const {
 
 void ContainerReader::read_range(const Section& section, uint64_t first, uint64_t count,
                                  float* out) const {
+    if (section.codec != SectionCodec::none) {
+        throw_unsupported("{}: compressed, expected values as they are", label(section));
+    }
     PAIM_CHECK_LE(first, section.spec.num_values());
     PAIM_CHECK_LE(count, section.spec.num_values() - first);
     if (section.spec.type == ScalarType::f16) {

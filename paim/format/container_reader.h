@@ -29,26 +29,31 @@ class ContainerReader {
     // The same, of this type; an error if there is none.
     const Section& require(Tag tag, ScalarType type, uint32_t index = 0) const;
 
-    // All values of the section, its checksum verified.
+    // The stored bytes of a section, its checksum verified, for whoever knows its codec.
+    std::vector<uint8_t> read_stored(const Section& section) const;
+
+    // All values of the section, its checksum verified; its codec is none or zstd.
     std::vector<uint8_t> read_u8(const Section& section) const;
     std::vector<uint32_t> read_u32(const Section& section) const;
     std::vector<float> read_f32(const Section& section) const;  // an f16 section is widened
     std::vector<double> read_f64(const Section& section) const;
     std::string read_text(const Section& section) const;
 
-    // Values [first, first + count) of an f32 or f16 section, unverified: for streaming after
-    // verify().
+    // Values [first, first + count) of an f32 or f16 section without codec, unverified: for
+    // streaming after verify().
     void read_range(const Section& section, uint64_t first, uint64_t count, float* out) const;
 
     // Reads the section through and checks its checksum.
     void verify(const Section& section) const;
     void verify_all() const;
 
+    // "FILE: section TAG INDEX", for messages.
+    std::string label(const Section& section) const;
+
   private:
     template <typename T>
     std::vector<T> read_values(const Section& section, ScalarType type) const;
     void read_bytes(uint64_t offset, void* out, uint64_t size_bytes) const;
-    std::string label(const Section& section) const;
 
     std::string path_;
     int descriptor_ = -1;

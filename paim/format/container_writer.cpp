@@ -14,12 +14,12 @@ namespace {
 
 // Calls place(i, offset) for every section and returns the size of the file.
 template <typename Place>
-uint64_t lay_out(std::span<const SectionSpec> specs, const Place& place) {
-    uint64_t offset = container::align(sizeof(Header) + specs.size() * sizeof(TableEntry));
+uint64_t lay_out(std::span<const SectionPlan> plans, const Place& place) {
+    uint64_t offset = container::align(sizeof(Header) + plans.size() * sizeof(TableEntry));
     uint64_t end = offset;
-    for (size_t i = 0; i < specs.size(); ++i) {
+    for (size_t i = 0; i < plans.size(); ++i) {
         place(i, offset);
-        end = offset + specs[i].size_bytes();
+        end = offset + plans[i].stored_size_bytes;
         offset = container::align(end);
     }
     return end;
@@ -27,16 +27,17 @@ uint64_t lay_out(std::span<const SectionSpec> specs, const Place& place) {
 
 }  // namespace
 
-uint64_t container_size_bytes(std::span<const SectionSpec> specs) {
-    return lay_out(specs, [](size_t, uint64_t) {});
+uint64_t container_size_bytes(std::span<const SectionPlan> plans) {
+    return lay_out(plans, [](size_t, uint64_t) {});
 }
 
 ContainerWriter::ContainerWriter(const std::filesystem::path& path, Tag kind,
-                                 std::vector<SectionSpec> specs)
-    : file_(path), kind_(kind), sections_(specs.size()) {
-    PAIM_CHECK_LE(specs.size(), container::kMaxSections);
-    file_size_bytes_ = lay_out(specs, [&](size_t i, uint64_t offset) {
-        sections_[i].section = {specs[i], offset, specs[i].size_bytes(), 0};
+                                 const std::vector<SectionPlan>& plans)
+    : file_(path), kind_(kind), sections_(plans.size()) {
+    PAIM_CHECK_LE(plans.size(), container::kMaxSections);
+    file_size_bytes_ = lay_out(plans, [&](size_t i, uint64_t offset) {
+        sections_[i].section = {plans[i].spec, offset, plans[i].stored_size_bytes, 0,
+                                plans[i].codec};
     });
 }
 
@@ -56,8 +57,8 @@ void ContainerWriter::commit() {
     for (const Open& open : sections_) {
         const Section& s = open.section;
         PAIM_CHECK_EQ(open.filled_bytes, s.stored_size_bytes);
-        table.push_back({s.spec.tag, static_cast<uint8_t>(s.spec.type), 0, 0, s.spec.index,
-                         s.spec.shape, 0, s.offset, s.stored_size_bytes, s.stored_size_bytes,
+        table.push_back({s.spec.tag, static_cast<uint8_t>(s.spec.type), s.codec, 0, s.spec.index,
+                         s.spec.shape, 0, s.offset, s.stored_size_bytes, s.spec.size_bytes(),
                          open.hash.digest()});
     }
     Header header{container::kMagic,

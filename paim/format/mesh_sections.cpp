@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "paim/base/error.h"
+#include "paim/format/index_codec.h"
 #include "paim/format/paim_sections.h"
 
 namespace paim {
@@ -32,16 +33,23 @@ Topology read_triangles(const ContainerReader& reader, uint32_t num_vertices, Ta
         throw_bad_input("{}: triangles: expected 3 indices each, got {}", reader.path(),
                         section.spec.shape[2]);
     }
-    const std::vector<uint32_t> indices = reader.read_u32(section);
-    for (size_t i = 0; i < indices.size(); ++i) {
-        if (indices[i] >= num_vertices) {
-            throw_bad_input("{}: triangle {}: vertex {}, expected 0 to {}", reader.path(), i / 3,
-                            indices[i], int64_t{num_vertices} - 1);
+    Topology topology{num_vertices, std::vector<Triangle>(section.spec.shape[1])};
+    if (section.codec == SectionCodec::indices) {
+        if (!decode_triangles(reader.read_stored(section), topology.triangles)) {
+            throw_bad_input("{}: holds no {} encoded triangles", reader.label(section),
+                            topology.triangles.size());
         }
-    }
-    Topology topology{num_vertices, std::vector<Triangle>(indices.size() / 3)};
-    if (!indices.empty()) {
+    } else if (!topology.triangles.empty()) {
+        const std::vector<uint32_t> indices = reader.read_u32(section);
         std::memcpy(topology.triangles.data(), indices.data(), indices.size() * sizeof(uint32_t));
+    }
+    for (size_t i = 0; i < topology.triangles.size(); ++i) {
+        for (const uint32_t v : topology.triangles[i]) {
+            if (v >= num_vertices) {
+                throw_bad_input("{}: triangle {}: vertex {}, expected 0 to {}", reader.path(), i, v,
+                                int64_t{num_vertices} - 1);
+            }
+        }
     }
     return topology;
 }

@@ -38,7 +38,7 @@ class PaimWriter {
     void append_component(ComponentId id, std::span<const float> rows);
 
     // The sections that a file of this model has, in order.
-    static std::vector<SectionSpec> section_specs(const Model& model);
+    static std::vector<SectionPlan> section_plans(const Model& model);
 
     // Every mean and component must be complete by now (checked).
     void commit() { writer_.commit(); }

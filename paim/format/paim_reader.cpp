@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "paim/base/error.h"
+#include "paim/format/matrix_sections.h"
 #include "paim/format/mesh_sections.h"
 #include "paim/format/metadata.h"
 #include "paim/format/paim_file.h"
@@ -13,76 +14,6 @@
 #include "paim/format/scenery_sections.h"
 
 namespace paim {
-
-namespace {
-
-// Error unless the section has this shape.
-void expect_shape(const ContainerReader& reader, const Section& section, uint32_t rows,
-                  uint32_t columns) {
-    const auto& shape = section.spec.shape;
-    if (shape[0] != 1 || shape[1] != rows || shape[2] != columns) {
-        throw_bad_input("{}: section {} {}: {} x {} x {} values, expected {} x {}", reader.path(),
-                        section.spec.tag.str(), section.spec.index, shape[0], shape[1], shape[2],
-                        rows, columns);
-    }
-}
-
-void read_spectrum(const ContainerReader& reader, size_t i, LowRankMatrix& matrix) {
-    matrix.singular_values =
-        reader.read_f64(reader.require(section::kSpectrum[i], ScalarType::f64));
-    double previous = std::numeric_limits<double>::infinity();
-    for (const double s : matrix.singular_values) {
-        if (!(s >= 0.0 && s <= previous && std::isfinite(s))) {
-            throw_bad_input("{}: singular values: expected finite, descending numbers, got {}",
-                            reader.path(), s);
-        }
-        previous = s;
-    }
-    if (matrix.singular_values.size() < matrix.num_components) {
-        throw_bad_input("{}: {} singular values, expected at least the {} components'",
-                        reader.path(), matrix.singular_values.size(), matrix.num_components);
-    }
-}
-
-void read_matrix(const ContainerReader& reader, Part part, LowRankMatrix& matrix) {
-    const auto i = static_cast<size_t>(part);
-    const Section& mean = reader.require(section::kMean[i], ScalarType::f32);
-    expect_shape(reader, mean, matrix.num_planes, matrix.num_points);
-    std::vector<float> mean_values = reader.read_f32(mean);
-    check_finite(reader, section::kMean[i], mean_values);
-    matrix.mean = std::move(mean_values);
-
-    const Section& weights = reader.require(section::kWeights[i], ScalarType::f32);
-    expect_shape(reader, weights, matrix.num_components, matrix.num_poses);
-    matrix.weights = reader.read_f32(weights);
-    check_finite(reader, section::kWeights[i], matrix.weights);
-    read_spectrum(reader, i, matrix);
-
-    // Every component's shape is checked before memory for all of them is taken: together they are
-    // no larger than the file.
-    std::vector<const Section*> sections(matrix.num_components);
-    for (uint32_t k = 0; k < matrix.num_components; ++k) {
-        sections[k] = reader.find(section::kComponent[i], k);
-        if (sections[k] == nullptr) {
-            throw_bad_input("{}: section {} {} is missing", reader.path(),
-                            section::kComponent[i].str(), k);
-        }
-        const ScalarType type = sections[k]->spec.type;
-        if (type != ScalarType::f32 && type != ScalarType::f16) {
-            throw_unsupported("{}: components of {}", reader.path(), scalar_name(type));
-        }
-        expect_shape(reader, *sections[k], matrix.num_planes, matrix.num_points);
-        matrix.precision = type == ScalarType::f16 ? Precision::f16 : Precision::f32;
-    }
-    matrix.components.reserve(matrix.num_components);
-    for (const Section* section : sections) {
-        std::vector<float> values = reader.read_f32(*section);
-        check_finite(reader, section::kComponent[i], values);
-        matrix.components.emplace_back(std::move(values));
-    }
-}
-
-}  // namespace
 
 Model read_paim(const std::filesystem::path& path) {
     if (std::filesystem::is_directory(path)) {
@@ -112,9 +43,22 @@ Model read_paim(const std::filesystem::path& path) {
     model.topology = read_triangles(reader, num_vertices);
     model.albedo = read_albedo(reader, num_vertices);
 
-    const auto start = [&](const char* key, uint32_t num_planes) {
+    if (metadata.root().contains("vertex_order")) {
+        if (metadata.text("vertex_order") != "local") {
+            throw_unsupported("{}: vertices in '{}' order", reader.path(),
+                              metadata.text("vertex_order"));
+        }
+        model.vertex_order = VertexOrder::local;
+    }
+    if (metadata.root().contains("clusters")) {
+        model.clusters.num_clusters = metadata.integer("clusters", 1, kMaxClusters);
+        model.clusters.num_components =
+            metadata.integer("cluster_components", 0, kMaxClusterComponents);
+    }
+
+    const auto start = [&](const char* key, uint32_t num_points, uint32_t num_planes) {
         LowRankMatrix matrix;
-        matrix.num_points = num_vertices;
+        matrix.num_points = num_points;
         matrix.num_planes = num_planes;
         matrix.num_poses = num_poses;
         // No matrix has more components than columns or rows.
@@ -122,10 +66,21 @@ Model read_paim(const std::filesystem::path& path) {
         matrix.num_components = metadata.integer(key, 0, static_cast<uint32_t>(most));
         return matrix;
     };
-    model.geometry = start("geometry_components", 3);
-    model.transfer = start("transfer_components", model.layout.num_planes());
-    read_matrix(reader, Part::geometry, model.geometry);
-    read_matrix(reader, Part::transfer, model.transfer);
+    const bool clustered = !model.clusters.empty();
+    model.geometry = start("geometry_components", num_vertices, 3);
+    model.transfer =
+        start("transfer_components", clustered ? model.clusters.num_rows() : num_vertices,
+              model.layout.num_planes());
+    // Memory for every vertex is taken once the file is known to claim values for it.
+    const Section* mean = reader.find(section::kMean[0]);
+    if (mean != nullptr) expect_shape(reader, *mean, 3, num_vertices);
+    const bool predicted =
+        std::any_of(reader.sections().begin(), reader.sections().end(),
+                    [](const Section& s) { return s.codec == SectionCodec::planes; });
+    const PlanePredictor predictor = predicted ? PlanePredictor(model.topology) : PlanePredictor();
+    read_matrix(reader, Part::geometry, predictor, model.geometry);
+    if (clustered) read_clusters(reader, predictor, num_vertices, model.clusters);
+    read_matrix(reader, Part::transfer, clustered ? PlanePredictor() : predictor, model.transfer);
     model.scenery = read_scenery(reader, model.layout);
     return model;
 }

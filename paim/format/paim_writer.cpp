@@ -1,6 +1,4 @@
 // Writes .paim files.
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <utility>
 
@@ -8,6 +6,8 @@
 #include "paim/base/half.h"
 #include "paim/format/mesh_sections.h"
 #include "paim/format/paim_file.h"
+#include "paim/format/paim_metadata.h"
+#include "paim/format/paim_packer.h"
 #include "paim/format/paim_sections.h"
 #include "paim/format/scenery_sections.h"
 
@@ -19,23 +19,6 @@ constexpr Part kParts[] = {Part::geometry, Part::transfer};
 
 ScalarType scalar_type(Precision precision) {
     return precision == Precision::f16 ? ScalarType::f16 : ScalarType::f32;
-}
-
-std::string metadata(const Model& model) {
-    nlohmann::ordered_json json;
-    json["name"] = model.name;
-    json["num_vertices"] = model.topology.num_vertices;
-    json["num_poses"] = model.num_poses();
-    json["frames_per_second"] = model.frames_per_second;
-    if (const Vec3d& o = model.origin; !o.isZero(0.0)) json["origin"] = {o.x(), o.y(), o.z()};
-    json["transfer_kind"] = "diffuse";
-    json["bands"] = model.layout.bands;
-    json["channels"] = model.layout.channels;
-    json["geometry_components"] = model.geometry.num_components;
-    json["transfer_components"] = model.transfer.num_components;
-    json["provenance"] =
-        nlohmann::ordered_json::parse(model.provenance_json.empty() ? "{}" : model.provenance_json);
-    return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace
@@ -67,16 +50,16 @@ std::vector<ComponentId> component_order(const Model& model) {
 // Which section holds what.
 struct PaimWriter::Index {
     std::string metadata;
-    std::vector<SectionSpec> specs;
+    std::vector<SectionPlan> specs;
     size_t scenery;  // the first of its sections
     size_t spectrum[2], weights[2], mean[2];
     std::vector<size_t> component[2];
 
-    explicit Index(const Model& model) : metadata(paim::metadata(model)) {
-        specs.push_back({section::kMetadata,
-                         ScalarType::u8,
-                         0,
-                         {1, 1, static_cast<uint32_t>(metadata.size())}});
+    explicit Index(const Model& model) : metadata(paim_metadata(model)) {
+        add({section::kMetadata,
+             ScalarType::u8,
+             0,
+             {1, 1, static_cast<uint32_t>(metadata.size())}});
         specs.push_back(triangles_spec(model.topology));
         specs.push_back(albedo_spec(model.albedo));
         scenery = specs.size();
@@ -117,10 +100,11 @@ struct PaimWriter::Index {
 };
 
 uint64_t paim_size_bytes(const Model& model) {
-    return container_size_bytes(PaimWriter::section_specs(model));
+    if (needs_packing(model)) return PackedFile(model).size_bytes();
+    return container_size_bytes(PaimWriter::section_plans(model));
 }
 
-std::vector<SectionSpec> PaimWriter::section_specs(const Model& model) {
+std::vector<SectionPlan> PaimWriter::section_plans(const Model& model) {
     return Index(model).specs;
 }
 
@@ -131,7 +115,7 @@ PaimWriter::PaimWriter(const std::filesystem::path& path, const Model& model, In
     : precision_{model.geometry.precision, model.transfer.precision},
       mean_section_{index.mean[0], index.mean[1]},
       component_section_{std::move(index.component[0]), std::move(index.component[1])},
-      writer_(path, section::kKindAnimation, std::move(index.specs)) {
+      writer_(path, section::kKindAnimation, index.specs) {
     writer_.append(0, index.metadata.data(), index.metadata.size());
     append_mesh(writer_, 1, 2, model.topology, model.albedo);
     append_scenery(writer_, index.scenery, model.scenery);
@@ -160,6 +144,10 @@ void PaimWriter::append_component(ComponentId id, std::span<const float> rows) {
 }
 
 void write_paim(const std::filesystem::path& path, const Model& model) {
+    if (needs_packing(model)) {
+        PackedFile(model).write(path);
+        return;
+    }
     PaimWriter writer(path, model);
     for (const Part part : kParts) {
         const LowRankMatrix& matrix = model.part(part);

@@ -8,6 +8,15 @@
 
 namespace paim {
 
+namespace {
+
+// What is not a number is worse than any, and stays the worst.
+bool is_worse(double error, double worst) {
+    return !(error <= worst) && !std::isnan(worst);
+}
+
+}  // namespace
+
 double ArrayError::rms() const {
     return num_values > 0 ? std::sqrt(squared_sum / static_cast<double>(num_values)) : 0.0;
 }
@@ -25,7 +34,7 @@ void ArrayError::add(std::span<const float> values, std::span<const float> refer
         const double difference = std::abs(values[r] - b);
         squared_sum += difference * difference;
         reference_squared_sum += b * b;
-        if (difference > worst) {
+        if (is_worse(difference, worst)) {
             worst = difference;
             worst_index = r;
             worst_pose = pose;
@@ -50,7 +59,7 @@ void DistanceError::add(std::span<const float> planes, std::span<const float> re
             squared += difference * difference;
         }
         squared_sum += squared;
-        if (std::sqrt(squared) > worst) {
+        if (is_worse(std::sqrt(squared), worst)) {
             worst = std::sqrt(squared);
             worst_vertex = static_cast<uint32_t>(v);
             worst_pose = pose;

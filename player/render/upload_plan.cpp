@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "paim/base/check.h"
 #include "paim/base/error.h"
 #include "player/gl/data_texture.h"
 
@@ -50,19 +51,19 @@ int64_t largest_of_vertices(const Model& model, const UploadPlan& plan, int max_
 
 // The same of clusters.
 int64_t largest_of_clusters(const Model& model, const UploadPlan& plan, int max_texture_size) {
-    constexpr uint32_t kMaxClusters = 1u << 15;  // textures hold indices of 16 bits, with a sign
+    // Textures hold their indices in 16 bits.
     const uint32_t num_clusters = model.clusters.num_clusters;
+    PAIM_CHECK_LE(num_clusters, kMaxClusters);
     const int64_t coefficients = int64_t{plan.cluster_groups()} * model.topology.num_vertices;
     const int64_t products = int64_t{plan.product_texels()} * num_clusters;
     const int64_t largest =
         std::max({coefficients, products, int64_t{model.topology.num_vertices}});
-    if (largest > capacity(max_texture_size) || num_clusters > kMaxClusters) {
+    if (largest > capacity(max_texture_size)) {
         throw_unsupported(
             "{} components of {} clusters and {} vertices need {} texels, this driver's largest "
-            "texture (GL_MAX_TEXTURE_SIZE {}) holds {}, and {} clusters are the most: lower "
-            "--cluster-components",
+            "texture (GL_MAX_TEXTURE_SIZE {}) holds {}: lower --cluster-components",
             plan.cluster_components, num_clusters, model.topology.num_vertices, largest,
-            max_texture_size, capacity(max_texture_size), kMaxClusters);
+            max_texture_size, capacity(max_texture_size));
     }
     return largest;
 }

@@ -16,9 +16,9 @@ namespace {
 
 constexpr Tag kKind("TEST");
 
-const std::vector<SectionSpec> kSpecs{{Tag("BYTE"), ScalarType::u8, 0, {1, 1, 5}},
-                                      {Tag("REAL"), ScalarType::f32, 7, {1, 2, 3}},
-                                      {Tag("NONE"), ScalarType::f64, 0, {1, 1, 0}}};
+const std::vector<SectionPlan> kSpecs{SectionSpec{Tag("BYTE"), ScalarType::u8, 0, {1, 1, 5}},
+                                      SectionSpec{Tag("REAL"), ScalarType::f32, 7, {1, 2, 3}},
+                                      SectionSpec{Tag("NONE"), ScalarType::f64, 0, {1, 1, 0}}};
 const std::vector<uint8_t> kBytes{1, 2, 3, 4, 5};
 const std::vector<float> kReals{0.5f, -1, 2, 3, 4, 5};
 
@@ -55,7 +55,7 @@ TEST(Container, RoundTrips) {
     const ContainerReader reader(directory / "x", kKind);
     ASSERT_EQ(reader.sections().size(), 3u);
     for (size_t s = 0; s < kSpecs.size(); ++s) {
-        EXPECT_EQ(reader.sections()[s].spec, kSpecs[s]);
+        EXPECT_EQ(reader.sections()[s].spec, kSpecs[s].spec);
         EXPECT_EQ(reader.sections()[s].offset % container::kAlignment, 0u);
     }
     EXPECT_EQ(reader.read_u8(reader.require(Tag("BYTE"), ScalarType::u8)), kBytes);
@@ -154,7 +154,24 @@ TEST(Container, RefusesHostileSizesWithRightChecksums) {
     expect_refused([](Header&, Table& t) { t[0].offset = ~0ull - 2; }, "lie outside");
     expect_refused([](Header&, Table& t) { t[0].offset = 0; }, "lie outside");
     expect_refused([](Header&, Table& t) { t[0].type = 99; }, "unknown value type");
-    expect_refused([](Header&, Table& t) { t[0].codec = 1; }, "unknown codec");
+    expect_refused([](Header&, Table& t) { t[0].codec = static_cast<SectionCodec>(9); },
+                   "unknown codec");
+    expect_refused(
+        [](Header&, Table& t) {
+            t[0].codec = SectionCodec::zstd;
+            t[0].shape = {0xffffffffu, 0xffffffffu, 0xffffffffu};  // overflows 64 bits
+            t[0].raw_size_bytes = ~0ull;
+        },
+        "sections claim more than");
+    expect_refused(
+        [](Header&, Table& t) {
+            for (size_t s : {0, 1}) {  // each by itself is allowed
+                t[s].codec = SectionCodec::zstd;
+                t[s].shape = {1, 1, 40u << 20};
+                t[s].raw_size_bytes = (s == 0 ? 1ull : 4ull) * (40u << 20);
+            }
+        },
+        "sections claim more than");
     expect_refused([](Header& h, Table&) { h.version = 2; }, "format version 2, expected 1");
     expect_refused([](Header& h, Table&) { h.num_sections = 0x7fffffff; }, "do not fit");
     expect_refused(

@@ -46,6 +46,127 @@ TEST(PaimFile, RoundTrips) {
     }
 }
 
+// With weights that are integers, too, as the encoder makes them.
+Model packed_example(bool clustered) {
+    Model model = clustered ? make_clustered_example(3, 3, 2, true)
+                            : quantise_example(make_example_model(3, 3));
+    model.vertex_order = VertexOrder::local;
+    LowRankMatrix& matrix = model.transfer;
+    matrix.weight_steps = {0.25f, 0.0f, 1e-3f};
+    for (size_t j = 0; j < matrix.weights.size(); ++j) {
+        const float step = matrix.weight_steps[j / matrix.num_poses];
+        const auto q = static_cast<int32_t>(j * 977 % 4001) - 2000;
+        matrix.weights[j] = step * static_cast<float>(q);
+    }
+    return model;
+}
+
+TEST(PaimFile, RoundTripsIntegersAndClusters) {
+    const TemporaryDirectory directory;
+    for (const bool clustered : {false, true}) {
+        Model model = packed_example(clustered);
+        model.scenery = make_example_scenery(model.layout);
+        write_paim(directory / "x.paim", model);
+        const Model read = read_paim(directory / "x.paim");
+        EXPECT_EQ(std::filesystem::file_size(directory / "x.paim"), paim_size_bytes(model));
+        // Triangles may be turned.
+        ASSERT_EQ(read.topology.triangles.size(), model.topology.triangles.size());
+        for (size_t t = 0; t < read.topology.triangles.size(); ++t) {
+            Triangle turned = read.topology.triangles[t];
+            const auto first =
+                std::find(turned.begin(), turned.end(), model.topology.triangles[t][0]);
+            std::rotate(turned.begin(), first, turned.end());
+            EXPECT_EQ(turned, model.topology.triangles[t]);
+        }
+        for (const Part part : {Part::geometry, Part::transfer}) {
+            const LowRankMatrix &a = read.part(part), &b = model.part(part);
+            EXPECT_EQ(a.precision, Precision::i16);
+            EXPECT_EQ(a.num_points, b.num_points);
+            EXPECT_EQ(a.steps, b.steps);
+            EXPECT_EQ(a.mean, b.mean);
+            EXPECT_EQ(a.components, b.components);
+            EXPECT_EQ(a.weights, b.weights);
+            EXPECT_EQ(a.weight_steps, b.weight_steps);
+            for (size_t k = 0; k < b.singular_values.size(); ++k) {
+                EXPECT_FLOAT_EQ(static_cast<float>(a.singular_values[k]),
+                                static_cast<float>(b.singular_values[k]));
+            }
+        }
+        EXPECT_EQ(read.clusters.num_clusters, model.clusters.num_clusters);
+        EXPECT_EQ(read.clusters.num_components, model.clusters.num_components);
+        EXPECT_EQ(read.clusters.cluster, model.clusters.cluster);
+        EXPECT_EQ(read.clusters.coefficients, model.clusters.coefficients);
+        EXPECT_EQ(read.clusters.scales, model.clusters.scales);
+        EXPECT_EQ(read.vertex_order, VertexOrder::local);
+        EXPECT_EQ(read.scenery.positions, model.scenery.positions);
+        EXPECT_EQ(read.scenery.topology.triangles.size(), 2u);
+    }
+}
+
+// Whatever a compressed file's bytes are, and even where all checksums are right: a model that can be
+// played, or a clear error.
+TEST(PaimFile, SurvivesAnyByteOfCompressedSections) {
+    const TemporaryDirectory directory;
+    for (const bool clustered : {false, true}) {
+        write_paim(directory / "x.paim", packed_example(clustered));
+        const auto whole = read_file(directory / "x.paim", 1 << 20);
+        const ContainerReader reader(directory / "x.paim", section::kKindAnimation);
+        int refused = 0, read = 0;
+        for (size_t s = 0; s < reader.sections().size(); ++s) {
+            const Section& damaged = reader.sections()[s];
+            for (uint64_t place = 0; place < damaged.stored_size_bytes; ++place) {
+                std::vector<SectionPlan> plans;
+                for (const Section& section : reader.sections()) {
+                    plans.emplace_back(section.spec, section.codec, section.stored_size_bytes);
+                }
+                ContainerWriter writer(directory / "y.paim", section::kKindAnimation, plans);
+                for (size_t j = 0; j < plans.size(); ++j) {
+                    const Section& section = reader.sections()[j];
+                    std::vector<char> bytes(
+                        whole.begin() + static_cast<ptrdiff_t>(section.offset),
+                        whole.begin() +
+                            static_cast<ptrdiff_t>(section.offset + section.stored_size_bytes));
+                    if (j == s) bytes[place] = static_cast<char>(bytes[place] ^ (1 << (place % 8)));
+                    writer.append(j, bytes.data(), bytes.size());
+                }
+                writer.commit();
+                try {
+                    const Model model = read_paim(directory / "y.paim");
+                    for (const uint32_t cluster : model.clusters.cluster) {
+                        ASSERT_LT(cluster, model.clusters.num_clusters);
+                    }
+                    ++read;
+                } catch (const Error& error) {
+                    EXPECT_TRUE(error.code() == ExitCode::bad_input ||
+                                error.code() == ExitCode::unsupported)
+                        << error.what();
+                    EXPECT_NE(std::string(error.what()).find("y.paim"), std::string::npos);
+                    ++refused;
+                }
+            }
+        }
+        EXPECT_GT(refused, 300);  // frames and shapes
+        EXPECT_GT(read, 30);      // numbers that are merely others
+    }
+}
+
+TEST(PaimFile, RefusesClaimsOfFarMoreValuesThanBytes) {
+    const TemporaryDirectory directory;
+    const auto path = directory / "x.paim";
+    ContainerWriter writer(path, section::kKindAnimation,
+                           {SectionPlan({Tag("TMEA"), ScalarType::i8, 0, {1, 1u << 15, 1u << 15}},
+                                        SectionCodec::planes, 3)});
+    writer.append(0, "abc", 3);
+    writer.commit();
+    try {
+        const ContainerReader reader(path, section::kKindAnimation);
+        ADD_FAILURE() << "opened a file of a gigabyte of claims";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("sections claim more than"), std::string::npos)
+            << error.what();
+    }
+}
+
 TEST(PaimFile, KeepsScenery) {
     const TemporaryDirectory directory;
     for (const uint32_t channels : {1u, 3u}) {
@@ -70,7 +191,7 @@ void drop_section(const std::filesystem::path& path, Tag tag) {
     const auto bytes = read_file(path, 1 << 20);
     const ContainerReader reader(path, section::kKindAnimation);
     std::vector<Section> kept;
-    std::vector<SectionSpec> specs;
+    std::vector<SectionPlan> specs;
     for (const Section& section : reader.sections()) {
         if (section.spec.tag == tag) continue;
         kept.push_back(section);

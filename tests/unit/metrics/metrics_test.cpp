@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "paim/metrics/array_error.h"
 #include "paim/metrics/image_error.h"
@@ -57,6 +58,15 @@ TEST(DistanceError, MeasuresPointsNotCoordinates) {
     EXPECT_EQ(error.worst_vertex, 1u);
     EXPECT_EQ(error.worst_pose, 3u);
     EXPECT_DOUBLE_EQ(error.rms(), std::sqrt(25.0 / 2));
+}
+
+TEST(ArrayError, WhatIsNotANumberIsTheWorst) {
+    ArrayError error;
+    const float none = std::numeric_limits<float>::quiet_NaN();
+    error.add(std::vector<float>{1, none, 9}, std::vector<float>{0, 0, 0}, 0);
+    EXPECT_TRUE(std::isnan(error.worst));
+    EXPECT_TRUE(std::isnan(error.relative()));
+    EXPECT_EQ(error.worst_index, 1u);
 }
 
 }  // namespace

@@ -1,0 +1,121 @@
+// Whether a .paim is within the errors that it states.
+#include "analysis/verify.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "paim/base/error.h"
+#include "paim/base/parallel.h"
+#include "paim/format/paim_file.h"
+#include "paim/metrics/model_error.h"
+
+namespace paim {
+
+namespace {
+
+// Of what is stated: other compilers and processors may round otherwise.
+constexpr double kRounding = 1e-6;
+
+struct Comparison {
+    NamedError measured;
+    std::optional<double> stated;
+
+    // Written so that what is not a number is never within.
+    bool within() const { return !stated || measured.value <= *stated * (1.0 + kRounding); }
+};
+
+LightSpectrum choose_spectrum(const AnalyzeOptions& options, const ErrorStatement& statement,
+                              uint32_t bands) {
+    if (!options.light_spectrum.empty()) {
+        return parse_light_spectrum(options.light_spectrum, bands);
+    }
+    if (statement.light_spectrum != "flat" && statement.light_spectrum != "natural") {
+        throw_usage("{}: its errors are those under {}; give this file with --light-spectrum",
+                    options.verify.string(), statement.light_spectrum);
+    }
+    return parse_light_spectrum(statement.light_spectrum, bands);
+}
+
+std::vector<Comparison> compare(const ModelError& error, const ErrorStatement& statement,
+                                bool same_light) {
+    std::vector<Comparison> comparisons;
+    for (const NamedError& measured : named_errors(error)) {
+        Comparison comparison{measured, {}};
+        for (const NamedError& stated : statement.errors) {
+            if (stated.name == measured.name && (same_light || !measured.of_light)) {
+                comparison.stated = stated.value;
+            }
+        }
+        comparisons.push_back(std::move(comparison));
+    }
+    return comparisons;
+}
+
+void print_json(const AnalyzeOptions& options, const ModelError& error,
+                const LightSpectrum& spectrum, const std::vector<Comparison>& comparisons) {
+    nlohmann::ordered_json json;
+    json["paim"] = options.verify.string();
+    json["bake"] = options.bake_directory.string();
+    json["light_spectrum"] = spectrum.name;
+    json["bake_noise"] = error.transfer.bake_noise;
+    for (const Comparison& comparison : comparisons) {
+        nlohmann::ordered_json& entry = json["errors"][comparison.measured.name];
+        if (comparison.stated) {
+            entry["stated"] = *comparison.stated;
+        } else {
+            entry["stated"] = nullptr;
+        }
+        entry["measured"] = comparison.measured.value;
+        entry["within"] = comparison.within();
+    }
+    json["worst"] = {{"transfer_vertex", error.transfer.worst_vertex},
+                     {"transfer_pose", error.transfer.worst_pose},
+                     {"position_vertex", error.geometry.distance.worst_vertex},
+                     {"position_pose", error.geometry.distance.worst_pose}};
+    fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+void print_text(const AnalyzeOptions& options, const LightSpectrum& spectrum,
+                const std::vector<Comparison>& comparisons) {
+    fmt::print("{} against {}, light spectrum {}\n", options.verify.string(),
+               options.bake_directory.string(), spectrum.name);
+    fmt::print("  {:<34}{:>14}{:>14}\n", "", "stated", "measured");
+    for (const Comparison& comparison : comparisons) {
+        const std::string stated =
+            comparison.stated ? fmt::format("{:.6g}", *comparison.stated) : "-";
+        fmt::print("  {:<34}{:>14}{:>14.6g}{}\n", comparison.measured.name, stated,
+                   comparison.measured.value, comparison.within() ? "" : "  above");
+    }
+}
+
+}  // namespace
+
+void verify(const AnalyzeOptions& options) {
+    const ThreadLimit threads(options.num_threads);
+    const Model model = read_paim(options.verify);
+    const ErrorStatement statement = read_error_statement(model, options.verify);
+    const BakeReader bake(options.bake_directory);
+    const LightSpectrum spectrum =
+        choose_spectrum(options, statement, bake.identity().layout.bands);
+    bake.verify_all();
+    const ModelError error = measure_model(model, bake, spectrum);
+    const std::vector<Comparison> comparisons =
+        compare(error, statement, spectrum.name == statement.light_spectrum);
+    if (options.json) {
+        print_json(options, error, spectrum, comparisons);
+    } else {
+        print_text(options, spectrum, comparisons);
+    }
+    const auto above = std::find_if(comparisons.begin(), comparisons.end(),
+                                    [](const Comparison& c) { return !c.within(); });
+    if (above == comparisons.end()) return;
+    throw Error(ExitCode::threshold_exceeded,
+                fmt::format("{}: expected a {} of at most {:.6g}, as it states, got {:.6g}",
+                            options.verify.string(), above->measured.name, *above->stated,
+                            above->measured.value));
+}
+
+}  // namespace paim

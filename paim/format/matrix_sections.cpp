@@ -1,0 +1,204 @@
+// A low-rank matrix and clusters from the sections of a .paim.
+#include "paim/format/matrix_sections.h"
+
+#include <cmath>
+#include <limits>
+
+#include "paim/base/error.h"
+#include "paim/base/parallel.h"
+#include "paim/format/mesh_sections.h"
+#include "paim/format/paim_sections.h"
+#include "paim/format/plane_codec.h"
+
+namespace paim {
+
+namespace {
+
+const Section& require(const ContainerReader& reader, Tag tag, uint32_t index = 0) {
+    const Section* section = reader.find(tag, index);
+    if (section == nullptr) {
+        throw_bad_input("{}: section {} {} is missing", reader.path(), tag.str(), index);
+    }
+    return *section;
+}
+
+template <typename Integer>
+StoredValues read_integers(const ContainerReader& reader, const Section& section,
+                           const PlanePredictor& predictor) {
+    const size_t num_planes = section.spec.shape[1];
+    std::vector<Integer> values(section.spec.num_values());
+    if (section.codec != SectionCodec::planes) {
+        throw_unsupported("{}: codec {} for integers", reader.label(section),
+                          static_cast<int>(section.codec));
+    }
+    const std::vector<uint8_t> stored = reader.read_stored(section);
+    if (num_planes == 0 || !decode_planes(stored, num_planes, predictor, std::span(values))) {
+        throw_bad_input("{}: holds no {} planes of {} integers", reader.label(section), num_planes,
+                        section.spec.shape[2]);
+    }
+    return values;
+}
+
+// Integers, or finite floats.
+StoredValues read_values(const ContainerReader& reader, const Section& section,
+                         const PlanePredictor& predictor) {
+    switch (section.spec.type) {
+        case ScalarType::i8:
+            return read_integers<int8_t>(reader, section, predictor);
+        case ScalarType::i16:
+            return read_integers<int16_t>(reader, section, predictor);
+        case ScalarType::f16:
+        case ScalarType::f32: {
+            std::vector<float> values = reader.read_f32(section);
+            check_finite(reader, section.spec.tag, values);
+            return values;
+        }
+        default:
+            throw_unsupported("{}: values of {}", reader.label(section),
+                              scalar_name(section.spec.type));
+    }
+}
+
+Precision precision_of(ScalarType type) {
+    switch (type) {
+        case ScalarType::i8:
+            return Precision::i8;
+        case ScalarType::i16:
+            return Precision::i16;
+        case ScalarType::f16:
+            return Precision::f16;
+        default:
+            return Precision::f32;
+    }
+}
+
+// Positive, finite numbers: what integers are multiples of.
+std::vector<float> read_steps(const ContainerReader& reader, Tag tag, uint32_t count) {
+    const Section& section = reader.require(tag, ScalarType::f32);
+    expect_shape(reader, section, 1, count);
+    std::vector<float> steps = reader.read_f32(section);
+    for (const float step : steps) {
+        if (!(step >= 0.0f && std::isfinite(step))) {
+            throw_bad_input("{}: steps: expected finite numbers from 0 up, got {}",
+                            reader.label(section), step);
+        }
+    }
+    return steps;
+}
+
+void read_weights(const ContainerReader& reader, size_t i, LowRankMatrix& matrix) {
+    const Section& section = require(reader, section::kWeights[i]);
+    expect_shape(reader, section, matrix.num_components, matrix.num_poses);
+    if (section.spec.type != ScalarType::i16) {
+        matrix.weights = reader.read_f32(reader.require(section::kWeights[i], ScalarType::f32));
+        check_finite(reader, section::kWeights[i], matrix.weights);
+        return;
+    }
+    matrix.weight_steps = read_steps(reader, section::kWeightSteps[i], matrix.num_components);
+    const StoredValues integers =
+        read_values(reader, section, PlanePredictor::chain(matrix.num_poses));
+    matrix.weights.resize(integers.size());
+    integers.widen(0, matrix.weights);
+    for (size_t j = 0; j < matrix.weights.size(); ++j) {
+        matrix.weights[j] *= matrix.weight_steps[j / matrix.num_poses];
+    }
+    check_finite(reader, section::kWeights[i], matrix.weights);
+}
+
+void read_spectrum(const ContainerReader& reader, size_t i, LowRankMatrix& matrix) {
+    const Section& section = require(reader, section::kSpectrum[i]);
+    if (section.spec.type == ScalarType::f32) {
+        const std::vector<float> rounded = reader.read_f32(section);
+        matrix.singular_values.assign(rounded.begin(), rounded.end());
+    } else {
+        matrix.singular_values =
+            reader.read_f64(reader.require(section::kSpectrum[i], ScalarType::f64));
+    }
+    double previous = std::numeric_limits<double>::infinity();
+    for (const double s : matrix.singular_values) {
+        if (!(s >= 0.0 && s <= previous && std::isfinite(s))) {
+            throw_bad_input("{}: singular values: expected finite, descending numbers, got {}",
+                            reader.path(), s);
+        }
+        previous = s;
+    }
+    if (matrix.singular_values.size() < matrix.num_components) {
+        throw_bad_input("{}: {} singular values, expected at least the {} components'",
+                        reader.path(), matrix.singular_values.size(), matrix.num_components);
+    }
+}
+
+}  // namespace
+
+void expect_shape(const ContainerReader& reader, const Section& section, uint32_t rows,
+                  uint32_t columns) {
+    const auto& shape = section.spec.shape;
+    if (shape[0] != 1 || shape[1] != rows || shape[2] != columns) {
+        throw_bad_input("{}: {} x {} x {} values, expected {} x {}", reader.label(section),
+                        shape[0], shape[1], shape[2], rows, columns);
+    }
+}
+
+void read_matrix(const ContainerReader& reader, Part part, const PlanePredictor& predictor,
+                 LowRankMatrix& matrix) {
+    const auto i = static_cast<size_t>(part);
+    read_weights(reader, i, matrix);
+    read_spectrum(reader, i, matrix);
+
+    // Every shape is checked before memory for all values is taken: together they are no larger
+    // than what a file of this size may claim.
+    std::vector<const Section*> sections{&require(reader, section::kMean[i])};
+    for (uint32_t k = 0; k < matrix.num_components; ++k) {
+        sections.push_back(&require(reader, section::kComponent[i], k));
+    }
+    bool integers = false;
+    for (const Section* section : sections) {
+        expect_shape(reader, *section, matrix.num_planes, matrix.num_points);
+        const bool is = is_integer(precision_of(section->spec.type));
+        if (section != sections[0] && is != integers) {
+            throw_unsupported("{}: {}, where others are not", reader.label(*section),
+                              scalar_name(section->spec.type));
+        }
+        integers = is;
+    }
+    // The first component has the most bits.
+    matrix.precision =
+        precision_of(sections.size() > 1 ? sections[1]->spec.type : sections[0]->spec.type);
+    if (integers) matrix.steps = read_steps(reader, section::kSteps[i], matrix.num_planes);
+    std::vector<StoredValues> values(sections.size());
+    parallel_for(sections.size(), 1, [&](size_t j, size_t) {
+        values[j] = read_values(reader, *sections[j], predictor);
+    });
+    matrix.mean = std::move(values[0]);
+    matrix.components.assign(std::make_move_iterator(values.begin() + 1),
+                             std::make_move_iterator(values.end()));
+}
+
+void read_clusters(const ContainerReader& reader, const PlanePredictor& predictor,
+                   uint32_t num_vertices, VertexClusters& clusters) {
+    const Section& numbers = reader.require(section::kClusters, ScalarType::i16);
+    expect_shape(reader, numbers, 1, num_vertices);
+    const StoredValues cluster = read_values(reader, numbers, predictor);
+    clusters.cluster.resize(num_vertices);
+    cluster.for_each(0, num_vertices, [&](size_t v, float number) {
+        if (!(number >= 0.0f && number < static_cast<float>(clusters.num_clusters))) {
+            throw_bad_input("{}: vertex {}: cluster {}, expected 0 to {}", reader.label(numbers), v,
+                            number, clusters.num_clusters - 1);
+        }
+        clusters.cluster[v] = static_cast<uint32_t>(number);
+    });
+    const Section& scales = reader.require(section::kClusterScales, ScalarType::f32);
+    expect_shape(reader, scales, clusters.num_clusters, clusters.rows_per_cluster());
+    clusters.scales = reader.read_f32(scales);
+    check_finite(reader, section::kClusterScales, clusters.scales);
+    std::vector<const Section*> sections;
+    for (uint32_t j = 0; j < clusters.num_components; ++j) {
+        sections.push_back(&require(reader, section::kClusterCoefficients, j));
+        expect_shape(reader, *sections.back(), 1, num_vertices);
+    }
+    for (const Section* section : sections) {
+        clusters.coefficients.push_back(read_values(reader, *section, predictor));
+    }
+}
+
+}  // namespace paim

@@ -1,0 +1,25 @@
+// A low-rank matrix and clusters from the sections of a .paim.
+#pragma once
+
+#include "paim/codec/model.h"
+#include "paim/format/container_reader.h"
+#include "paim/format/plane_predictor.h"
+
+namespace paim {
+
+// Error (bad input) unless the section has this shape.
+void expect_shape(const ContainerReader& reader, const Section& section, uint32_t rows,
+                  uint32_t columns);
+
+// Fills a matrix whose dimensions are set.
+// predictor  of its points, where they are a mesh
+// Errors (bad input, unsupported) name the file and the section.
+void read_matrix(const ContainerReader& reader, Part part, const PlanePredictor& predictor,
+                 LowRankMatrix& matrix);
+
+// Fills clusters whose dimensions are set. The same errors; and an index or coefficient that no
+// cluster has.
+void read_clusters(const ContainerReader& reader, const PlanePredictor& predictor,
+                   uint32_t num_vertices, VertexClusters& clusters);
+
+}  // namespace paim

@@ -1,0 +1,66 @@
+// Bytes through Zstandard.
+#include "paim/format/zstd_codec.h"
+
+#include <zstd.h>
+
+#include <memory>
+
+#include "paim/base/check.h"
+
+namespace paim {
+
+namespace {
+
+struct FreeContext {
+    void operator()(ZSTD_CCtx* context) const { ZSTD_freeCCtx(context); }
+};
+
+std::vector<uint8_t> compress(std::span<const uint8_t> bytes, std::span<const size_t> block_ends,
+                              int level) {
+    const std::unique_ptr<ZSTD_CCtx, FreeContext> context(ZSTD_createCCtx());
+    PAIM_CHECK(context != nullptr);
+    ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, level);
+    ZSTD_CCtx_setPledgedSrcSize(context.get(), bytes.size());
+    // A flush adds a block header, and may end one block early.
+    constexpr size_t kBytesPerFlush = 64;
+    std::vector<uint8_t> out(ZSTD_compressBound(bytes.size()) +
+                             kBytesPerFlush * (block_ends.size() + 1));
+    ZSTD_outBuffer output{out.data(), out.size(), 0};
+    size_t begin = 0;
+    const auto feed = [&](size_t end, ZSTD_EndDirective directive) {
+        ZSTD_inBuffer input{bytes.data() + begin, end - begin, 0};
+        const size_t left = ZSTD_compressStream2(context.get(), &output, &input, directive);
+        PAIM_CHECK_EQ(left, 0u);
+        begin = end;
+    };
+    for (const size_t end : block_ends) {
+        if (end > begin && end < bytes.size()) feed(end, ZSTD_e_flush);
+    }
+    feed(bytes.size(), ZSTD_e_end);
+    out.resize(output.pos);
+    return out;
+}
+
+}  // namespace
+
+std::vector<uint8_t> zstd_compress(std::span<const uint8_t> bytes,
+                                   std::span<const size_t> block_ends, Effort effort) {
+    const int level = effort == Effort::small ? 19 : 1;
+    std::vector<uint8_t> whole = compress(bytes, {}, level);
+    if (block_ends.empty()) return whole;
+    std::vector<uint8_t> split = compress(bytes, block_ends, level);
+    return split.size() < whole.size() ? split : whole;
+}
+
+std::optional<uint64_t> zstd_content_size(std::span<const uint8_t> frame) {
+    const unsigned long long size = ZSTD_getFrameContentSize(frame.data(), frame.size());
+    if (size == ZSTD_CONTENTSIZE_ERROR || size == ZSTD_CONTENTSIZE_UNKNOWN) return std::nullopt;
+    return size;
+}
+
+bool zstd_decompress(std::span<const uint8_t> frame, std::span<uint8_t> out) {
+    const size_t got = ZSTD_decompress(out.data(), out.size(), frame.data(), frame.size());
+    return ZSTD_isError(got) == 0 && got == out.size();
+}
+
+}  // namespace paim

@@ -1,0 +1,28 @@
+// Bytes through Zstandard.
+// Based on: Collet and Kucherawy, Zstandard Compression and the 'application/zstd' Media Type, RFC 8878
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace paim {
+
+// How hard to look for a smaller result: fast while many candidates are compared, small for files.
+enum class Effort { fast, small };
+
+// One frame that states the size of its contents. The same bytes for the same input.
+// block_ends  offsets, ascending, where what follows has other statistics: entropy tables start anew
+//             there; the encoder tries with and without and keeps the smaller
+std::vector<uint8_t> zstd_compress(std::span<const uint8_t> bytes,
+                                   std::span<const size_t> block_ends = {},
+                                   Effort effort = Effort::small);
+
+// The size that the frame says its contents have; nothing if this is no frame or does not say.
+std::optional<uint64_t> zstd_content_size(std::span<const uint8_t> frame);
+
+// Fills `out` exactly; false if the frame is damaged or holds anything but out.size() bytes.
+bool zstd_decompress(std::span<const uint8_t> frame, std::span<uint8_t> out);
+
+}  // namespace paim

@@ -1,0 +1,35 @@
+// How far decoded positions are from the baked ones, in the measures of the mesh compression literature.
+// Based on: Karni and Gotsman, Compression of Soft-Body Animation Sequences, 2004; Kavan, Sloan and
+//           O'Sullivan, Fast and Efficient Skinning of Animated Meshes, 2010
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "paim/metrics/array_error.h"
+
+namespace paim {
+
+// Sums over poses, each added once. All relative figures are infinite where something of no size is not met exactly.
+struct GeometryError {
+    DistanceError distance;            // RMS and worst, scene units
+    double centred_squared_sum = 0.0;  // Σ |p − mean of its pose|², of the reference
+    // Largest diagonal of the bounding box of a pose, scene units.
+    double diagonal = 0.0;
+
+    double rms() const { return distance.rms(); }  // scene units
+    double worst() const { return distance.worst; }
+    double relative_rms() const;  // of the diagonal
+    double relative_worst() const;
+
+    // 100 √Σ|p − p'|² / √Σ|p − mean of its pose|², percent.
+    double kg_error() const;
+
+    // 1000 ‖A − A'‖_F / √(3 V P), with the mesh scaled to a diagonal of 2.
+    double e_rms() const;
+
+    // positions, reference  [3][V] planes x, y, z, the same length (checked)
+    void add(std::span<const float> positions, std::span<const float> reference, uint32_t pose);
+};
+
+}  // namespace paim

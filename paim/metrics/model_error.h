@@ -1,0 +1,51 @@
+// A compressed animation, whatever its codec, against the bake it was made from.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "paim/codec/model.h"
+#include "paim/format/bake_directory.h"
+#include "paim/metrics/geometry_error.h"
+#include "paim/metrics/light_spectrum.h"
+#include "paim/metrics/transfer_error.h"
+
+namespace paim {
+
+struct ModelError {
+    TransferError transfer;
+    GeometryError geometry;
+};
+
+// Decodes and measures everything that the model holds; a plane over all poses of bake, noise and
+// model is in memory at a time. Bands that the model does not have count as zero; a grey model of a
+// coloured bake counts in every channel.
+// bake  verified (BakeReader::verify_all)
+// Errors: bad input if the model is not of this bake, saying what differs.
+ModelError measure_model(const Model& model, const BakeReader& bake, const LightSpectrum& spectrum);
+
+// One figure of an error, by the name that files and reports have for it (docs/metrics.md).
+struct NamedError {
+    std::string name;
+    double value = 0.0;
+    bool of_light = false;  // depends on the light's spectrum
+};
+
+// All that a file states of its errors, in the order of reports.
+std::vector<NamedError> named_errors(const ModelError& error);
+
+// What a file says of its errors: the member `measured` of its provenance.
+struct ErrorStatement {
+    std::string light_spectrum;      // its name
+    std::vector<NamedError> errors;  // only what is stated, in the order of named_errors()
+};
+
+// The member's JSON object.
+std::string error_statement_json(const ModelError& error, const LightSpectrum& spectrum);
+
+// Errors: bad input, naming the file, if it states none or what it states makes no sense.
+ErrorStatement read_error_statement(const Model& model, const std::filesystem::path& file);
+
+}  // namespace paim

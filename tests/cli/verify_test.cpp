@@ -1,0 +1,174 @@
+// paim-analyze --verify: files that are as good as they say, files that are not, and files that cannot be told.
+#include <cmath>
+#include <functional>
+
+#include "paim/format/paim_file.h"
+#include "paim/image/exr.h"
+#include "paim/metrics/model_error.h"
+#include "tests/cli/tool_test.h"
+
+namespace paim {
+namespace {
+
+using nlohmann::json;
+
+class Verify : public ToolTest {
+  protected:
+    Verify() {
+        make_bake("x.bake");
+        expect_success(compress({"encode", path("x.bake"), "-o", path("encoded.paim"), "--bands",
+                                 "2", "--transfer-components", "1", "--geometry-components", "0"}));
+    }
+
+    // The encoded file, which states what is measured of it, changed by `change`.
+    std::string state(const LightSpectrum& spectrum, const std::function<void(json&)>& change) {
+        Model model = read_paim(path("encoded.paim"));
+        const ModelError error = measure_model(model, BakeReader(path("x.bake")), spectrum);
+        json provenance = json::parse(model.provenance_json);
+        provenance["measured"] = json::parse(error_statement_json(error, spectrum));
+        change(provenance);
+        model.provenance_json = provenance.dump();
+        write_paim(path("x.paim"), model);
+        return path("x.paim");
+    }
+    std::string state(const std::function<void(json&)>& change = [](json&) {}) {
+        return state(LightSpectrum::flat(3), change);
+    }
+
+    ToolResult verify(const std::string& file, Arguments options = {}) const {
+        options.insert(options.begin(), {path("x.bake"), "--verify", file});
+        return analyze(options);
+    }
+};
+
+TEST_F(Verify, AcceptsAFileThatIsAsGoodAsItSays) {
+    const std::string file = state();
+    const ToolResult text = verify(file);
+    EXPECT_EQ(text.exit_code, 0) << text.err;
+    EXPECT_EQ(text.err, "");
+    EXPECT_TRUE(
+        text.out.starts_with(file + " against " + path("x.bake") + ", light spectrum flat\n"))
+        << text.out;
+    for (const std::string name : {"transfer_error", "transfer_worst_vertex_deviation", "kg_error",
+                                   "e_rms", "position_relative_worst"}) {
+        EXPECT_TRUE(contains(text.out, "\n  " + name + " ")) << text.out;
+    }
+    EXPECT_FALSE(contains(text.out, "above")) << text.out;
+
+    const ToolResult result = verify(file, {"--json"});
+    EXPECT_EQ(result.err, "");
+    const json report = parse_object(result);
+    EXPECT_EQ(report["light_spectrum"], "flat");
+    EXPECT_EQ(report["errors"].size(), 12u);
+    for (const auto& [name, entry] : report["errors"].items()) {
+        // To the last bit, being measured twice in the same way.
+        EXPECT_EQ(entry["stated"], entry["measured"]) << name;
+        EXPECT_EQ(entry["within"], true) << name;
+    }
+    // One band of three is not kept.
+    EXPECT_GT(report["errors"]["transfer_deviation"]["measured"], 0.05);
+    EXPECT_EQ(verify(file, {"--json", "--threads", "1"}).out, result.out);
+}
+
+// Every figure that is stated is looked at.
+TEST_F(Verify, FindsEveryErrorThatIsLargerThanStated) {
+    for (const NamedError& error : named_errors({})) {
+        const auto lower = [&](json& provenance) {
+            json& stated = provenance["measured"][error.name];
+            stated = stated.get<double>() * (1.0 - 1e-5);
+        };
+        const std::string file = state(LightSpectrum::natural(), lower);
+        const ToolResult result = verify(file, {"--json"});
+        EXPECT_EQ(result.exit_code, 5) << error.name << result.err;
+        EXPECT_TRUE(contains(result.err, file + ": expected a " + error.name + " of at most "))
+            << result.err;
+        const json report = json::parse(result.out);
+        EXPECT_EQ(report["errors"][error.name]["within"], false) << error.name;
+        EXPECT_TRUE(contains(verify(file).out, "  above\n")) << error.name;
+    }
+}
+
+TEST_F(Verify, AllowsForRoundingAndForPessimism) {
+    const auto scale = [](double factor) {
+        return [factor](json& provenance) {
+            for (auto& [name, value] : provenance["measured"].items()) {
+                if (value.is_number()) value = value.get<double>() * factor;
+            }
+        };
+    };
+    EXPECT_EQ(verify(state(scale(1.0 - 5e-7))).exit_code, 0);
+    EXPECT_EQ(verify(state(scale(2.0))).exit_code, 0);
+}
+
+TEST_F(Verify, ComparesUnderTheLightThatWasMeant) {
+    const std::string natural = state(LightSpectrum::natural(), [](json&) {});
+    const json report = parse_object(verify(natural, {"--json"}));
+    EXPECT_EQ(report["light_spectrum"], "natural");
+    EXPECT_GT(report["errors"]["transfer_missing_bands"]["stated"], 0.0);
+    // Another light is measured, and nothing is said about it.
+    const json other = parse_object(verify(natural, {"--json", "--light-spectrum", "flat"}));
+    EXPECT_TRUE(other["errors"]["transfer_error"]["stated"].is_null());
+    EXPECT_GT(other["errors"]["transfer_error"]["measured"], 0.0);
+    EXPECT_FALSE(other["errors"]["kg_error"]["stated"].is_null());
+
+    // A map must be given again.
+    Image image(8, 4, Vec3f(1, 1, 1));
+    image.at(0, 0) = Vec3f(9, 9, 9);
+    write_exr(directory_ / "dawn.exr", image);
+    const std::string dawn = state(parse_light_spectrum(path("dawn.exr"), 3), [](json&) {});
+    expect_failure(verify(dawn), 1, {"those under dawn.exr", "--light-spectrum"});
+    EXPECT_EQ(verify(dawn, {"--light-spectrum", path("dawn.exr")}).exit_code, 0);
+}
+
+TEST_F(Verify, RefusesWhatCannotBeTold) {
+    const auto remove = [](json& provenance) { provenance.erase("measured"); };
+    expect_failure(verify(state(remove)), 2, {"x.paim: expected a file that states its errors"});
+    const auto nothing = [](json& provenance) {
+        provenance["measured"] = {{"light_spectrum", "flat"}};
+    };
+    expect_failure(verify(state(nothing)), 2, {"x.paim: expected a file that states its errors"});
+    for (const json& bad : {json(-1.0), json("small"), json(nullptr)}) {
+        const auto spoil = [&](json& provenance) { provenance["measured"]["e_rms"] = bad; };
+        expect_failure(verify(state(spoil)), 2, {"x.paim", "e_rms"});
+    }
+
+    const std::string file = state();
+    expect_failure(verify(path("none.paim")), 2, {"none.paim"});
+    expect_failure(analyze({path("none.bake"), "--verify", file}), 2, {"none.bake"});
+    expect_failure(verify(file, {"--light-spectrum", "neutral"}), 1, {"got 'neutral'"});
+    expect_failure(verify(file, {"-o", path("out")}), 1, {"--verify", "--output"});
+    expect_failure(verify(file, {"--components", "3"}), 1, {"--verify", "--components"});
+    expect_failure(analyze({path("x.bake"), "-o", path("out"), "--light-spectrum", "flat"}), 1,
+                   {"--light-spectrum", "--verify"});
+    expect_failure(analyze({path("x.bake")}), 1, {"--output is required"});
+}
+
+TEST_F(Verify, RefusesADamagedBake) {
+    const std::string file = state();
+    const auto pose = bake_pose_file(path("x.bake"), 2);
+    std::vector<char> bytes = read_file(pose, uint64_t{1} << 20);
+    bytes[bytes.size() - 100] ^= 1;  // of its noise
+    write_file(pose, std::string(bytes.begin(), bytes.end()));
+    expect_failure(verify(file), 2, {"pose_000002.bin"});
+}
+
+TEST_F(Verify, RefusesAnotherAnimation) {
+    const std::string file = state();
+    const auto bake = [&](const std::string& shape, uint32_t num_poses, uint32_t bands) {
+        const std::string name = path(shape + ".other.bake");
+        std::filesystem::remove_all(name);
+        std::filesystem::remove_all(path(shape));
+        expect_success(compress({"bake", make_poses(shape, num_poses, 60), "-o", name, "--rays",
+                                 "2", "--bands", std::to_string(bands)}));
+        return name;
+    };
+    expect_failure(analyze({bake("plates", 3, 3), "--verify", file}), 2,
+                   {"plates.other.bake", "3 poses, got 4"});
+    expect_failure(analyze({bake("plates", 4, 1), "--verify", file}), 2,
+                   {"plates.other.bake", "of 1 bands", "got 2"});
+    expect_failure(analyze({bake("sphere", 4, 3), "--verify", file}), 2,
+                   {"sphere.other.bake", "vertices, got 50"});
+}
+
+}  // namespace
+}  // namespace paim
