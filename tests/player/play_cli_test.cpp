@@ -130,6 +130,48 @@ TEST_F(PlayTest, LimitsBeyondTheFileAreLoweredWithANote) {
     EXPECT_EQ(nlohmann::json::parse(result.out)["transfer_components"], 5);
 }
 
+// Clusters of integers through the file, the decoder of the CPU and the shader.
+TEST_F(PlayTest, PlaysClusters) {
+    TestModelOptions options;
+    options.channels = 3;
+    options.precision = Precision::i16;
+    options.component_precisions = {Precision::i16, Precision::i8};
+    options.num_clusters = 7;
+    options.cluster_components = 6;
+    options.coefficient_precisions = {Precision::i16, Precision::i16, Precision::i8};
+    model_ = make_test_model(options);
+    write_paim(file_, model_);
+    const std::vector<std::string> arguments{"--snapshot",    out("a.exr"), "--pose", "2.5",
+                                             "--background",  "0,0,0",      "--size", "120x80",
+                                             "--supersample", "1",          "--json"};
+    const ToolResult result = play(arguments);
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const Image image = read_exr(out("a.exr"));
+    const Difference difference =
+        compare(expected_picture(model_, 2.5, 0.0, 120, 80, Vec3f::Zero()), image);
+    EXPECT_LE(difference.mean_relative, 1e-3);
+    EXPECT_LE(difference.fraction_off, 0.005);
+    const auto json = nlohmann::json::parse(result.out);
+    EXPECT_EQ(json["codec"], "cpca");
+    EXPECT_EQ(json["clusters"], 7);
+    EXPECT_EQ(json["cluster_components"], 6);
+    EXPECT_EQ(json["multiply_adds_per_vertex"], 3 * 4 + 3 * 7);
+    EXPECT_EQ(json["cluster_multiply_adds"], 49 * (75 * 6 + 3 * 25));
+
+    std::vector<std::string> fewer = arguments;
+    fewer.insert(fewer.end(), {"--cluster-components", "1"});
+    const ToolResult coarse = play(fewer);
+    ASSERT_EQ(coarse.exit_code, 0) << coarse.err;
+    EXPECT_EQ(nlohmann::json::parse(coarse.out)["cluster_components"], 1);
+    EXPECT_GT(compare(image, read_exr(out("a.exr"))).mean_relative, 1e-3);
+
+    const ToolResult bench = play({"--bench", "2", "--size", "64x48", "--json"});
+    ASSERT_EQ(bench.exit_code, 0) << bench.err;
+    EXPECT_GT(nlohmann::json::parse(bench.out)["cpu_min_ms"], 0.0);
+    EXPECT_NE(play({"--bench", "2", "--size", "64x48"}).out.find("for the bases of clusters"),
+              std::string::npos);
+}
+
 TEST_F(PlayTest, RefusesCommandLinesThatMakeNoSense) {
     const std::string png = out("a.png");
     expect_failure({"--snapshot", png, "--pose", "5.01"}, 1, "--pose: expected 0 to 5");

@@ -94,7 +94,10 @@ TEST(ClusterLight, ShadesAMeanAndItsComponent) {
     Model model;
     model.topology.num_vertices = 2;
     model.layout = {TransferKind::diffuse, 1, 1};
-    model.transfer = {2, 1, 1, 0, Precision::i8, {0.5f}, std::vector<int8_t>{4, 6}, {}, {}, {}};
+    model.transfer.num_points = 2;
+    model.transfer.num_planes = model.transfer.num_poses = 1;
+    model.transfer.steps = {0.5f};
+    model.transfer.mean = std::vector<int8_t>{4, 6};
     model.clusters = {1, 1, {0, 0}, {std::vector<int8_t>{-4, 1}}, {1.0f, 1.0f}};
     std::vector<Vec3f> products, radiance;
     ClusterLight(model).light_products(0.0, {}, {1, {Vec3f(5, 10, 20)}}, products);
