@@ -54,7 +54,7 @@ class App {
                                                      : "built-in sky") {
         const UploadPlan& plan = renderer_->plan();
         range_ = {scene.model.num_poses(), plan.geometry_components, plan.transfer_components,
-                  plan.layout.bands};
+                  plan.layout.bands, plan.cluster_components};
         view_.time = options.pose;
         view_.limits = options.limits;
         view_.tone_curve = options.tone_curve;

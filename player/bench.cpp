@@ -7,14 +7,19 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "paim/base/parallel.h"
 #include "paim/codec/make_decoder.h"
+#include "paim/codec/pose_parts.h"
 #include "paim/light/environment.h"
+#include "paim/shade/cluster_light.h"
 #include "paim/shade/shade.h"
 #include "player/gl/check.h"
 #include "player/gl/headless_context.h"
+#include "player/render/cost.h"
 #include "player/render/scene_renderer.h"
 #include "player/report.h"
 
@@ -60,20 +65,44 @@ Times measure_gpu(SceneRenderer& renderer, Frame frame, const gl::Target& target
     return times;
 }
 
+// Positions and radiance of one frame on the CPU.
+class CpuFrame {
+  public:
+    explicit CpuFrame(const Model& model) : model_(model), decoder_(make_decoder(model)) {
+        if (!model.clusters.empty()) cluster_light_.emplace(model);
+    }
+
+    void compute(const Frame& frame, const LightCoefficients& light) {
+        if (!cluster_light_) {
+            decoder_->decode(frame.time, frame.limits, pose_);
+            shade(pose_.layout, pose_.transfer, model_.albedo, light, radiance_);
+            return;
+        }
+        decode_positions(model_, frame.time, frame.limits, pose_);
+        cluster_light_->light_products(frame.time, frame.limits, light, products_);
+        shade_clusters(model_.clusters, products_, frame.limits.cluster_components, model_.albedo,
+                       radiance_);
+    }
+
+  private:
+    const Model& model_;
+    std::unique_ptr<Decoder> decoder_;
+    std::optional<ClusterLight> cluster_light_;
+    DecodedPose pose_;
+    std::vector<Vec3f> products_;
+    std::vector<Vec3f> radiance_;
+};
+
 // The same weights, decoding, turned light and shading; no picture.
 Times measure_cpu(const Options& options, const Scene& scene, Frame frame) {
     const uint32_t bands = options.limits.bands;
     const LightCoefficients light =
         EnvironmentLight(scene.environment).coefficients(Vec3f::Zero(), static_cast<int>(bands));
-    const std::unique_ptr<Decoder> decoder = make_decoder(scene.model);
-    DecodedPose pose;
-    std::vector<Vec3f> radiance;
+    CpuFrame cpu(scene.model);
     const int num_frames = *options.bench_frames;
     return measure(num_frames, [&](int i) {
         set_frame(frame, i, num_frames, scene.model.num_poses());
-        decoder->decode(frame.time, frame.limits, pose);
-        shade(pose.layout, pose.transfer, scene.model.albedo,
-              turn_about_y(light, frame.env_rotation_rad), radiance);
+        cpu.compute(frame, turn_about_y(light, frame.env_rotation_rad));
     });
 }
 
@@ -98,7 +127,7 @@ void run_bench(const Options& options, const Scene& scene) {
 
     if (options.json) {
         nlohmann::ordered_json json =
-            describe_frame(options, scene, context->description(), samples);
+            describe_frame(options, scene, renderer, context->description(), samples);
         json["frames"] = num_frames;
         json["frame_median_ms"] = whole.median_ms;
         json["frame_min_ms"] = whole.min_ms;
@@ -117,6 +146,13 @@ void run_bench(const Options& options, const Scene& scene) {
     };
     fmt::print("{}\n{} frames of {} x {} samples, {} vertices\n", context->description(),
                num_frames, target.width(), target.height(), scene.model.topology.num_vertices);
+    const Cost cost = frame_cost(scene.model, options.limits);
+    fmt::print("{:.3f} MB of textures, {} multiply-adds a vertex",
+               1e-6 * static_cast<double>(renderer.texture_bytes()), cost.multiply_adds);
+    if (cost.cluster_multiply_adds > 0) {
+        fmt::print(", {} a frame for the bases of clusters", cost.cluster_multiply_adds);
+    }
+    fmt::print("\n");
     print("whole frame", whole);
     print("frame of one pixel: the vertices", vertices);
     print(fmt::format("decoding and shading, {} CPU threads", num_threads).c_str(), cpu);

@@ -18,7 +18,7 @@ namespace {
 // As typed; checked and converted afterwards.
 struct RawOptions {
     std::string model, environment, size, background, camera, snapshot;
-    double geometry_components = 0, transfer_components = 0, bands = 0;
+    double geometry_components = 0, transfer_components = 0, cluster_components = 0, bands = 0;
     double exposure = 0, gamma = 0, pose = 0, env_rotation = 0;
     double supersample = 0, bench = 0, frames = 0;
 };
@@ -97,7 +97,12 @@ void describe(CLI::App& app, RawOptions& raw, bool& json) {
            "Components that positions are rebuilt from, 0 or more; a note says so where the file "
            "has fewer (default: all)");
     number("--transfer-components", raw.transfer_components, "K",
-           "Components that transfer is rebuilt from, 0 or more; likewise (default: all)");
+           "Components that transfer, or that of clusters' bases, is rebuilt from, 0 or more; "
+           "likewise (default: all)");
+    number(
+        "--cluster-components", raw.cluster_components, "K",
+        "Components of its cluster that a vertex's transfer is summed from, 0 or more, where the "
+        "file has clusters; likewise (default: all)");
     number("--bands", raw.bands, "B",
            "Spherical-harmonic bands of transfer and light, 1 or more; B bands are B*B "
            "coefficients; likewise (default: all)");
@@ -157,6 +162,7 @@ int parse_options(int argc, const char* const* argv, Options& options) {
     };
     limit("--geometry-components", raw.geometry_components, 0, options.limits.geometry_components);
     limit("--transfer-components", raw.transfer_components, 0, options.limits.transfer_components);
+    limit("--cluster-components", raw.cluster_components, 0, options.limits.cluster_components);
     limit("--bands", raw.bands, 1, options.limits.bands);
 
     require_range("--exposure", raw.exposure, -30.0, 30.0);

@@ -8,7 +8,8 @@
 namespace paim::player {
 
 nlohmann::ordered_json describe_frame(const Options& options, const Scene& scene,
-                                      const std::string& renderer, int samples) {
+                                      const SceneRenderer& renderer, const std::string& driver,
+                                      int samples) {
     const Cost cost = frame_cost(scene.model, options.limits);
     nlohmann::ordered_json json;
     json["file"] = options.model_path.string();
@@ -17,16 +18,23 @@ nlohmann::ordered_json describe_frame(const Options& options, const Scene& scene
     json["vertices"] = scene.model.topology.num_vertices;
     json["triangles"] = scene.model.topology.triangles.size();
     json["poses"] = scene.model.num_poses();
+    json["codec"] = scene.model.clusters.empty() ? "svd" : "cpca";
     json["geometry_components"] = cost.geometry_components;
     json["transfer_components"] = cost.transfer_components;
+    if (!scene.model.clusters.empty()) {
+        json["clusters"] = scene.model.clusters.num_clusters;
+        json["cluster_components"] = cost.cluster_components;
+    }
     json["bands"] = cost.bands;
     json["channels"] = scene.model.layout.channels;
     json["file_bytes"] = scene.size_bytes;
     json["bytes_in_use"] = cost.bytes;
+    json["texture_bytes"] = renderer.texture_bytes();
     json["multiply_adds_per_vertex"] = cost.multiply_adds;
+    json["cluster_multiply_adds"] = cost.cluster_multiply_adds;
     json["size"] = {options.size.first, options.size.second};
     json["supersample"] = samples;
-    json["renderer"] = renderer;
+    json["renderer"] = driver;
     return json;
 }
 

@@ -6,13 +6,16 @@
 #include <string>
 
 #include "player/options.h"
+#include "player/render/scene_renderer.h"
 #include "player/scene.h"
 
 namespace paim::player {
 
-// File, mesh, what of it is in use and what that costs, picture size, renderer.
+// File, mesh, what of it is in use and what that costs, picture size, driver.
+// driver  as its context describes itself
 nlohmann::ordered_json describe_frame(const Options& options, const Scene& scene,
-                                      const std::string& renderer, int samples);
+                                      const SceneRenderer& renderer, const std::string& driver,
+                                      int samples);
 
 // The first frame that the options ask for.
 Frame first_frame(const Options& options, const Scene& scene);

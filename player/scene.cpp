@@ -44,6 +44,8 @@ Scene load_scene(Options& options) {
                 model.geometry.num_components);
     lower_limit("--transfer-components", "transfer components", options.limits.transfer_components,
                 model.transfer.num_components);
+    lower_limit("--cluster-components", "cluster components", options.limits.cluster_components,
+                model.clusters.num_components);
     lower_limit("--bands", "bands", options.limits.bands, model.layout.bands);
 
     scene.environment =

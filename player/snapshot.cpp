@@ -48,7 +48,8 @@ void take_snapshot(const Options& options, const Scene& scene) {
         warn_if_clipped(image, options.tone_curve.exposure_ev);
     }
     if (!options.json) return;
-    nlohmann::ordered_json json = describe_frame(options, scene, context->description(), samples);
+    nlohmann::ordered_json json =
+        describe_frame(options, scene, renderer, context->description(), samples);
     json["snapshot"] = path.string();
     json["pose"] = options.pose;
     json["env_rotation_deg"] = options.env_rotation_rad * 180.0 / kPi;

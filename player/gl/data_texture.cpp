@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "paim/base/check.h"
@@ -14,36 +15,62 @@ namespace paim::player::gl {
 
 namespace {
 
+// Where textures are bound to be written: beyond the units of those that a program reads, some of
+// which may be bound already. OpenGL 3.3 and OpenGL ES 3.0 have 32 units at least.
+constexpr GLenum kUploadUnit = GL_TEXTURE31;
+
 struct Format {
     GLint internal;
     GLenum external;
     GLenum type;
+    int values;  // of a texel
+    int bytes;
 };
 
 Format gl_format(TexelFormat format) {
     switch (format) {
         case TexelFormat::r32f:
-            return {GL_R32F, GL_RED, GL_FLOAT};
+            return {GL_R32F, GL_RED, GL_FLOAT, 1, 4};
         case TexelFormat::rgba16f:
-            return {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT};
+            return {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 4, 8};
+        case TexelFormat::r16i:
+            return {GL_R16I, GL_RED_INTEGER, GL_SHORT, 1, 2};
+        case TexelFormat::rgba16i:
+            return {GL_RGBA16I, GL_RGBA_INTEGER, GL_SHORT, 4, 8};
+        case TexelFormat::rgba8i:
+            return {GL_RGBA8I, GL_RGBA_INTEGER, GL_BYTE, 4, 4};
         case TexelFormat::rgba32f:
             break;
     }
-    return {GL_RGBA32F, GL_RGBA, GL_FLOAT};
+    return {GL_RGBA32F, GL_RGBA, GL_FLOAT, 4, 16};
+}
+
+template <typename Value>
+std::vector<Value> convert(std::span<const float> values) {
+    std::vector<Value> converted(values.size());
+    std::transform(values.begin(), values.end(), converted.begin(),
+                   [](float value) { return static_cast<Value>(value); });
+    return converted;
 }
 
 }  // namespace
 
-int floats_per_texel(TexelFormat format) {
-    return format == TexelFormat::r32f ? 1 : 4;
+int values_per_texel(TexelFormat format) {
+    return gl_format(format).values;
 }
 
 int bytes_per_texel(TexelFormat format) {
-    return format == TexelFormat::r32f ? 4 : format == TexelFormat::rgba16f ? 8 : 16;
+    return gl_format(format).bytes;
 }
 
-DataTexture::DataTexture(const char* name, TexelFormat format, int width_log2, int64_t num_texels)
-    : name_(name), format_(format), width_(1 << width_log2), num_texels_(num_texels) {
+const char* sampler_type(TexelFormat format) {
+    const bool integers = format == TexelFormat::r16i || format == TexelFormat::rgba16i ||
+                          format == TexelFormat::rgba8i;
+    return integers ? "isampler2D" : "sampler2D";
+}
+
+DataTexture::DataTexture(std::string name, TexelFormat format, int width_log2, int64_t num_texels)
+    : name_(std::move(name)), format_(format), width_(1 << width_log2), num_texels_(num_texels) {
     PAIM_CHECK_LE(1, num_texels);
     const int64_t height = (num_texels + width_ - 1) / width_;
     const int max_size = max_texture_size();
@@ -51,61 +78,72 @@ DataTexture::DataTexture(const char* name, TexelFormat format, int width_log2, i
         throw_unsupported(
             "{}: {} texels need a texture of {} x {}, this driver's limit (GL_MAX_TEXTURE_SIZE) is "
             "{} x {}",
-            name, num_texels, width_, height, max_size, max_size);
+            name_, num_texels, width_, height, max_size, max_size);
     }
     height_ = static_cast<int>(height);
     const Format gl = gl_format(format);
+    glActiveTexture(kUploadUnit);
     glBindTexture(GL_TEXTURE_2D, handle_.id());
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
     check_errors("preparing a texture");
     glTexImage2D(GL_TEXTURE_2D, 0, gl.internal, width_, height_, 0, gl.external, gl.type, nullptr);
-    check_errors(fmt::format("making room for {} ({} x {} texels, {:.0f} MB)", name, width_,
+    check_errors(fmt::format("making room for {} ({} x {} texels, {:.0f} MB)", name_, width_,
                              height_, 1e-6 * bytes_per_texel(format) * width_ * height_));
 }
 
 void DataTexture::upload(const Fill& fill) const {
-    const auto row_floats =
-        static_cast<size_t>(width_) * static_cast<size_t>(floats_per_texel(format_));
+    const auto row_values =
+        static_cast<size_t>(width_) * static_cast<size_t>(values_per_texel(format_));
     const int num_rows = std::min(height_, std::max(1, (1 << 16) / width_));
     std::vector<float> values;
     for (int row = 0; row < height_; row += num_rows) {
         const int rows = std::min(num_rows, height_ - row);
         const int64_t first = int64_t{row} * width_;
         const int64_t count = std::min(int64_t{rows} * width_, num_texels_ - first);
-        values.assign(static_cast<size_t>(rows) * row_floats, 0.0f);
+        values.assign(static_cast<size_t>(rows) * row_values, 0.0f);
         fill(first,
-             std::span(values).first(static_cast<size_t>(count * floats_per_texel(format_))));
-        upload_rows(row, rows, values);
+             std::span(values).first(static_cast<size_t>(count * values_per_texel(format_))));
+        upload_rows(row, width_, rows, values);
     }
     check_errors(fmt::format("uploading {}", name_));
 }
 
 void DataTexture::update(std::span<const float> values) const {
-    const auto row_floats =
-        static_cast<size_t>(width_) * static_cast<size_t>(floats_per_texel(format_));
-    const size_t num_rows = (values.size() + row_floats - 1) / row_floats;
-    PAIM_CHECK_LE(static_cast<int64_t>(values.size()), num_texels_ * floats_per_texel(format_));
-    if (num_rows == 0) return;
-    std::vector<float> padded(num_rows * row_floats, 0.0f);
-    std::copy(values.begin(), values.end(), padded.begin());
-    upload_rows(0, static_cast<int>(num_rows), padded);
+    const auto texel_values = static_cast<size_t>(values_per_texel(format_));
+    const size_t row_values = static_cast<size_t>(width_) * texel_values;
+    PAIM_CHECK_LE(values.size(), static_cast<size_t>(num_texels_) * texel_values);
+    const size_t num_rows = values.size() / row_values;
+    const std::span<const float> rest = values.subspan(num_rows * row_values);
+    if (num_rows > 0) {
+        upload_rows(0, width_, static_cast<int>(num_rows), values.first(num_rows * row_values));
+    }
+    if (rest.empty()) return;
+    upload_rows(static_cast<int>(num_rows), static_cast<int>(rest.size() / texel_values), 1, rest);
 }
 
-void DataTexture::upload_rows(int first_row, int num_rows, std::span<const float> values) const {
+void DataTexture::upload_rows(int first_row, int width, int num_rows,
+                              std::span<const float> values) const {
     const Format gl = gl_format(format_);
-    glBindTexture(GL_TEXTURE_2D, handle_.id());
-    if (format_ != TexelFormat::rgba16f) {
-        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, first_row, width_, num_rows, gl.external, gl.type,
-                        values.data());
-        return;
+    const auto send = [&](const void* data) {
+        glActiveTexture(kUploadUnit);
+        glBindTexture(GL_TEXTURE_2D, handle_.id());
+        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, first_row, width, num_rows, gl.external, gl.type,
+                        data);
+    };
+    switch (format_) {
+        case TexelFormat::r32f:
+        case TexelFormat::rgba32f:
+            return send(values.data());
+        case TexelFormat::rgba16f:
+            return send(convert<Eigen::half>(values).data());
+        case TexelFormat::r16i:
+        case TexelFormat::rgba16i:
+            return send(convert<int16_t>(values).data());
+        case TexelFormat::rgba8i:
+            return send(convert<int8_t>(values).data());
     }
-    std::vector<Eigen::half> halves(values.size());
-    std::transform(values.begin(), values.end(), halves.begin(),
-                   [](float value) { return Eigen::half(value); });
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, first_row, width_, num_rows, gl.external, gl.type,
-                    halves.data());
 }
 
 int fitting_width_log2(int64_t num_texels, int max_size) {

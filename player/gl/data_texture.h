@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <string>
 
 #include "player/gl/handle.h"
 
@@ -15,35 +16,49 @@ enum class TexelFormat {
     r32f,     // 1 float
     rgba32f,  // 4 floats
     rgba16f,  // 4 floats, stored as half floats
+    r16i,     // 1 integer of 16 bits
+    rgba16i,  // 4 integers of 16 bits
+    rgba8i,   // 4 integers of 8 bits
 };
 
-int floats_per_texel(TexelFormat format);
+int values_per_texel(TexelFormat format);
 int bytes_per_texel(TexelFormat format);
+
+// The type of a GLSL sampler of such textures: sampler2D or isampler2D.
+const char* sampler_type(TexelFormat format);
 
 class DataTexture {
   public:
-    // Writes texels [first, first + values.size() / floats_per_texel) into values.
+    // Writes texels [first, first + values.size() / values_per_texel) into values: integers too,
+    // which floats hold exactly.
     using Fill = std::function<void(int64_t first, std::span<float> values)>;
 
     // Room for num_texels >= 1, rows of 2^width_log2 texels. Throws Error(unsupported) if the
     // texture would be higher than this driver's largest one, or does not fit into memory; `name`
     // says what it holds.
-    DataTexture(const char* name, TexelFormat format, int width_log2, int64_t num_texels);
+    DataTexture(std::string name, TexelFormat format, int width_log2, int64_t num_texels);
 
     // Fills all texels, a few rows at a time; the rest of the last row becomes zero.
     void upload(const Fill& fill) const;
 
-    // Overwrites the first texels. values.size() is a multiple of floats_per_texel.
+    // Overwrites the first texels. values.size() is a multiple of values_per_texel.
+    // Allocates nothing where the values are floats of 32 bits.
     void update(std::span<const float> values) const;
 
     const TextureHandle& handle() const { return handle_; }
+    TexelFormat format() const { return format_; }
     int64_t num_texels() const { return num_texels_; }
+    // Of the texels that were asked for.
+    uint64_t size_bytes() const {
+        return static_cast<uint64_t>(num_texels_) * static_cast<uint64_t>(bytes_per_texel(format_));
+    }
 
   private:
-    void upload_rows(int first_row, int num_rows, std::span<const float> values) const;
+    // Texels [0, width) of so many rows.
+    void upload_rows(int first_row, int width, int num_rows, std::span<const float> values) const;
 
     TextureHandle handle_;
-    const char* name_;
+    std::string name_;
     TexelFormat format_;
     int width_;
     int height_;

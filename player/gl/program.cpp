@@ -14,20 +14,23 @@ namespace {
 // Attached to a program for as long as linking takes.
 class Shader {
   public:
-    Shader(const std::string& program_name, GLenum stage, std::string_view source)
+    Shader(const std::string& program_name, GLenum stage, std::string_view defines,
+           std::string_view source)
         : id_(glCreateShader(stage)) {
         const std::string_view version =
             epoxy_is_desktop_gl() ? "#version 330 core\n" : "#version 300 es\n";
         // Ignored by desktop GLSL; ES gives samplers and fragment floats no high precision by
         // itself.
         const std::string_view precision =
-            "precision highp float;\nprecision highp int;\nprecision highp sampler2D;\n#line 1\n";
-        const std::array<const GLchar*, 3> parts = {version.data(), precision.data(),
-                                                    source.data()};
-        const std::array<GLint, 3> lengths = {static_cast<GLint>(version.size()),
-                                              static_cast<GLint>(precision.size()),
-                                              static_cast<GLint>(source.size())};
-        glShaderSource(id_, 3, parts.data(), lengths.data());
+            "precision highp float;\nprecision highp int;\nprecision highp sampler2D;\n"
+            "precision highp isampler2D;\n";
+        std::string text;
+        for (const std::string_view part : {version, precision, defines}) text += part;
+        text += "#line 1\n";
+        text += source;
+        const GLchar* const data = text.data();
+        const auto length = static_cast<GLint>(text.size());
+        glShaderSource(id_, 1, &data, &length);
         glCompileShader(id_);
         GLint compiled = GL_FALSE;
         glGetShaderiv(id_, GL_COMPILE_STATUS, &compiled);
@@ -50,10 +53,10 @@ class Shader {
 
 }  // namespace
 
-Program::Program(std::string name, std::string_view vertex_source,
-                 std::string_view fragment_source) {
-    const Shader vertex(name, GL_VERTEX_SHADER, vertex_source);
-    const Shader fragment(name, GL_FRAGMENT_SHADER, fragment_source);
+Program::Program(std::string name, std::string_view vertex_source, std::string_view fragment_source,
+                 std::string_view defines) {
+    const Shader vertex(name, GL_VERTEX_SHADER, defines, vertex_source);
+    const Shader fragment(name, GL_FRAGMENT_SHADER, defines, fragment_source);
     glAttachShader(handle_.id(), vertex.id());
     glAttachShader(handle_.id(), fragment.id());
     glLinkProgram(handle_.id());
@@ -77,6 +80,10 @@ void Program::set(const char* uniform, float value) const {
 
 void Program::set(const char* uniform, const Eigen::Vector2f& value) const {
     glUniform2fv(location(uniform), 1, value.data());
+}
+
+void Program::set(const char* uniform, const Eigen::Vector3f& value) const {
+    glUniform3fv(location(uniform), 1, value.data());
 }
 
 void Program::set(const char* uniform, const Eigen::Matrix3f& value) const {

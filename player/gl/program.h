@@ -15,7 +15,9 @@ class Program {
   public:
     // The sources have no #version line: the one that fits the current context is put before them.
     // Throws Error(unsupported) with `name`, the stage and the driver's log.
-    Program(std::string name, std::string_view vertex_source, std::string_view fragment_source);
+    // defines  #define lines for both, each with its line end
+    Program(std::string name, std::string_view vertex_source, std::string_view fragment_source,
+            std::string_view defines = {});
 
     void use() const { glUseProgram(handle_.id()); }
 
@@ -24,6 +26,7 @@ class Program {
     void set(const char* uniform, int value) const;
     void set(const char* uniform, float value) const;
     void set(const char* uniform, const Eigen::Vector2f& value) const;
+    void set(const char* uniform, const Eigen::Vector3f& value) const;
     void set(const char* uniform, const Eigen::Matrix3f& value) const;
     void set(const char* uniform, const glm::mat4& value) const;
 

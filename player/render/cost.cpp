@@ -7,10 +7,29 @@ namespace paim::player {
 
 namespace {
 
-uint64_t part_bytes(const LowRankMatrix& matrix, uint64_t planes, uint64_t num_components) {
-    const uint64_t component_bytes = matrix.precision == Precision::f16 ? 2 : 4;
-    const uint64_t rows = planes * matrix.num_points;
-    return 4 * rows + num_components * (component_bytes * rows + 4 * uint64_t{matrix.num_poses});
+// Half floats are floats in memory, but not in the file.
+uint64_t value_bytes(const StoredValues& values, Precision precision) {
+    if (!values.holds_floats()) return values.holds_i8() ? 1 : 2;
+    return precision == Precision::f16 ? 2 : 4;
+}
+
+uint64_t part_bytes(const LowRankMatrix& matrix, uint64_t planes, uint32_t num_components) {
+    uint64_t row_bytes = value_bytes(matrix.mean, Precision::f32);  // halves have means of floats
+    for (uint32_t k = 0; k < num_components; ++k) {
+        row_bytes += value_bytes(matrix.components[k], matrix.precision);
+    }
+    return row_bytes * planes * matrix.num_points +
+           (matrix.steps.empty() ? 0 : sizeof(float) * planes) +
+           sizeof(float) * uint64_t{num_components} * matrix.num_poses;
+}
+
+uint64_t cluster_bytes(const VertexClusters& clusters, uint32_t num_components) {
+    uint64_t vertex_bytes = sizeof(uint16_t);  // of the index
+    for (uint32_t j = 0; j < num_components; ++j) {
+        vertex_bytes += value_bytes(clusters.coefficients[j], Precision::f32);
+    }
+    return vertex_bytes * clusters.cluster.size() +
+           sizeof(float) * uint64_t{clusters.num_clusters} * (num_components + 1);
 }
 
 }  // namespace
@@ -19,13 +38,21 @@ Cost frame_cost(const Model& model, const DecodeLimits& limits) {
     Cost cost{};
     cost.geometry_components = std::min(limits.geometry_components, model.geometry.num_components);
     cost.transfer_components = std::min(limits.transfer_components, model.transfer.num_components);
+    cost.cluster_components = std::min(limits.cluster_components, model.clusters.num_components);
     cost.bands = std::min(limits.bands, model.layout.bands);
     const uint64_t coefficients = uint64_t{cost.bands} * cost.bands;
     const uint64_t planes = model.layout.channels * coefficients;
     cost.bytes = part_bytes(model.geometry, 3, cost.geometry_components) +
                  part_bytes(model.transfer, planes, cost.transfer_components);
-    cost.multiply_adds = uint64_t{3} * cost.geometry_components +
-                         planes * cost.transfer_components + 3 * coefficients;
+    const uint64_t position = uint64_t{3} * (cost.geometry_components + 1);
+    const uint64_t transfer = planes * (cost.transfer_components + 1) + 3 * coefficients;
+    if (model.clusters.empty()) {
+        cost.multiply_adds = position + transfer;
+        return cost;
+    }
+    cost.bytes += cluster_bytes(model.clusters, cost.cluster_components);
+    cost.multiply_adds = position + uint64_t{3} * (cost.cluster_components + 1);
+    cost.cluster_multiply_adds = uint64_t{model.clusters.num_rows()} * transfer;
     return cost;
 }
 

@@ -7,37 +7,36 @@
 
 namespace paim::player {
 
-void gather_groups(const PlaneView& view, int64_t first, std::span<float> out) {
-    const int64_t num_vertices = view.num_vertices;
+void gather_groups(uint32_t num_vertices, const std::function<Lane(uint32_t, uint32_t)>& lane_of,
+                   int64_t first, std::span<float> out) {
     int64_t texel = first;
     const int64_t end = first + static_cast<int64_t>(out.size() / kGroupSize);
     float* target = out.data();
     while (texel < end) {
-        const int64_t group = texel / num_vertices;
-        const int64_t first_vertex = texel % num_vertices;
-        const int64_t count = std::min(num_vertices - first_vertex, end - texel);
-        const auto channel = static_cast<uint32_t>(group / view.groups_per_channel);
-        const auto first_plane =
-            static_cast<uint32_t>(group % view.groups_per_channel) * kGroupSize;
-        for (uint32_t lane = 0; lane < kGroupSize; ++lane) {
-            const uint32_t plane = first_plane + lane;
-            if (plane >= view.planes_used) {
-                for (int64_t v = 0; v < count; ++v) target[v * kGroupSize + lane] = 0.0f;
+        const auto group = static_cast<uint32_t>(texel / num_vertices);
+        const auto first_vertex = static_cast<size_t>(texel % num_vertices);
+        const auto count = std::min(num_vertices - first_vertex, static_cast<size_t>(end - texel));
+        for (uint32_t j = 0; j < kGroupSize; ++j) {
+            const Lane lane = lane_of(group, j);
+            if (lane.values == nullptr) {
+                for (size_t v = 0; v < count; ++v) target[v * kGroupSize + j] = 0.0f;
                 continue;
             }
-            const int64_t source_plane = int64_t{channel} * view.planes_per_channel + plane;
-            const float step =
-                view.steps.empty() ? 1.0f : view.steps[static_cast<size_t>(source_plane)];
-            const auto first_value =
-                static_cast<size_t>(source_plane * num_vertices + first_vertex);
-            view.values->for_each(first_value, static_cast<size_t>(count),
-                                  [&](size_t j, float value) {
-                                      target[(j - first_value) * kGroupSize + lane] = step * value;
-                                  });
+            const size_t start = lane.first + first_vertex;
+            lane.values->for_each(start, count, [&](size_t at, float value) {
+                target[(at - start) * kGroupSize + j] = value;
+            });
         }
-        texel += count;
+        texel += static_cast<int64_t>(count);
         target += count * kGroupSize;
     }
+}
+
+Lane PlaneGroups::lane(const StoredValues& values, uint32_t group, uint32_t lane) const {
+    const uint32_t channel = group / groups_per_channel;
+    const uint32_t plane = group % groups_per_channel * kGroupSize + lane;
+    if (plane >= planes_used) return {};
+    return {&values, (size_t{channel} * planes_per_channel + plane) * num_vertices};
 }
 
 }  // namespace paim::player

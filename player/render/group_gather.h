@@ -1,26 +1,37 @@
-// From planes of coefficients to texels of four.
+// From planes of values to texels of four.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 
 #include "paim/codec/stored_values.h"
 
 namespace paim::player {
 
-// Planes of `num_vertices` values each, channel after channel, as they lie in a mean or component.
-struct PlaneView {
-    const StoredValues* values;
-    std::span<const float> steps;  // of the planes in memory; none: 1 each
-    uint32_t num_vertices;
-    uint32_t planes_per_channel;  // in memory
-    uint32_t planes_used;         // the first of each channel that are wanted
-    uint32_t groups_per_channel;  // texels of one vertex and channel: planes_used / 4, rounded up
+// Where a lane of a texel comes from: the values of vertices 0 … V−1; none: zeros.
+struct Lane {
+    const StoredValues* values = nullptr;
+    size_t first = 0;  // that of vertex 0
 };
 
-// Gathers texels first … first + out.size() / 4 − 1 of the view, where texel = group · V + v and
-// the groups of a channel hold its wanted planes; what is left of a channel's last group becomes
-// zero.
-void gather_groups(const PlaneView& view, int64_t first, std::span<float> out);
+// Gathers texels first … first + out.size() / 4 − 1 of those where texel = group · V + v, in steps.
+// num_vertices  V, at least 1
+// lane_of       of lane 0 … 3 of a group
+void gather_groups(uint32_t num_vertices, const std::function<Lane(uint32_t, uint32_t)>& lane_of,
+                   int64_t first, std::span<float> out);
+
+// Groups of the planes of a mean or component, channel after channel; what is left of a channel's
+// last group is zero.
+struct PlaneGroups {
+    uint32_t num_vertices;
+    uint32_t num_channels;
+    uint32_t planes_per_channel;  // in memory
+    uint32_t planes_used;         // the first of each channel that are wanted
+    uint32_t groups_per_channel;  // planes_used / 4, rounded up
+
+    uint32_t num_groups() const { return num_channels * groups_per_channel; }
+    Lane lane(const StoredValues& values, uint32_t group, uint32_t lane) const;
+};
 
 }  // namespace paim::player

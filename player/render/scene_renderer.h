@@ -26,6 +26,12 @@ class SceneRenderer {
     // What of the model can be shown.
     const UploadPlan& plan() const { return model_renderer_.plan(); }
 
+    // Of the model and its scenery.
+    uint64_t texture_bytes() const {
+        return model_renderer_.texture_bytes() +
+               (scenery_renderer_ ? scenery_renderer_->texture_bytes() : 0);
+    }
+
     // Draws into the target.
     void draw(const Frame& frame, const gl::Target& target);
 

@@ -1,52 +1,110 @@
-// Rebuilds one vertex of the current pose, position and transfer, as mean + components * weights,
-// and shades it: radiance = albedo * sum over i of transfer_i * light_i, per channel.
+// Rebuilds one vertex of the current pose and shades it: radiance = albedo * sum over i of
+// transfer_i * light_i, per channel.
 // Based on: Cardoso and Kry, Error Analysis of Precomputed Radiance Transfer for Deforming Geometry,
-//           2012; Sloan, Kautz and Snyder, Precomputed Radiance Transfer, 2002
+//           2012; Sloan, Kautz and Snyder, Precomputed Radiance Transfer, 2002; Sloan, Hall, Hart
+//           and Snyder, Clustered Principal Components for Precomputed Radiance Transfer, 2003
 //
-// All data lie in 2D textures (player/gl/data_texture.h). A texel holds four coefficients of one
-// vertex; texel = (k * planes + j) * num_vertices + v, j counting groups of four coefficients,
-// channel after channel.
-uniform sampler2D geometry_mean;
-uniform sampler2D geometry_components;
-uniform sampler2D geometry_weights;
-uniform sampler2D transfer_mean;
-uniform sampler2D transfer_components;
-uniform sampler2D transfer_weights;
-uniform sampler2D light;   // [3][groups], zero beyond the bands in use
-uniform sampler2D albedo;  // [V] or [1]
+// All data lie in 2D textures (player/gl/data_texture.h). A texel holds four values of one vertex.
+// Integers count steps, which the uniforms and the light bring along. The first components are in a
+// "wide" texture, those of 8-bit integers after them in a "narrow" one; the types of samplers that
+// can hold floats or integers are given by #defines (player/render/low_rank_textures.h).
+// Components:   texel = (k * groups + j) * num_vertices + v, j counting groups of four planes,
+//               channel after channel
+// Coefficients: texel = j * num_vertices + v, j counting groups of four components of clusters
+uniform geometry_mean_sampler geometry_mean;
+uniform geometry_wide_sampler geometry_wide;
+uniform isampler2D geometry_narrow;
+uniform sampler2D geometry_weights;  // of all components in use
+uniform sampler2D albedo;            // [V] or [1]
 
 uniform int width_log2;  // of every texture
 uniform int num_vertices;
-uniform int num_geometry_components;  // in use
-uniform int num_transfer_components;  // in use
-uniform int num_channels;             // of the transfer, 1 or 3
-uniform int groups_per_channel;       // in the textures
-uniform int groups_in_use;            // that hold coefficients of the bands in use
-uniform int albedo_stride;            // 1, or 0 where one value serves all
+uniform int num_geometry_wide;  // components in use
+uniform int num_geometry_narrow;
+uniform int albedo_stride;  // 1, or 0 where one value serves all
+uniform vec3 geometry_step;
 uniform mat4 clip_from_world;
 
 out vec3 vertex_radiance;
 
-vec4 fetch(sampler2D data, int texel) {
-    return texelFetch(data, ivec2(texel & ((1 << width_log2) - 1), texel >> width_log2), 0);
-}
+ivec2 place(int texel) { return ivec2(texel & ((1 << width_log2) - 1), texel >> width_log2); }
+
+vec4 fetch(sampler2D data, int texel) { return texelFetch(data, place(texel), 0); }
+
+vec4 fetch(isampler2D data, int texel) { return vec4(texelFetch(data, place(texel), 0)); }
 
 vec4 rebuild_position(int v) {
     vec4 position = fetch(geometry_mean, v);
-    for (int k = 0; k < num_geometry_components; ++k) {
-        position += fetch(geometry_weights, k).x *
-                    fetch(geometry_components, k * num_vertices + v);
+    for (int k = 0; k < num_geometry_wide; ++k) {
+        position += fetch(geometry_weights, k).x * fetch(geometry_wide, k * num_vertices + v);
     }
-    return vec4(position.xyz, 1.0);
+    for (int k = 0; k < num_geometry_narrow; ++k) {
+        position += fetch(geometry_weights, num_geometry_wide + k).x *
+                    fetch(geometry_narrow, k * num_vertices + v);
+    }
+    return vec4(geometry_step * position.xyz, 1.0);
 }
 
-// Four transfer coefficients: those of the group, counted over all channels.
+#ifdef CLUSTERED
+
+uniform isampler2D cluster;  // [V]
+uniform coefficients_wide_sampler coefficients_wide;
+uniform isampler2D coefficients_narrow;
+// [clusters][product_texels]: the mean's product with the light, then the red, green and blue
+// products of every four components, zero beyond those in use.
+uniform sampler2D light_products;
+
+uniform int product_texels;
+uniform int num_wide_groups;  // in use
+uniform int num_narrow_groups;
+
+// Products of four components, each with its coefficient.
+vec3 weigh(vec4 coefficients, int texel) {
+    return vec3(dot(coefficients, fetch(light_products, texel)),
+                dot(coefficients, fetch(light_products, texel + 1)),
+                dot(coefficients, fetch(light_products, texel + 2)));
+}
+
+vec3 shade(int v) {
+    int texel = texelFetch(cluster, place(v), 0).x * product_texels;
+    vec3 radiance = fetch(light_products, texel).rgb;
+    ++texel;
+    for (int j = 0; j < num_wide_groups; ++j) {
+        radiance += weigh(fetch(coefficients_wide, j * num_vertices + v), texel);
+        texel += 3;
+    }
+    for (int j = 0; j < num_narrow_groups; ++j) {
+        radiance += weigh(fetch(coefficients_narrow, j * num_vertices + v), texel);
+        texel += 3;
+    }
+    return radiance;
+}
+
+#else
+
+uniform transfer_mean_sampler transfer_mean;
+uniform transfer_wide_sampler transfer_wide;
+uniform isampler2D transfer_narrow;
+uniform sampler2D transfer_weights;
+uniform sampler2D light;  // [3][groups], times the steps; zero beyond the bands in use
+
+uniform int num_transfer_wide;  // components in use
+uniform int num_transfer_narrow;
+uniform int num_channels;        // of the transfer, 1 or 3
+uniform int groups_per_channel;  // in the textures
+uniform int groups_in_use;       // that hold coefficients of the bands in use
+
+// Four transfer coefficients, in steps: those of the group, counted over all channels.
 vec4 rebuild_transfer(int group, int v) {
     int texel = group * num_vertices + v;
     int stride = num_channels * groups_per_channel * num_vertices;
     vec4 transfer = fetch(transfer_mean, texel);
-    for (int k = 0; k < num_transfer_components; ++k) {
-        transfer += fetch(transfer_weights, k).x * fetch(transfer_components, k * stride + texel);
+    for (int k = 0; k < num_transfer_wide; ++k) {
+        transfer += fetch(transfer_weights, k).x * fetch(transfer_wide, k * stride + texel);
+    }
+    for (int k = 0; k < num_transfer_narrow; ++k) {
+        transfer += fetch(transfer_weights, num_transfer_wide + k).x *
+                    fetch(transfer_narrow, k * stride + texel);
     }
     return transfer;
 }
@@ -66,10 +124,13 @@ vec3 shade(int v) {
         radiance += vec3(dot(red, light_group(0, j)), dot(green, light_group(1, j)),
                          dot(blue, light_group(2, j)));
     }
-    return radiance * fetch(albedo, v * albedo_stride).rgb;
+    return radiance;
 }
 
+#endif
+
 void main() {
-    vertex_radiance = shade(gl_VertexID);
-    gl_Position = clip_from_world * rebuild_position(gl_VertexID);
+    int v = gl_VertexID;
+    vertex_radiance = shade(v) * fetch(albedo, v * albedo_stride).rgb;
+    gl_Position = clip_from_world * rebuild_position(v);
 }

@@ -27,6 +27,8 @@ constexpr std::array kBindings = {
     Binding{GLFW_KEY_END, false, Command::last_pose},
     Binding{GLFW_KEY_LEFT_BRACKET, false, Command::fewer_transfer_components},
     Binding{GLFW_KEY_RIGHT_BRACKET, false, Command::more_transfer_components},
+    Binding{GLFW_KEY_LEFT_BRACKET, true, Command::fewer_cluster_components},
+    Binding{GLFW_KEY_RIGHT_BRACKET, true, Command::more_cluster_components},
     Binding{GLFW_KEY_SEMICOLON, false, Command::fewer_geometry_components},
     Binding{GLFW_KEY_APOSTROPHE, false, Command::more_geometry_components},
     Binding{GLFW_KEY_B, true, Command::fewer_bands},
@@ -51,6 +53,7 @@ constexpr std::array kHelp = {
     KeyHelp{"Left, Right", "one pose back, forth"},
     KeyHelp{"Home, End", "first, last pose"},
     KeyHelp{"[  ]", "fewer, more transfer components"},
+    KeyHelp{"Shift+[  ]", "fewer, more cluster components"},
     KeyHelp{";  '", "fewer, more geometry components"},
     KeyHelp{"Shift+B, B", "fewer, more bands"},
     KeyHelp{"Shift+E, E", "exposure down, up by 1/4 stop"},
@@ -160,6 +163,12 @@ void apply(Command command, ViewState& view, const ViewRange& range) {
         case Command::more_transfer_components:
             limits.transfer_components =
                 more(limits.transfer_components, range.transfer_components);
+            break;
+        case Command::fewer_cluster_components:
+            limits.cluster_components = fewer(limits.cluster_components, 0);
+            break;
+        case Command::more_cluster_components:
+            limits.cluster_components = more(limits.cluster_components, range.cluster_components);
             break;
         case Command::fewer_geometry_components:
             limits.geometry_components = fewer(limits.geometry_components, 0);

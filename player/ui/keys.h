@@ -17,6 +17,8 @@ enum class Command {
     last_pose,
     fewer_transfer_components,
     more_transfer_components,
+    fewer_cluster_components,
+    more_cluster_components,
     fewer_geometry_components,
     more_geometry_components,
     fewer_bands,

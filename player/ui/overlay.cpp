@@ -57,6 +57,10 @@ void draw_settings(const OverlayInfo& info, const ViewRange& range, ViewState& v
         ImGui::PushItemWidth(12.0f * ImGui::GetFontSize());
         count_slider("transfer components", view.limits.transfer_components, 0,
                      range.transfer_components);
+        if (range.cluster_components > 0) {
+            count_slider("cluster components", view.limits.cluster_components, 0,
+                         range.cluster_components);
+        }
         count_slider("geometry components", view.limits.geometry_components, 0,
                      range.geometry_components);
         count_slider("bands", view.limits.bands, 1, range.bands);

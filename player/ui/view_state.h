@@ -27,6 +27,7 @@ struct ViewRange {
     uint32_t geometry_components = 0;
     uint32_t transfer_components = 0;
     uint32_t bands = 1;
+    uint32_t cluster_components = 0;
 };
 
 // Moves pose and light on by the time that has passed. Playing starts over after the last pose.

@@ -35,12 +35,15 @@ TEST(GatherGroups, PutsFourPlanesIntoATexelFromAnyStart) {
     const StoredValues planes = make_planes();
     for (const uint32_t planes_used : {9u, 4u, 1u}) {
         const uint32_t groups = (planes_used + 3) / 4;
-        const PlaneView view{&planes, {}, kVertices, kPlanes, planes_used, groups};
+        const PlaneGroups view{kVertices, 2, kPlanes, planes_used, groups};
         const uint32_t num_texels = 2 * groups * kVertices;
         for (uint32_t first = 0; first < num_texels; ++first) {
             for (uint32_t end = first + 1; end <= num_texels; ++end) {
                 std::vector<float> out(4 * size_t{end - first}, -1.0f);
-                gather_groups(view, first, out);
+                gather_groups(
+                    kVertices,
+                    [&](uint32_t group, uint32_t lane) { return view.lane(planes, group, lane); },
+                    first, out);
                 for (uint32_t texel = first; texel < end; ++texel) {
                     for (uint32_t lane = 0; lane < 4; ++lane) {
                         ASSERT_EQ(out[4 * (texel - first) + lane],

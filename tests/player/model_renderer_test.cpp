@@ -1,11 +1,11 @@
-// What the GPU draws against SvdDecoder and shade() on the CPU, ray cast.
+// What the GPU draws against the decoder and shade() on the CPU, ray cast.
 #include "player/render/model_renderer.h"
 
 #include <gtest/gtest.h>
 
 #include "paim/base/error.h"
+#include "paim/codec/make_decoder.h"
 #include "paim/codec/sequence_bounds.h"
-#include "paim/codec/svd_decoder.h"
 #include "paim/mesh/planes.h"
 #include "player/gl/check.h"
 #include "player/gl/headless_context.h"
@@ -42,7 +42,7 @@ Image draw(ModelRenderer& renderer, const Frame& frame, const LightCoefficients&
 
 Image reference(const Model& model, const Frame& frame, const LightCoefficients& light) {
     DecodedPose pose;
-    SvdDecoder(model).decode(frame.time, frame.limits, pose);
+    make_decoder(model)->decode(frame.time, frame.limits, pose);
     return ray_cast(model.topology, from_planes(pose.positions),
                     vertex_radiance(model, frame.time, frame.limits, light), frame.camera, kWidth,
                     kHeight, kBackground);
@@ -91,6 +91,128 @@ TEST_P(ModelRendererTest, DrawsEveryKindOfModel) {
             }
         }
     }
+}
+
+// Every way that values are stored.
+struct Variant {
+    const char* name;
+    TestModelOptions options;
+};
+
+std::vector<Variant> make_variants() {
+    using enum Precision;
+    std::vector<Variant> variants;
+    for (const uint32_t channels : {1u, 3u}) {
+        const auto add = [&](const char* name, Precision precision,
+                             std::vector<Precision> components, uint32_t num_clusters = 0,
+                             uint32_t cluster_components = 0,
+                             std::vector<Precision> coefficients = {}) {
+            TestModelOptions options;
+            options.num_rings = 5;
+            options.channels = channels;
+            options.albedo_per_vertex = channels == 3;
+            options.precision = precision;
+            options.component_precisions = std::move(components);
+            options.num_clusters = num_clusters;
+            options.cluster_components = cluster_components;
+            options.coefficient_precisions = std::move(coefficients);
+            variants.push_back({name, options});
+        };
+        add("f32", f32, {});
+        add("f16", f16, {});
+        add("i16", i16, {});
+        add("i8", i8, {});
+        add("i16, then i8", i16, {i16, i16, i8});
+        add("i16 between i8", i16, {i8, i16, i8});
+        add("i8 under a mean of i16", i16, {i8});
+        add("floats, then integers", i16, {f32, i16, i8});
+        add("clusters of floats", f32, {}, 7, 5);
+        add("clusters of halves, i8 coefficients", f16, {}, 7, 8, {i8});
+        add("clusters of i16, i16 coefficients", i16, {}, 7, 6, {i16});
+        add("clusters of i16 and i8, i8 coefficients", i16, {i16, i8}, 7, 3, {i8});
+        add("clusters, i16 coefficients, then i8", i8, {}, 5, 10, {i16, i16, i16, i16, i16, i8});
+        add("clusters, floats among i8 coefficients", i8, {}, 5, 6, {i8, f32, i8});
+        add("clusters without components", i16, {i8}, 9, 0);
+        add("one cluster", i16, {}, 1, 4, {i8});
+    }
+    return variants;
+}
+
+TEST_P(ModelRendererTest, DrawsEveryWayThatValuesAreStored) {
+    for (const auto& [name, options] : make_variants()) {
+        SCOPED_TRACE(fmt::format("{}, {} channels", name, options.channels));
+        const Model model = make_test_model(options);
+        const LightCoefficients light = make_test_light(5);
+        ModelRenderer renderer(model, {});
+        for (const DecodeLimits& limits : {DecodeLimits{}, DecodeLimits{1, 2, 3, 2},
+                                           DecodeLimits{2, 4, 5, 5}, DecodeLimits{0, 0, 2, 0}}) {
+            const Frame frame = make_frame(model, 2.3, limits);
+            expect_equal(reference(model, frame, light), draw(renderer, frame, light));
+        }
+        const DecodeLimits fewer{2, 3, 3, 3};
+        ModelRenderer limited(model, fewer);
+        const Frame frame = make_frame(model, 0.4, fewer);
+        Frame more = frame;  // but it was not uploaded
+        more.limits = {};
+        const Image expected = reference(model, frame, light);
+        expect_equal(expected, draw(limited, frame, light));
+        expect_equal(expected, draw(limited, more, light));
+    }
+}
+
+// A frame at random is the frame in sequence, bit for bit: nothing is left of other poses, lights
+// and limits.
+TEST_P(ModelRendererTest, DrawsTheSameBitsInAnyOrderOfFrames) {
+    for (const auto& [name, options] : make_variants()) {
+        if (options.channels == 1) continue;  // the others draw all that these do, three times
+        SCOPED_TRACE(name);
+        const Model model = make_test_model(options);
+        const LightCoefficients light = make_test_light(5);
+        ModelRenderer sequence(model, {}), random(model, {});
+        std::vector<Image> images;
+        for (const double time : {0.0, 1.0, 1.5, 2.0, 5.0}) {
+            images.push_back(draw(sequence, make_frame(model, time), light));
+        }
+        draw(random, make_frame(model, 3.0, {1, 1, 2, 1}), make_test_light(2));
+        const Frame frame = make_frame(model, 1.5);
+        EXPECT_EQ(draw(random, frame, light).pixels, images[2].pixels);
+        draw(random, make_frame(model, 5.0), light);
+        EXPECT_EQ(draw(random, frame, light).pixels, images[2].pixels);
+        EXPECT_NE(images[1].pixels, images[2].pixels);
+    }
+}
+
+// Texels of four values: 8 bytes of i16 or f16, 4 of i8, 16 of f32. Each texture has one at least.
+TEST_P(ModelRendererTest, UploadsIntegersAsTheyAre) {
+    using enum Precision;
+    TestModelOptions options;  // 5 bands: 7 texels a vertex; 3 + 5 components
+    const uint64_t num_vertices = make_test_model(options).topology.num_vertices;
+    const uint64_t light = 16 * 3 * 7, albedo = 16;
+    const auto bytes = [&](uint64_t geometry_mean, uint64_t geometry_wide, uint64_t geometry_narrow,
+                           uint64_t transfer) {
+        const auto at_least = [&](uint64_t texel, uint64_t count) {
+            return std::max(texel, texel * count * num_vertices);
+        };
+        return at_least(geometry_mean, 1) + at_least(8, geometry_wide) +
+               at_least(4, geometry_narrow) + 4 * 3 + albedo + transfer;
+    };
+    options.precision = i16;
+    EXPECT_EQ(ModelRenderer(make_test_model(options), {}).texture_bytes(),
+              bytes(8, 3, 0, light + 4 * 5 + 8 * 7 * (1 + 5) * num_vertices + 4));
+    options.component_precisions = {i16, i8};
+    EXPECT_EQ(ModelRenderer(make_test_model(options), {}).texture_bytes(),
+              bytes(8, 1, 2, light + 4 * 5 + (8 * 7 * 2 + 4 * 7 * 4) * num_vertices));
+    options.precision = i8;
+    options.component_precisions = {};
+    EXPECT_EQ(ModelRenderer(make_test_model(options), {}).texture_bytes(),
+              bytes(4, 0, 3, light + 4 * 5 + 8 + 4 * 7 * (1 + 5) * num_vertices));
+    // Clusters: an index, coefficients of 6 components in 2 texels, light products of a mean and
+    // 2 texels for each colour. No plane of transfer.
+    options.num_clusters = 9;
+    options.cluster_components = 6;
+    options.coefficient_precisions = {i16, i8};
+    EXPECT_EQ(ModelRenderer(make_test_model(options), {}).texture_bytes(),
+              bytes(4, 0, 3, (2 + 8 + 4) * num_vertices + 16 * 9 * (1 + 2 * 3)));
 }
 
 TEST_P(ModelRendererTest, DrawsFractionalPoses) {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "paim/base/file.h"
+#include "paim/codec/make_decoder.h"
 #include "paim/codec/sequence_bounds.h"
-#include "paim/codec/svd_decoder.h"
 #include "paim/format/paim_file.h"
 #include "paim/image/exr.h"
 #include "paim/light/environment.h"
@@ -60,7 +60,7 @@ class PlayTest : public testing::Test {
 Image expected_picture(const Model& model, double time, double rotation_rad, int width, int height,
                        const Vec3f& background) {
     DecodedPose pose;
-    SvdDecoder(model).decode(time, {}, pose);
+    make_decoder(model)->decode(time, {}, pose);
     const LightCoefficients light =
         turn_about_y(EnvironmentLight(make_sky())
                          .coefficients(Vec3f::Zero(), static_cast<int>(model.layout.bands)),
@@ -107,20 +107,69 @@ TEST_F(PlayTest, SnapshotReportsAsJson) {
     EXPECT_EQ(json["geometry_components"], 3);
     EXPECT_EQ(json["transfer_components"], 2);
     EXPECT_EQ(json["bands"], 3);
+    EXPECT_EQ(json["codec"], "svd");
+    EXPECT_EQ(json["cluster_multiply_adds"], 0);
+    // f32 in texels of four: 1 + 3 of geometry, (1 + 2) of 3 for the transfer's 9 planes; the empty
+    // texture of 8-bit components of both; weights, light, albedo.
+    EXPECT_EQ(json["texture_bytes"], 16 * (4 + 3 * 3) * model_.topology.num_vertices + 2 * 4 +
+                                         4 * (3 + 2) + 16 * 3 * 3 + 16);
     EXPECT_EQ(json["size"], nlohmann::json({32, 24}));
-    EXPECT_EQ(json["multiply_adds_per_vertex"], 3 * 3 + 2 * 9 + 3 * 9);
+    EXPECT_EQ(json["multiply_adds_per_vertex"], 3 * 4 + 3 * 9 + 3 * 9);
     EXPECT_FALSE(json["renderer"].get<std::string>().empty());
 }
 
 TEST_F(PlayTest, LimitsBeyondTheFileAreLoweredWithANote) {
     const ToolResult result =
         play({"--snapshot", out("a.png"), "--size", "32x24", "--transfer-components", "99",
-              "--geometry-components", "3", "--bands", "6", "--json"});
+              "--geometry-components", "3", "--cluster-components", "2", "--bands", "6", "--json"});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_NE(result.err.find("--transfer-components 99: the file has 5"), std::string::npos);
     EXPECT_NE(result.err.find("--bands 6: the file has 5"), std::string::npos);
+    EXPECT_NE(result.err.find("--cluster-components 2: the file has 0"), std::string::npos);
     EXPECT_EQ(result.err.find("--geometry-components"), std::string::npos);
     EXPECT_EQ(nlohmann::json::parse(result.out)["transfer_components"], 5);
+}
+
+// Clusters of integers through the file, the decoder of the CPU and the shader.
+TEST_F(PlayTest, PlaysClusters) {
+    TestModelOptions options;
+    options.channels = 3;
+    options.precision = Precision::i16;
+    options.component_precisions = {Precision::i16, Precision::i8};
+    options.num_clusters = 7;
+    options.cluster_components = 6;
+    options.coefficient_precisions = {Precision::i16, Precision::i16, Precision::i8};
+    model_ = make_test_model(options);
+    write_paim(file_, model_);
+    const std::vector<std::string> arguments{"--snapshot",    out("a.exr"), "--pose", "2.5",
+                                             "--background",  "0,0,0",      "--size", "120x80",
+                                             "--supersample", "1",          "--json"};
+    const ToolResult result = play(arguments);
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const Image image = read_exr(out("a.exr"));
+    const Difference difference =
+        compare(expected_picture(model_, 2.5, 0.0, 120, 80, Vec3f::Zero()), image);
+    EXPECT_LE(difference.mean_relative, 1e-3);
+    EXPECT_LE(difference.fraction_off, 0.005);
+    const auto json = nlohmann::json::parse(result.out);
+    EXPECT_EQ(json["codec"], "cpca");
+    EXPECT_EQ(json["clusters"], 7);
+    EXPECT_EQ(json["cluster_components"], 6);
+    EXPECT_EQ(json["multiply_adds_per_vertex"], 3 * 4 + 3 * 7);
+    EXPECT_EQ(json["cluster_multiply_adds"], 49 * (75 * 6 + 3 * 25));
+
+    std::vector<std::string> fewer = arguments;
+    fewer.insert(fewer.end(), {"--cluster-components", "1"});
+    const ToolResult coarse = play(fewer);
+    ASSERT_EQ(coarse.exit_code, 0) << coarse.err;
+    EXPECT_EQ(nlohmann::json::parse(coarse.out)["cluster_components"], 1);
+    EXPECT_GT(compare(image, read_exr(out("a.exr"))).mean_relative, 1e-3);
+
+    const ToolResult bench = play({"--bench", "2", "--size", "64x48", "--json"});
+    ASSERT_EQ(bench.exit_code, 0) << bench.err;
+    EXPECT_GT(nlohmann::json::parse(bench.out)["cpu_min_ms"], 0.0);
+    EXPECT_NE(play({"--bench", "2", "--size", "64x48"}).out.find("for the bases of clusters"),
+              std::string::npos);
 }
 
 TEST_F(PlayTest, RefusesCommandLinesThatMakeNoSense) {
@@ -130,6 +179,7 @@ TEST_F(PlayTest, RefusesCommandLinesThatMakeNoSense) {
     expect_failure({"--snapshot", png, "--pose", "nan"}, 1, "--pose");
     expect_failure({"--geometry-components", "-1"}, 1, "--geometry-components: expected a whole");
     expect_failure({"--transfer-components", "1.5"}, 1, "--transfer-components: expected a whole");
+    expect_failure({"--cluster-components", "-1"}, 1, "--cluster-components: expected a whole");
     expect_failure({"--bands", "0"}, 1, "--bands: expected a whole number from 1");
     expect_failure({"--exposure", "31"}, 1, "--exposure: expected a number from -30 to 30");
     expect_failure({"--gamma", "-2"}, 1, "--gamma");
@@ -174,6 +224,7 @@ TEST_F(PlayTest, HelpNamesEveryOptionAndKey) {
                              "--background",
                              "--geometry-components",
                              "--transfer-components",
+                             "--cluster-components",
                              "--bands",
                              "--pose",
                              "--camera",

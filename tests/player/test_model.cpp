@@ -3,10 +3,11 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <cmath>
 
 #include "paim/base/seed.h"
-#include "paim/codec/svd_decoder.h"
+#include "paim/codec/make_decoder.h"
 #include "paim/mesh/planes.h"
 #include "paim/shade/shade.h"
 
@@ -61,42 +62,149 @@ class Wave {
     double phase_;
 };
 
-void fill(LowRankMatrix& matrix, const std::vector<Vec3f>& positions, uint64_t seed,
-          double mean_scale, double weight_scale) {
-    RandomStream random(stream_key(seed, matrix.num_planes, matrix.num_components));
-    const bool half = matrix.precision == Precision::f16;
-    const auto append_waves = [&](std::vector<float>& out, double scale, bool round) {
-        for (uint32_t plane = 0; plane < matrix.num_planes; ++plane) {
-            const Wave wave(random);
-            for (const Vec3f& position : positions) {
-                const auto value = static_cast<float>(scale * wave.at(position));
-                out.push_back(round ? static_cast<float>(Eigen::half(value)) : value);
-            }
-        }
-    };
-    std::vector<float> mean;
-    append_waves(mean, mean_scale, false);
-    matrix.mean = std::move(mean);
-    for (uint32_t k = 0; k < matrix.num_components; ++k) {
-        std::vector<float> component;
-        append_waves(component, 1.0, half);
-        matrix.components.emplace_back(std::move(component));
-    }
-    for (uint32_t i = 0; i < matrix.num_components * matrix.num_poses; ++i) {
-        matrix.weights.push_back(static_cast<float>(weight_scale * (random.uniform() - 0.5)));
-    }
-    matrix.singular_values.assign(matrix.num_components, 1.0);
+Precision precision_of(const std::vector<Precision>& precisions, uint32_t k, Precision otherwise) {
+    return precisions.empty() ? otherwise : precisions[std::min<size_t>(k, precisions.size() - 1)];
 }
 
-LowRankMatrix matrix_of(const Topology& topology, uint32_t num_planes, uint32_t num_components,
-                        const TestModelOptions& options) {
+// What the largest of some values of about 1 is stored as.
+float scale_of(Precision precision) {
+    return precision == Precision::i8 ? 120.0f : precision == Precision::i16 ? 3000.0f : 1.0f;
+}
+
+// The values times what scale_of() says, rounded to what the precision holds.
+StoredValues store(const std::vector<float>& values, Precision precision) {
+    const float scale = scale_of(precision);
+    const auto convert = [&](auto zero) {
+        std::vector<decltype(zero)> integers;
+        for (const float value : values) {
+            integers.push_back(static_cast<decltype(zero)>(std::lround(scale * value)));
+        }
+        return integers;
+    };
+    if (precision == Precision::i8) return convert(int8_t{0});
+    if (precision == Precision::i16) return convert(int16_t{0});
+    std::vector<float> floats = values;
+    if (precision == Precision::f16) {
+        for (float& value : floats) value = static_cast<float>(Eigen::half(value));
+    }
+    return floats;
+}
+
+// A wave over the sphere for every plane.
+std::vector<float> waves(const std::vector<Vec3f>& positions, uint32_t num_planes, float scale,
+                         RandomStream& random) {
+    std::vector<float> values;
+    for (uint32_t plane = 0; plane < num_planes; ++plane) {
+        const Wave wave(random);
+        for (const Vec3f& position : positions) {
+            values.push_back(scale * static_cast<float>(wave.at(position)));
+        }
+    }
+    return values;
+}
+
+// Stores a matrix as the options say.
+// mean, components  [planes][points], components of about 1
+// weight_scale      of what components add to the mean
+LowRankMatrix make_matrix(const std::vector<float>& mean,
+                          const std::vector<std::vector<float>>& components, uint32_t num_planes,
+                          double weight_scale, const TestModelOptions& options,
+                          RandomStream& random) {
     LowRankMatrix matrix;
-    matrix.num_points = topology.num_vertices;
     matrix.num_planes = num_planes;
+    matrix.num_points = static_cast<uint32_t>(mean.size() / num_planes);
     matrix.num_poses = options.num_poses;
-    matrix.num_components = num_components;
+    matrix.num_components = static_cast<uint32_t>(components.size());
     matrix.precision = options.precision;
+    matrix.singular_values.assign(components.size(), 1.0);
+    float first_step = 1.0f;
+    if (is_integer(options.precision)) {
+        float largest = 0.0f;
+        for (const float value : mean) largest = std::max(largest, std::abs(value));
+        first_step = largest / scale_of(options.precision);
+        std::vector<float> in_steps = mean;
+        for (uint32_t plane = 0; plane < num_planes; ++plane) {
+            const float relative = 1.0f + 0.1f * static_cast<float>(plane % 5);
+            matrix.steps.push_back(relative * first_step);
+            for (uint32_t n = 0; n < matrix.num_points; ++n) {
+                in_steps[size_t{plane} * matrix.num_points + n] /= relative * largest;
+            }
+        }
+        matrix.mean = store(in_steps, options.precision);
+    } else {
+        matrix.mean = mean;
+    }
+    for (uint32_t k = 0; k < components.size(); ++k) {
+        const Precision precision =
+            precision_of(options.component_precisions, k, options.precision);
+        matrix.components.push_back(store(components[k], precision));
+        for (uint32_t p = 0; p < options.num_poses; ++p) {
+            matrix.weights.push_back(static_cast<float>(weight_scale * (random.uniform() - 0.5)) /
+                                     (first_step * scale_of(precision)));
+        }
+    }
     return matrix;
+}
+
+LowRankMatrix make_geometry(const std::vector<Vec3f>& positions, const TestModelOptions& options) {
+    RandomStream random(stream_key(1, 3, options.geometry_components));
+    std::vector<std::vector<float>> components;
+    for (uint32_t k = 0; k < options.geometry_components; ++k) {
+        components.push_back(waves(positions, 3, 1.0f, random));
+    }
+    return make_matrix(to_planes(positions), components, 3, 0.2, options, random);
+}
+
+LowRankMatrix make_transfer(const std::vector<Vec3f>& positions, const TransferLayout& layout,
+                            const TestModelOptions& options) {
+    RandomStream random(stream_key(2, layout.num_planes(), options.transfer_components));
+    std::vector<float> mean = waves(positions, layout.num_planes(), 0.3f, random);
+    // The constant coefficient of each channel keeps radiance away from zero.
+    for (uint32_t channel = 0; channel < options.channels; ++channel) {
+        float* plane = mean.data() + layout.plane(channel, 0) * positions.size();
+        for (size_t v = 0; v < positions.size(); ++v) plane[v] += 2.0f;
+    }
+    std::vector<std::vector<float>> components;
+    for (uint32_t k = 0; k < options.transfer_components; ++k) {
+        components.push_back(waves(positions, layout.num_planes(), 1.0f, random));
+    }
+    return make_matrix(mean, components, layout.num_planes(), 0.3, options, random);
+}
+
+void make_clusters(const std::vector<Vec3f>& positions, const TestModelOptions& options,
+                   Model& model) {
+    RandomStream random(stream_key(5, options.num_clusters, options.cluster_components));
+    const auto number = [&] { return static_cast<float>(2.0 * random.uniform() - 1.0); };
+    VertexClusters& clusters = model.clusters;
+    clusters.num_clusters = options.num_clusters;
+    clusters.num_components = options.cluster_components;
+    for (size_t v = 0; v < positions.size(); ++v) {
+        clusters.cluster.push_back(static_cast<uint32_t>(random.uniform() * options.num_clusters));
+    }
+    std::vector<float> row_scales{1.0f};
+    for (uint32_t j = 0; j < options.cluster_components; ++j) {
+        const Precision precision = precision_of(options.coefficient_precisions, j, Precision::f32);
+        clusters.coefficients.push_back(store(waves(positions, 1, 1.0f, random), precision));
+        row_scales.push_back(0.3f / scale_of(precision));
+    }
+    const uint32_t num_planes = model.layout.num_planes();
+    std::vector<float> mean(size_t{num_planes} * clusters.num_rows());
+    std::generate(mean.begin(), mean.end(), number);
+    for (uint32_t r = 0; r < clusters.num_rows(); ++r) {
+        const uint32_t row = r % clusters.rows_per_cluster();
+        clusters.scales.push_back((1.0f + 0.2f * number()) * row_scales[row]);
+        if (row != 0) continue;
+        for (uint32_t plane = 0; plane < num_planes; ++plane) {
+            float& value = mean[size_t{plane} * clusters.num_rows() + r];
+            value = plane % model.layout.num_coefficients() == 0 ? 2.0f : 0.3f * value;
+        }
+    }
+    std::vector<std::vector<float>> components(options.transfer_components);
+    for (std::vector<float>& component : components) {
+        component.resize(mean.size());
+        std::generate(component.begin(), component.end(), number);
+    }
+    model.transfer = make_matrix(mean, components, num_planes, 0.3, options, random);
 }
 
 }  // namespace
@@ -109,20 +217,12 @@ Model make_test_model(const TestModelOptions& options) {
     model.topology = sphere_topology(options.num_rings, num_segments);
     model.layout.bands = options.bands;
     model.layout.channels = options.channels;
-    model.geometry = matrix_of(model.topology, 3, options.geometry_components, options);
-    fill(model.geometry, positions, 1, 0.0, 0.2);
-    model.geometry.mean = to_planes(positions);
-    model.transfer =
-        matrix_of(model.topology, model.layout.num_planes(), options.transfer_components, options);
-    fill(model.transfer, positions, 2, 0.3, 0.3);
-    std::vector<float> mean = model.transfer.mean.floats();
-    // The constant coefficient of each channel keeps radiance away from zero.
-    for (uint32_t channel = 0; channel < options.channels; ++channel) {
-        float* plane =
-            mean.data() + size_t{model.layout.plane(channel, 0)} * model.topology.num_vertices;
-        for (size_t v = 0; v < positions.size(); ++v) plane[v] += 2.0f;
+    model.geometry = make_geometry(positions, options);
+    if (options.num_clusters == 0) {
+        model.transfer = make_transfer(positions, model.layout, options);
+    } else {
+        make_clusters(positions, options, model);
     }
-    model.transfer.mean = std::move(mean);
     if (options.albedo_per_vertex) {
         RandomStream random(stream_key(3, 0, 0));
         model.albedo.values.clear();
@@ -155,7 +255,7 @@ LightCoefficients make_test_light(int bands) {
 std::vector<Vec3f> vertex_radiance(const Model& model, double time, const DecodeLimits& limits,
                                    const LightCoefficients& light) {
     DecodedPose pose;
-    SvdDecoder(model).decode(time, limits, pose);
+    make_decoder(model)->decode(time, limits, pose);
     std::vector<Vec3f> radiance;
     shade(pose.layout, pose.transfer, model.albedo, light, radiance);
     return radiance;

@@ -15,9 +15,15 @@ struct TestModelOptions {
     uint32_t num_poses = 6;
     uint32_t geometry_components = 3;
     uint32_t transfer_components = 5;
-    Precision precision = Precision::f32;
+    Precision precision = Precision::f32;  // of both matrices and their means
+    // Of component k, or, if shorter, the last; empty: all as `precision`.
+    std::vector<Precision> component_precisions;
     bool albedo_per_vertex = false;
     uint32_t num_rings = 8;  // of the sphere, with twice as many segments
+    // Clustered transfer, each vertex in any cluster; 0: none.
+    uint32_t num_clusters = 0;
+    uint32_t cluster_components = 0;
+    std::vector<Precision> coefficient_precisions;  // as component_precisions
 };
 
 // A unit sphere that bends and shimmers: smooth random components, so that neighbouring vertices
@@ -27,7 +33,7 @@ Model make_test_model(const TestModelOptions& options);
 // Random coefficients whose constant part outweighs the rest, so that radiance is mostly positive.
 LightCoefficients make_test_light(int bands);
 
-// Radiance of every vertex at `time` as SvdDecoder and shade() give it.
+// Radiance of every vertex at `time` as the CPU decoder and shade() give it.
 std::vector<Vec3f> vertex_radiance(const Model& model, double time, const DecodeLimits& limits,
                                    const LightCoefficients& light);
 

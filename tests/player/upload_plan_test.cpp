@@ -73,6 +73,26 @@ TEST(UploadPlan, NamesTheTextureLimitAndWhatWouldFit) {
               std::string::npos);
 }
 
+// 100 vertices, 20 clusters of 6 components: 2 texels of coefficients a vertex; 1 + 3 · 2 texels of
+// light products a cluster.
+TEST(UploadPlan, HoldsClusters) {
+    Model model = dimensions(100, 8, 3, 1, 50);  // whose transfer would not fit
+    model.clusters.num_clusters = 20;
+    model.clusters.num_components = 6;
+    model.transfer.num_points = model.clusters.num_rows();
+    const UploadPlan plan = plan_upload(model, {}, 16);
+    EXPECT_EQ(plan.cluster_components, 6u);
+    EXPECT_EQ(plan.cluster_groups(), 2u);
+    EXPECT_EQ(plan.product_texels(), 7u);
+    EXPECT_EQ(plan.width_log2, 4);
+    EXPECT_EQ(plan_upload(model, {.cluster_components = 4}, 16).product_texels(), 4u);
+    EXPECT_NE(refusal(model, {}, 14).find("6 components of 20 clusters and 100 vertices need 200"),
+              std::string::npos);
+    EXPECT_EQ(refusal(model, {.cluster_components = 4}, 14), "");
+    model.clusters.num_clusters = 40;  // 280 texels of light products
+    EXPECT_NE(refusal(model, {}, 16).find("need 280 texels"), std::string::npos);
+}
+
 // Shaders count texels in 32 bits, whatever the driver's textures hold.
 TEST(UploadPlan, StaysWithinThirtyTwoBits) {
     const Model model = dimensions(1 << 20, 2, 1, 3000, 1);

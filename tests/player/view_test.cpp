@@ -16,7 +16,7 @@
 namespace paim::player {
 namespace {
 
-constexpr ViewRange kRange{4, 3, 5, 6};
+constexpr ViewRange kRange{4, 3, 5, 6, 2};
 
 void press(int key, bool shift, ViewState& view) {
     apply(command_of_key(key, shift), view, kRange);
@@ -24,7 +24,7 @@ void press(int key, bool shift, ViewState& view) {
 
 ViewState start() {
     ViewState view;
-    view.limits = {3, 5, 6};
+    view.limits = {3, 5, 6, 2};
     return view;
 }
 
@@ -35,6 +35,16 @@ TEST(Keys, ChangeLimitsWithinTheModel) {
     press(GLFW_KEY_LEFT_BRACKET, false, view);
     EXPECT_EQ(view.limits.transfer_components, 4u);
     for (int i = 0; i < 9; ++i) press(GLFW_KEY_LEFT_BRACKET, false, view);
+    EXPECT_EQ(view.limits.transfer_components, 0u);
+
+    press(GLFW_KEY_RIGHT_BRACKET, true, view);
+    EXPECT_EQ(view.limits.cluster_components, 2u);
+    for (const uint32_t expected : {1u, 0u, 0u}) {
+        press(GLFW_KEY_LEFT_BRACKET, true, view);
+        EXPECT_EQ(view.limits.cluster_components, expected);
+    }
+    press(GLFW_KEY_RIGHT_BRACKET, true, view);
+    EXPECT_EQ(view.limits.cluster_components, 1u);
     EXPECT_EQ(view.limits.transfer_components, 0u);
 
     press(GLFW_KEY_APOSTROPHE, false, view);
@@ -238,6 +248,32 @@ TEST(DepthRange, StaysUsableFromInsideBehindAndWithoutBounds) {
     EXPECT_TRUE(usable(depth_range(frame_bounds(huge, 1.0f), huge)));
 }
 
+// 9 clusters of 1 + 6 rows, 25 coefficients of one channel, 5 components over time, 6 poses.
+TEST(FrameCost, CountsWhatClustersDo) {
+    TestModelOptions options;
+    options.precision = Precision::i16;
+    options.component_precisions = {Precision::i16, Precision::i16, Precision::i8};
+    options.num_clusters = 9;
+    options.cluster_components = 6;
+    options.coefficient_precisions = {Precision::i16, Precision::i8};
+    const Model model = make_test_model(options);
+    const uint64_t num_vertices = model.topology.num_vertices;
+    const Cost all = frame_cost(model, {});
+    EXPECT_EQ(all.multiply_adds, 3u * 4 + 3u * 7);
+    EXPECT_EQ(all.cluster_multiply_adds, 63u * (25 * 6 + 3 * 25));
+    EXPECT_EQ(all.bytes, (2 + 2 * 2 + 1) * 3 * num_vertices + 4 * 3 + 3 * 4 * 6    // geometry
+                             + (2 + 2 * 2 + 3 * 1) * 25 * 63 + 4 * 25 + 5 * 4 * 6  // bases
+                             + (2 + 2 + 5 * 1) * num_vertices + 4 * 63);           // vertices
+    const Cost some =
+        frame_cost(model, {.transfer_components = 2, .bands = 3, .cluster_components = 1});
+    EXPECT_EQ(some.multiply_adds, 3u * 4 + 3u * 2);
+    EXPECT_EQ(some.cluster_multiply_adds, 63u * (9 * 3 + 3 * 9));
+    EXPECT_EQ(some.cluster_components, 1u);
+    EXPECT_EQ(some.bytes, (2 + 2 * 2 + 1) * 3 * num_vertices + 4 * 3 + 3 * 4 * 6 +
+                              (2 + 2 * 2) * 9 * 63 + 4 * 9 + 2 * 4 * 6 + (2 + 2) * num_vertices +
+                              4 * 9 * 2);
+}
+
 TEST(FrameCost, CountsWhatTheShaderDoes) {
     TestModelOptions options;
     options.channels = 3;
@@ -245,11 +281,11 @@ TEST(FrameCost, CountsWhatTheShaderDoes) {
     const Model model = make_test_model(options);  // 5 bands, 3 + 5 components, 6 poses
     const uint64_t num_vertices = model.topology.num_vertices;
     const Cost all = frame_cost(model, {});
-    EXPECT_EQ(all.multiply_adds, 3u * 3 + 75u * 5 + 3u * 25);
+    EXPECT_EQ(all.multiply_adds, 3u * 4 + 75u * 6 + 3u * 25);
     EXPECT_EQ(all.bytes, 4 * 3 * num_vertices + 3 * (2 * 3 * num_vertices + 4 * 6) +
                              4 * 75 * num_vertices + 5 * (2 * 75 * num_vertices + 4 * 6));
     const Cost some = frame_cost(model, {1, 2, 3});
-    EXPECT_EQ(some.multiply_adds, 3u * 1 + 27u * 2 + 3u * 9);
+    EXPECT_EQ(some.multiply_adds, 3u * 2 + 27u * 3 + 3u * 9);
     EXPECT_EQ(some.bands, 3u);
     EXPECT_EQ(some.bytes, 4 * 3 * num_vertices + 1 * (2 * 3 * num_vertices + 4 * 6) +
                               4 * 27 * num_vertices + 2 * (2 * 27 * num_vertices + 4 * 6));
