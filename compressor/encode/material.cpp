@@ -7,6 +7,7 @@
 
 #include "compressor/encode/bake_rows.h"
 #include "compressor/encode/component_noise.h"
+#include "compressor/encode/float_part.h"
 #include "compressor/encode/memory_plan.h"
 #include "compressor/encode/playable_scenery.h"
 
@@ -16,24 +17,6 @@ namespace {
 
 // Components that are dropped beforehand may take this share of the error that is asked for.
 constexpr double kDroppedShare = 0.15;
-
-// Floats, as a file of floats would have them.
-LowRankMatrix unquantised(const Scores& scores) {
-    LowRankMatrix matrix;
-    matrix.num_points = scores.num_points;
-    matrix.num_planes = scores.num_planes;
-    matrix.num_poses = scores.num_poses();
-    matrix.num_components = scores.num_components();
-    matrix.mean = scores.mean;
-    matrix.components.assign(scores.components.begin(), scores.components.end());
-    matrix.singular_values = scores.singular_values;
-    for (Eigen::Index k = 0; k < scores.weights.rows(); ++k) {
-        for (Eigen::Index p = 0; p < scores.weights.cols(); ++p) {
-            matrix.weights.push_back(static_cast<float>(scores.weights(k, p)));
-        }
-    }
-    return matrix;
-}
 
 // The fewest components whose rest is at most `most`, in squares of singular values.
 template <typename EnergyOf>
@@ -131,8 +114,10 @@ Material read_material(const BakeReader& bake, const EncodeOptions& options,
     }
 
     Model floor = material.frame;
-    floor.geometry = unquantised(material.geometry);
-    floor.transfer = unquantised(material.transfer);
+    floor.geometry =
+        float_part(material.geometry, material.geometry.num_components(), Precision::f32);
+    floor.transfer =
+        float_part(material.transfer, material.transfer.num_components(), Precision::f32);
     material.floor = material.measure(floor);
     for (uint32_t l = 0; l < identity.layout.bands; ++l) {
         material.transfer_energy +=

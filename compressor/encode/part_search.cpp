@@ -9,9 +9,6 @@
 
 namespace paim {
 
-namespace {
-
-// Weighted squares of the components from the k-th on, Σ over rows and poses: what is lost without them.
 std::vector<double> tail_errors(const Scores& scores, const std::vector<double>& plane_weight) {
     std::vector<double> tails(scores.num_components() + 1, 0.0);
     for (uint32_t k = scores.num_components(); k-- > 0;) {
@@ -28,11 +25,9 @@ std::vector<double> tail_errors(const Scores& scores, const std::vector<double>&
     return tails;
 }
 
-}  // namespace
-
-std::optional<PartChoice> cheapest_part(const Scores& scores,
-                                        const std::vector<double>& plane_weight, double most_error,
-                                        uint32_t most_components, const PlanePredictor& predictor) {
+std::vector<PartChoice> part_choices(const Scores& scores, const std::vector<double>& plane_weight,
+                                     double most_error, uint32_t most_components,
+                                     const PlanePredictor& predictor) {
     // Few enough values that a step is found in a moment, enough that it is the right one.
     constexpr size_t kSampledValues = 2'000'000;
     const Scores few = sample(scores, kSampledValues);
@@ -60,6 +55,10 @@ std::optional<PartChoice> cheapest_part(const Scores& scores,
         choice.bytes = stored_bytes(choice.matrix, predictor, Effort::fast);
         choices.push_back(std::move(choice));
     }
+    return choices;
+}
+
+std::optional<PartChoice> cheapest_part(std::vector<PartChoice> choices) {
     if (choices.empty()) return std::nullopt;
     uint64_t fewest = choices[0].bytes;
     for (const PartChoice& choice : choices) fewest = std::min(fewest, choice.bytes);

@@ -16,14 +16,20 @@ struct PartChoice {
     uint64_t bytes = 0;  // stored_bytes() with fast effort
 };
 
-// Tries several numbers of components, each with the largest step that meets the error, and takes the
-// one with the fewest bytes; of those within 1 % of it, the one with the fewest components.
+// Several numbers of components, ascending, each with the largest step that meets the error; none if no
+// step is small enough.
 // plane_weight     of squared errors
 // most_error       weighted, Σ over rows and poses
 // most_components  of the scores that may be kept
-// Nothing if no step is small enough.
-std::optional<PartChoice> cheapest_part(const Scores& scores,
-                                        const std::vector<double>& plane_weight, double most_error,
-                                        uint32_t most_components, const PlanePredictor& predictor);
+std::vector<PartChoice> part_choices(const Scores& scores, const std::vector<double>& plane_weight,
+                                     double most_error, uint32_t most_components,
+                                     const PlanePredictor& predictor);
+
+// Of these the one with the fewest bytes, or fewer components within 1 % of it.
+std::optional<PartChoice> cheapest_part(std::vector<PartChoice> choices);
+
+// Weighted squares of the components from the k-th on, Σ over rows and poses: what is lost without
+// them. [K + 1]
+std::vector<double> tail_errors(const Scores& scores, const std::vector<double>& plane_weight);
 
 }  // namespace paim

@@ -190,14 +190,17 @@ double smallest_step(const Scores& scores, const Quantiser& quantiser, Precision
 }
 
 double largest_step(const Scores& scores, Quantiser quantiser, double most) {
-    double low = smallest_step(scores, quantiser, Precision::i16);
-    if (low == 0.0) return 1.0;  // nothing but zeros
-    const auto good = [&](double step) {
+    return largest_step(smallest_step(scores, quantiser, Precision::i16), [&](double step) {
         quantiser.step = step;
         return quantised_error(scores, quantiser) <= most;
-    };
-    if (!good(low)) return 0.0;
-    double high = 32767.0 * low;  // one step is the largest value
+    });
+}
+
+double largest_step(double smallest, const std::function<bool(double)>& good) {
+    if (smallest == 0.0) return 1.0;  // nothing but zeros
+    if (!good(smallest)) return 0.0;
+    double low = smallest;
+    double high = largest_integer(Precision::i16) * smallest;
     if (good(high)) return high;
     constexpr double kClose = 1.005;
     while (high > kClose * low) {

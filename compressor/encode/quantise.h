@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "compressor/encode/scores.h"
@@ -33,6 +34,10 @@ double quantised_error(const Scores& scores, const Quantiser& quantiser);
 // The largest step with which the error is at most `most`; 0 if there is none down to 2⁻¹⁵ of the
 // largest value. quantiser.step is ignored.
 double largest_step(const Scores& scores, Quantiser quantiser, double most);
+
+// The same for any error that grows with the step: the largest one that is good, from `smallest` to
+// the one of which the largest value is one; 0 if not even the smallest is.
+double largest_step(double smallest, const std::function<bool(double)>& good);
 
 // The smallest step with which every value fits, mean included.
 double smallest_step(const Scores& scores, const Quantiser& quantiser, Precision precision);

@@ -1,0 +1,191 @@
+// Ways to code the transfer that meet an error.
+#include "compressor/encode/transfer_search.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "compressor/encode/float_part.h"
+#include "compressor/encode/matrix_cost.h"
+#include "compressor/encode/part_search.h"
+#include "paim/metrics/rates.h"
+
+namespace paim {
+
+namespace {
+
+constexpr uint32_t kMostClusterComponents = 32;
+
+uint32_t svd_cost(const TransferLayout& layout, uint32_t num_components) {
+    return static_cast<uint32_t>(svd_transfer_cost(layout, num_components, true).per_vertex());
+}
+
+uint32_t cpca_cost(const TransferLayout& layout, uint32_t num_clusters, uint32_t num_components) {
+    return static_cast<uint32_t>(
+        clustered_transfer_cost(layout, num_clusters, num_components, 0, true).per_vertex());
+}
+
+// Bytes of numbers and coefficients of clusters.
+uint64_t stored_bytes(const VertexClusters& clusters, const PlanePredictor& vertices) {
+    LowRankMatrix columns;  // as one section each
+    columns.num_planes = 1;
+    columns.mean = std::vector<int16_t>(clusters.cluster.begin(), clusters.cluster.end());
+    columns.components = clusters.coefficients;
+    return stored_bytes(columns, vertices, Effort::fast) + clusters.scales.size() * sizeof(float);
+}
+
+}  // namespace
+
+void TransferCoding::apply(const Material& material, Model& model) const {
+    model.clusters = {};
+    if (!is_integer(precision)) {
+        model.transfer = float_part(material.transfer, quantiser.num_components, precision);
+    } else if (clustered) {
+        ClusteredMatrix quantised = quantise_clusters(*clustered, quantiser);
+        model.transfer = std::move(quantised.matrix);
+        model.clusters = std::move(quantised.clusters);
+    } else {
+        model.transfer = quantise(material.transfer, quantiser);
+    }
+}
+
+TransferSearch::TransferSearch(const Material& material, const EncodeOptions& options,
+                               const EncodeTarget& target)
+    : material_(material), options_(options), target_(target) {}
+
+void TransferSearch::add_floats(double most_error, std::vector<TransferCoding>& codings) const {
+    const std::vector<double> tails = tail_errors(material_.transfer, material_.plane_weight);
+    uint32_t k = 0;
+    while (k + 1 < tails.size() && tails[k] > most_error) ++k;
+    TransferCoding coding;
+    coding.precision = options_.precision;
+    coding.quantiser = {1.0, k, material_.plane_weight};
+    const uint64_t value = options_.precision == Precision::f16 ? 2 : 4;
+    coding.candidate.codec = "svd";
+    coding.candidate.components = k;
+    coding.candidate.multiply_adds = svd_cost(material_.layout, k);
+    coding.candidate.bytes = material_.transfer.mean.size() * (4 + k * value) +
+                             4 * uint64_t{k} * material_.bake.num_poses();
+    if (cheap_enough(coding.candidate.multiply_adds)) codings.push_back(std::move(coding));
+}
+
+void TransferSearch::add_svd(double most_error, std::vector<TransferCoding>& codings) const {
+    uint32_t most = material_.transfer.num_components();
+    while (most > 0 && !cheap_enough(svd_cost(material_.layout, most))) --most;
+    if (!cheap_enough(svd_cost(material_.layout, most))) return;
+    for (PartChoice& choice : part_choices(material_.transfer, material_.plane_weight, most_error,
+                                           most, material_.predictor)) {
+        TransferCoding coding;
+        coding.quantiser = std::move(choice.quantiser);
+        coding.candidate.codec = "svd";
+        coding.candidate.components = choice.matrix.num_components;
+        coding.candidate.multiply_adds = svd_cost(material_.layout, choice.matrix.num_components);
+        coding.candidate.bytes = choice.bytes;
+        codings.push_back(std::move(coding));
+    }
+}
+
+const TransferSearch::Clusters& TransferSearch::clusters(uint32_t num_clusters,
+                                                         uint32_t assumed_components) {
+    Clusters& found = clusters_[{num_clusters, assumed_components}];
+    if (found.pca) return found;
+    ClusteringOptions clustering;
+    clustering.num_clusters = num_clusters;
+    clustering.assumed_components = assumed_components;
+    clustering.max_components = kMostClusterComponents;
+    clustering.memory_bytes = options_.memory_bytes;
+    const ScorePoints points(material_.transfer, material_.plane_weight);
+    found.pca = std::make_shared<const ClusteredPca>(
+        clustered_pca(points, clustering, nullptr, material_.bake.directory().string()));
+    return found;
+}
+
+void TransferSearch::add_clusters(uint32_t num_clusters, double most_error,
+                                  std::vector<TransferCoding>& codings) {
+    const double num_poses = material_.bake.num_poses();
+    const auto fewest = [&](const ClusteredPca& pca, double share) {
+        uint32_t k = 0;
+        while (k <= pca.num_components && num_poses * pca.squared_error(k) > share * most_error) {
+            ++k;
+        }
+        return k;
+    };
+    // Points are assigned to subspaces of about as many components as will be kept.
+    constexpr uint32_t kFirstGuess = 8;
+    constexpr double kUsualShare = 0.6;
+    uint32_t assumed = kFirstGuess;
+    const uint32_t needed = fewest(*clusters(num_clusters, assumed).pca, kUsualShare);
+    if (needed > kMostClusterComponents) return;
+    if (needed > kFirstGuess + kFirstGuess / 2) assumed = 2 * kFirstGuess;
+    if (needed < kFirstGuess / 2 + 1) assumed = kFirstGuess / 2;
+    Clusters& chosen = clusters_[{num_clusters, (clusters(num_clusters, assumed), assumed)}];
+
+    std::set<uint32_t> counts;
+    for (const double share : {0.9, kUsualShare, 0.3}) counts.insert(fewest(*chosen.pca, share));
+    for (const uint32_t count : counts) {
+        if (count > kMostClusterComponents) continue;
+        const uint32_t cost = cpca_cost(material_.layout, chosen.pca->num_clusters, count);
+        if (!cheap_enough(cost)) continue;
+        auto& clustered = chosen.by_components[count];
+        if (!clustered) {
+            clustered = std::make_shared<const ClusteredScores>(
+                cluster_bases(material_.transfer, material_.plane_weight, *chosen.pca, count));
+        }
+        TransferCoding coding;
+        coding.clustered = clustered;
+        coding.quantiser = {1.0, material_.transfer.num_components(), material_.plane_weight};
+        coding.quantiser.step = largest_step(*clustered, coding.quantiser, most_error);
+        if (coding.quantiser.step == 0.0) continue;
+        const ClusteredMatrix quantised = quantise_clusters(*clustered, coding.quantiser);
+        coding.candidate.codec = "cpca";
+        coding.candidate.components = quantised.matrix.num_components;
+        coding.candidate.clusters = chosen.pca->num_clusters;
+        coding.candidate.cluster_components = count;
+        coding.candidate.multiply_adds = cost;
+        coding.candidate.bytes = stored_bytes(quantised.matrix, PlanePredictor(), Effort::fast) +
+                                 stored_bytes(quantised.clusters, material_.predictor);
+        codings.push_back(std::move(coding));
+    }
+}
+
+std::vector<TransferCoding> TransferSearch::codings(double most_error) {
+    std::vector<TransferCoding> codings;
+    if (!is_integer(options_.precision)) {
+        add_floats(most_error, codings);
+        return codings;
+    }
+    if (target_.codec != CodecChoice::cpca) add_svd(most_error, codings);
+    if (target_.codec != CodecChoice::svd) {
+        // Fewer than some vertices a cluster and the bases are as large as what they stand for.
+        constexpr uint32_t kLeastPerCluster = 8;
+        constexpr std::array<uint32_t, 4> kCounts{32, 128, 512, 1024};
+        uint32_t tried = 0;
+        for (const uint32_t count : kCounts) {
+            const uint32_t most = std::max(1u, material_.transfer.num_points / kLeastPerCluster);
+            if (std::min(count, most) == tried) continue;
+            tried = std::min(count, most);
+            add_clusters(tried, most_error, codings);
+        }
+    }
+    for (TransferCoding& coding : codings) coding.candidate.bands = material_.layout.bands;
+    return codings;
+}
+
+const TransferCoding* best_coding(const std::vector<TransferCoding>& codings, Preference preference,
+                                  std::optional<uint64_t> most_bytes) {
+    const TransferCoding* best = nullptr;
+    const auto better = [&](const Candidate& a, const Candidate& b) {
+        const auto by_size = std::pair(a.bytes, a.multiply_adds);
+        const auto other_size = std::pair(b.bytes, b.multiply_adds);
+        if (preference == Preference::size) return by_size < other_size;
+        return std::pair(a.multiply_adds, by_size) < std::pair(b.multiply_adds, other_size);
+    };
+    for (const TransferCoding& coding : codings) {
+        if (most_bytes && coding.candidate.bytes > *most_bytes) continue;
+        if (best == nullptr || better(coding.candidate, best->candidate)) best = &coding;
+    }
+    return best;
+}
+
+}  // namespace paim
