@@ -149,10 +149,15 @@ TEST_F(Target, RefusesWhatMakesNoSense) {
     expect_failure(try_to_encode({"--max-error", "5%", "--codec", "wavelet"}), 1, {"wavelet"});
 }
 
-TEST_F(Target, FilesOfCountsStateTheirErrorsToo) {
+TEST_F(Target, FilesOfCountsStateTheirErrorsWhereAsked) {
     encode("x.paim", {"--transfer-components", "2", "--geometry-components", "2"});
+    EXPECT_EQ(verify("x.paim"), 2);
+    const json counted =
+        encode("x.paim", {"--transfer-components", "2", "--geometry-components", "2", "--measure"});
+    EXPECT_GT(counted["measured"]["transfer_total_error"], 0.01);
+    EXPECT_EQ(counted["size_bytes"], std::filesystem::file_size(path("x.paim")));
     EXPECT_EQ(verify("x.paim"), 0);
-    encode("x.paim", {"--precision", "f16"});
+    encode("x.paim", {"--precision", "f16", "--measure"});
     EXPECT_EQ(verify("x.paim"), 0);
 }
 
