@@ -162,7 +162,8 @@ ContainerReader::ContainerReader(const std::filesystem::path& path, Tag kind, Ex
 void ContainerReader::check_table(const std::vector<TableEntry>& table, uint64_t whole_size_bytes) {
     const uint64_t table_end = sizeof(Header) + table.size() * sizeof(TableEntry);
     const auto most_values = [](uint64_t size_bytes) {
-        return kMaxFreeBytes + saturating_product(kMaxExpansion, size_bytes);
+        const uint64_t product = saturating_product(kMaxExpansion, size_bytes);
+        return std::max(product, product + kMaxFreeBytes);  // in case the sum overflows
     };
     // Sections that share bytes would let a small file claim any amount of memory; a header that
     // claims any size would, too, so that what is there is held to the bytes that are there.

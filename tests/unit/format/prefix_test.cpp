@@ -299,8 +299,13 @@ TEST(Prefix, RefusesHostileTables) {
             t[4].offset = kHuge / 2;
         },
         "that can be played");
-    // Without META's say nothing of components is believed.
-    expect_refused([](Header&, Table& t) { t.back().index = 7; }, "2 is missing");
+    // A component that META counts and the table does not have; what comes after it is of no use.
+    expect_refused([](Header&, Table& t) { t[t.size() - 4].index = 7; }, "is missing");
+    const Prefix last = read_prefixes(path).back();
+    EXPECT_EQ(last.geometry_components + last.transfer_components, 4u);
+    // The header alone makes no file large.
+    write_hostile(path, ~0ull, [](Header& h, Table&) { h.file_size_bytes = kHuge; });
+    EXPECT_TRUE(read_paim(path, kProgressive).complete);
 }
 
 // Sections in any order: what counts is when everything that is needed is there.
