@@ -262,7 +262,7 @@ TEST(Prefix, RefusesHostileTables) {
         write_hostile(path, ~0ull, change);
         expect_contains(complaint(path, kProgressive), message);
     };
-    constexpr uint64_t kHuge = 1ull << 60;
+    constexpr uint64_t kHuge = 1ull << 45;
     expect_refused(
         [](Header& h, Table& t) {
             h.file_size_bytes = kHuge;
