@@ -1,0 +1,294 @@
+// Planes from packed residuals: many planes at once.
+//
+// A value depends on values before it in its plane, so that a plane alone is a chain of additions
+// that wait for one another. Here a row has the values of up to 32 planes at a vertex, and rows are
+// predicted from rows. Planes are unpacked and transposed into rows, and rows back into planes, in
+// tiles that stay in the first-level cache.
+#include "paim/format/plane_undo.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "paim/base/check.h"
+
+namespace paim {
+
+namespace {
+
+constexpr size_t kBlock = 8;  // values that are transposed at once, either way
+static_assert(kTileValues % kBlock == 0);
+
+typedef int16_t Eight __attribute__((vector_size(2 * kBlock)));
+
+// Eight rows of eight become columns.
+__attribute__((always_inline)) inline void transpose(Eight (&m)[kBlock]) {
+    Eight a[kBlock], b[kBlock];
+#pragma GCC unroll 4
+    for (size_t j = 0; j < 4; ++j) {
+        a[2 * j] = __builtin_shufflevector(m[j], m[j + 4], 0, 8, 1, 9, 2, 10, 3, 11);
+        a[2 * j + 1] = __builtin_shufflevector(m[j], m[j + 4], 4, 12, 5, 13, 6, 14, 7, 15);
+    }
+#pragma GCC unroll 4
+    for (size_t j = 0; j < 4; ++j) {
+        b[2 * j] = __builtin_shufflevector(a[j], a[j + 4], 0, 8, 1, 9, 2, 10, 3, 11);
+        b[2 * j + 1] = __builtin_shufflevector(a[j], a[j + 4], 4, 12, 5, 13, 6, 14, 7, 15);
+    }
+#pragma GCC unroll 4
+    for (size_t j = 0; j < 4; ++j) {
+        m[2 * j] = __builtin_shufflevector(b[j], b[j + 4], 0, 8, 1, 9, 2, 10, 3, 11);
+        m[2 * j + 1] = __builtin_shufflevector(b[j], b[j + 4], 4, 12, 5, 13, 6, 14, 7, 15);
+    }
+}
+
+// Whether any value so far was outside of the symmetrical range of the integers.
+template <typename Integer>
+class RangeCheck {
+  public:
+    void add(const Eight& values) {
+        constexpr int16_t kMost = std::numeric_limits<Integer>::max();
+        outside_ |= (values > kMost) | (values < static_cast<int16_t>(-kMost));
+    }
+    bool passed() const {
+        bool any = false;
+        for (size_t j = 0; j < kBlock; ++j) any = any || outside_[j] != 0;
+        return !any;
+    }
+
+  private:
+    Eight outside_{};
+};
+
+template <typename Integer>
+__attribute__((always_inline)) inline void store(const Eight& values, size_t count, Integer* out) {
+    typedef Integer Narrow __attribute__((vector_size(kBlock * sizeof(Integer))));
+    const Narrow narrow = __builtin_convertvector(values, Narrow);
+    if (count >= kBlock) {
+        std::memcpy(out, &narrow, sizeof(narrow));
+    } else {
+        for (size_t j = 0; j < count; ++j) out[j] = narrow[j];
+    }
+}
+
+template <typename Integer>
+void copy_plane(const PackedPlane& plane, size_t num_points, Integer* out,
+                RangeCheck<Integer>& range) {
+    int16_t tile[kTileValues + kTilePadding];
+    for (size_t first = 0; first < num_points; first += kTileValues) {
+        const size_t count = std::min(kTileValues, num_points - first);
+        unpack_tile(plane.header, plane.source, num_points, first, count, tile);
+        std::fill_n(tile + count, kTilePadding, int16_t{0});
+        for (size_t j = 0; j < count; j += kBlock) {
+            Eight values;
+            std::memcpy(&values, tile + j, sizeof(values));
+            range.add(values);
+            store(values, count - j, out + first + j);
+        }
+    }
+}
+
+constexpr uint32_t high_half(uint32_t a, uint32_t b) {
+    return (a * b) >> 16;
+}
+
+// 1 / (2 · divisor) of 16 bits, rounded up: right for numerators up to 10,000 with divisors of 3 and 4.
+constexpr uint16_t reciprocal(int divisor) {
+    return static_cast<uint16_t>((65536 + 2 * divisor - 1) / (2 * divisor));
+}
+
+// The mean of four parents, or of three and a row of zeros, as PlanePredictor has it: all of it is
+// arithmetic of 16 bits. Values may be any; right as long as they are in range.
+template <typename Integer>
+struct Mean {
+    explicit Mean(bool three)
+        : divisor(three ? 3 : 4),
+          share(static_cast<int16_t>(three ? 21846 : 16384)),
+          half_share(reciprocal(divisor)) {}
+
+    int16_t divisor;
+    int16_t share;  // of 65536
+    uint16_t half_share;
+
+    // Of any int16_t: a sum in two parts, as it does not fit. Quarters, and what is left of them, 0 to
+    // 12; quarters again are divisor · quotient + remainder, with a remainder of 0 to 3.
+    int16_t operator()(int16_t a, int16_t b, int16_t c, int16_t d) const {
+        const auto quarters = static_cast<int16_t>((a >> 2) + (b >> 2) + (c >> 2) + (d >> 2));
+        const auto rest = static_cast<uint16_t>(a + b + c + d - 4 * quarters);
+        const auto quotient = static_cast<int16_t>((quarters * share) >> 16);
+        const auto remainder = static_cast<uint16_t>(quarters - quotient * divisor);
+        const auto numerator = static_cast<uint16_t>(8 * remainder + 2 * rest + divisor);
+        return static_cast<int16_t>(4 * quotient +
+                                    static_cast<int16_t>(high_half(numerator, half_share)));
+    }
+};
+
+template <>
+struct Mean<int8_t> {
+    // Makes the numerator positive: no mean of values in range is less.
+    static constexpr int kPositive = 512;
+
+    explicit Mean(bool three)
+        : offset(static_cast<uint16_t>((three ? 3 : 4) * (1 + 2 * kPositive))),
+          half_share(reciprocal(three ? 3 : 4)) {}
+
+    uint16_t offset;
+    uint16_t half_share;
+
+    int16_t operator()(int16_t a, int16_t b, int16_t c, int16_t d) const {
+        const auto numerator = static_cast<uint16_t>(2 * (a + b + c + d) + offset);
+        return static_cast<int16_t>(high_half(numerator, half_share) - kPositive);
+    }
+};
+
+// Values of planes at a vertex.
+template <size_t kLanes>
+struct alignas(2 * kLanes) Row {
+    int16_t lane[kLanes];
+};
+
+template <typename Integer, size_t kLanes>
+class Undo {
+  public:
+    using Rows = Row<kLanes>;
+
+    // planes, outs [up to kLanes]
+    Undo(std::span<const PackedPlane> planes, std::span<Integer* const> outs,
+         const PlanePredictor& predictor, size_t num_points)
+        : planes_(planes),
+          outs_(outs),
+          parents_(predictor.parents()),
+          num_points_(num_points),
+          // Nobody's, then one a vertex, then what completes the last block.
+          memory_(std::make_unique_for_overwrite<Rows[]>(1 + num_points + kBlock)),
+          rows_(memory_.get()) {
+        PAIM_CHECK_EQ(parents_.size(), num_points);
+        rows_[0] = {};
+        for (size_t j = 0; j < planes.size(); ++j) {
+            const bool mean = planes[j].header.prediction == Prediction::mean;
+            means_.lane[j] = mean ? -1 : 0;
+            latest_.lane[j] = mean ? 0 : -1;
+            all_means_ = all_means_ && mean;
+        }
+    }
+
+    void run(RangeCheck<Integer>& range) {
+        for (size_t first = 0; first < num_points_; first += kTileValues) {
+            const size_t count = std::min(kTileValues, num_points_ - first);
+            read(first, count);
+            if (all_means_) {
+                add<true>(first, count);
+            } else {
+                add<false>(first, count);
+            }
+            write(first, count, range);
+        }
+    }
+
+  private:
+    void read(size_t first, size_t count) {
+        for (size_t j = 0; j < planes_.size(); ++j) {
+            unpack_tile(planes_[j].header, planes_[j].source, num_points_, first, count, tile_[j]);
+            std::fill_n(tile_[j] + count, kTilePadding, int16_t{0});
+        }
+        for (size_t n = 0; n < count; n += kBlock) {
+            for (size_t j = 0; j < planes_.size(); j += kBlock) {
+                Eight block[kBlock];
+                for (size_t i = 0; i < kBlock; ++i) {
+                    std::memcpy(&block[i], tile_[j + i] + n, sizeof(Eight));
+                }
+                transpose(block);
+                for (size_t i = 0; i < kBlock; ++i) {
+                    std::memcpy(rows_[1 + first + n + i].lane + j, &block[i], sizeof(Eight));
+                }
+            }
+        }
+    }
+
+    template <bool kAllMeans>
+    void add(size_t first, size_t count) {
+        for (size_t n = first; n < first + count; ++n) {
+            const PlanePredictor::Parents& parents = parents_[n];
+            const Mean<Integer> mean(parents.has_three());
+            const Rows& a = rows_[parents.row[0]];
+            const Rows& b = rows_[parents.row[1]];
+            const Rows& c = rows_[parents.row[2]];
+            const Rows& d = rows_[parents.row[3]];
+            Rows& row = rows_[1 + n];
+#pragma GCC ivdep
+            for (size_t j = 0; j < kLanes; ++j) {
+                int16_t predicted = mean(a.lane[j], b.lane[j], c.lane[j], d.lane[j]);
+                if constexpr (!kAllMeans) {
+                    predicted = static_cast<int16_t>((predicted & means_.lane[j]) |
+                                                     (a.lane[j] & latest_.lane[j]));
+                }
+                row.lane[j] = static_cast<int16_t>(row.lane[j] + predicted);
+            }
+        }
+    }
+
+    void write(size_t first, size_t count, RangeCheck<Integer>& range) {
+        for (size_t j = 0; j < planes_.size(); j += kBlock) {
+            const size_t num_used = std::min(kBlock, planes_.size() - j);
+            for (size_t n = 0; n < count; n += kBlock) {
+                Eight block[kBlock];
+                for (size_t i = 0; i < kBlock; ++i) {
+                    std::memcpy(&block[i], rows_[1 + first + n + i].lane + j, sizeof(Eight));
+                }
+                transpose(block);
+                for (size_t i = 0; i < num_used; ++i) {
+                    range.add(block[i]);
+                    store(block[i], count - n, outs_[j + i] + first + n);
+                }
+            }
+        }
+    }
+
+    std::span<const PackedPlane> planes_;
+    std::span<Integer* const> outs_;
+    std::span<const PlanePredictor::Parents> parents_;
+    size_t num_points_;
+    std::unique_ptr<Rows[]> memory_;
+    Rows* rows_;
+    bool all_means_ = true;
+    Rows means_{}, latest_{};
+    int16_t tile_[kLanes][kTileValues + kTilePadding] = {};  // residuals
+};
+
+}  // namespace
+
+template <typename Integer>
+bool undo_planes(std::span<const PackedPlane> planes, const PlanePredictor& predictor,
+                 size_t num_points, Integer* out) {
+    RangeCheck<Integer> range;
+    std::vector<PackedPlane> predicted;
+    std::vector<Integer*> outs;
+    for (size_t j = 0; j < planes.size(); ++j) {
+        if (planes[j].header.prediction == Prediction::none) {
+            copy_plane(planes[j], num_points, out + j * num_points, range);
+        } else {
+            predicted.push_back(planes[j]);
+            outs.push_back(out + j * num_points);
+        }
+    }
+    for (size_t first = 0; first < predicted.size();) {
+        const size_t count = std::min<size_t>(32, predicted.size() - first);
+        const auto some = std::span(predicted).subspan(first, count);
+        const auto to = std::span<Integer* const>(outs).subspan(first, count);
+        if (count <= 8) {
+            Undo<Integer, 8>(some, to, predictor, num_points).run(range);
+        } else if (count <= 16) {
+            Undo<Integer, 16>(some, to, predictor, num_points).run(range);
+        } else {
+            Undo<Integer, 32>(some, to, predictor, num_points).run(range);
+        }
+        first += count;
+    }
+    return range.passed();
+}
+
+template bool undo_planes(std::span<const PackedPlane>, const PlanePredictor&, size_t, int8_t*);
+template bool undo_planes(std::span<const PackedPlane>, const PlanePredictor&, size_t, int16_t*);
+
+}  // namespace paim
