@@ -6,6 +6,10 @@
 // tiles that stay in the first-level cache.
 #include "paim/format/plane_undo.h"
 
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
 #include <algorithm>
 #include <cstring>
 #include <limits>
@@ -22,6 +26,7 @@ constexpr size_t kBlock = 8;  // values that are transposed at once, either way
 static_assert(kTileValues % kBlock == 0);
 
 typedef int16_t Eight __attribute__((vector_size(2 * kBlock)));
+typedef uint16_t Wrapping __attribute__((vector_size(2 * kBlock)));
 
 // Eight rows of eight become columns.
 __attribute__((always_inline)) inline void transpose(Eight (&m)[kBlock]) {
@@ -89,63 +94,80 @@ void copy_plane(const PackedPlane& plane, size_t num_points, Integer* out,
     }
 }
 
-constexpr uint32_t high_half(uint32_t a, uint32_t b) {
-    return (a * b) >> 16;
+// ⌊a · b / 65536⌋, lane by lane.
+__attribute__((always_inline)) inline Eight high_half(const Eight& a, const Eight& b) {
+#if defined(__SSE2__)
+    // Which the compiler does not find by itself if b is the same in all lanes.
+    return Eight(_mm_mulhi_epi16(__m128i(a), __m128i(b)));
+#else
+    Eight product;
+    for (size_t j = 0; j < kBlock; ++j) {
+        product[j] = static_cast<int16_t>((int32_t{a[j]} * b[j]) >> 16);
+    }
+    return product;
+#endif
 }
 
-// 1 / (2 · divisor) of 16 bits, rounded up: right for numerators up to 10,000 with divisors of 3 and 4.
-constexpr uint16_t reciprocal(int divisor) {
-    return static_cast<uint16_t>((65536 + 2 * divisor - 1) / (2 * divisor));
+// 65536 / (2 · divisor), rounded up: right for numerators up to 10,000 and divisors of 3 and 4.
+constexpr int16_t reciprocal(int divisor) {
+    return static_cast<int16_t>((65536 + 2 * divisor - 1) / (2 * divisor));
 }
 
-// The mean of four parents, or of three and a row of zeros, as PlanePredictor has it: all of it is
-// arithmetic of 16 bits. Values may be any; right as long as they are in range.
+__attribute__((always_inline)) inline Wrapping all_lanes(int value) {
+    return Wrapping{} + static_cast<uint16_t>(value);
+}
+
+// The mean of four parents, or of three and a row of zeros, as PlanePredictor has it, in arithmetic of
+// 16 bits that wraps around.
 template <typename Integer>
 struct Mean {
-    explicit Mean(bool three)
-        : divisor(three ? 3 : 4),
-          share(static_cast<int16_t>(three ? 21846 : 16384)),
-          half_share(reciprocal(divisor)) {}
+    __attribute__((always_inline)) explicit Mean(bool three)
+        : divisor(all_lanes(three ? 3 : 4)),
+          share(Eight(all_lanes(three ? 21846 : 16384))),
+          half_share(Eight(all_lanes(reciprocal(three ? 3 : 4)))) {}
 
-    int16_t divisor;
-    int16_t share;  // of 65536
-    uint16_t half_share;
+    Wrapping divisor;
+    Eight share;  // of 65536: 1 / divisor
+    Eight half_share;
 
-    // Of any int16_t: a sum in two parts, as it does not fit. Quarters, and what is left of them, 0 to
-    // 12; quarters again are divisor · quotient + remainder, with a remainder of 0 to 3.
-    int16_t operator()(int16_t a, int16_t b, int16_t c, int16_t d) const {
-        const auto quarters = static_cast<int16_t>((a >> 2) + (b >> 2) + (c >> 2) + (d >> 2));
-        const auto rest = static_cast<uint16_t>(a + b + c + d - 4 * quarters);
-        const auto quotient = static_cast<int16_t>((quarters * share) >> 16);
-        const auto remainder = static_cast<uint16_t>(quarters - quotient * divisor);
-        const auto numerator = static_cast<uint16_t>(8 * remainder + 2 * rest + divisor);
-        return static_cast<int16_t>(4 * quotient +
-                                    static_cast<int16_t>(high_half(numerator, half_share)));
+    // Of any values: their sum comes in parts, as it does not fit. Quarters, and what is left of them, 0
+    // to 12; quarters again are divisor · quotient + remainder, with a remainder of 0 to 3.
+    __attribute__((always_inline)) Wrapping operator()(const Wrapping& a, const Wrapping& b,
+                                                       const Wrapping& c, const Wrapping& d) const {
+        const Eight quarters =
+            (Eight(a) >> 2) + (Eight(b) >> 2) + (Eight(c) >> 2) + (Eight(d) >> 2);
+        const auto rest = a + b + c + d - 4 * Wrapping(quarters);
+        const auto quotient = Wrapping(high_half(quarters, share));
+        const auto remainder = Wrapping(quarters) - quotient * divisor;
+        const auto numerator = 8 * remainder + 2 * rest + divisor;
+        return 4 * quotient + Wrapping(high_half(Eight(numerator), half_share));
     }
 };
 
+// Of values in range, whose sum fits.
 template <>
 struct Mean<int8_t> {
     // Makes the numerator positive: no mean of values in range is less.
     static constexpr int kPositive = 512;
 
-    explicit Mean(bool three)
-        : offset(static_cast<uint16_t>((three ? 3 : 4) * (1 + 2 * kPositive))),
-          half_share(reciprocal(three ? 3 : 4)) {}
+    __attribute__((always_inline)) explicit Mean(bool three)
+        : offset(all_lanes((three ? 3 : 4) * (1 + 2 * kPositive))),
+          half_share(Eight(all_lanes(reciprocal(three ? 3 : 4)))) {}
 
-    uint16_t offset;
-    uint16_t half_share;
+    Wrapping offset;
+    Eight half_share;
 
-    int16_t operator()(int16_t a, int16_t b, int16_t c, int16_t d) const {
-        const auto numerator = static_cast<uint16_t>(2 * (a + b + c + d) + offset);
-        return static_cast<int16_t>(high_half(numerator, half_share) - kPositive);
+    __attribute__((always_inline)) Wrapping operator()(const Wrapping& a, const Wrapping& b,
+                                                       const Wrapping& c, const Wrapping& d) const {
+        const auto numerator = 2 * (a + b + c + d) + offset;
+        return Wrapping(high_half(Eight(numerator), half_share)) - kPositive;
     }
 };
 
 // Values of planes at a vertex.
 template <size_t kLanes>
 struct alignas(2 * kLanes) Row {
-    int16_t lane[kLanes];
+    Wrapping eight[kLanes / kBlock];
 };
 
 template <typename Integer, size_t kLanes>
@@ -167,8 +189,7 @@ class Undo {
         rows_[0] = {};
         for (size_t j = 0; j < planes.size(); ++j) {
             const bool mean = planes[j].header.prediction == Prediction::mean;
-            means_.lane[j] = mean ? -1 : 0;
-            latest_.lane[j] = mean ? 0 : -1;
+            means_.eight[j / kBlock][j % kBlock] = mean ? 0xffff : 0;
             all_means_ = all_means_ && mean;
         }
     }
@@ -200,7 +221,7 @@ class Undo {
                 }
                 transpose(block);
                 for (size_t i = 0; i < kBlock; ++i) {
-                    std::memcpy(rows_[1 + first + n + i].lane + j, &block[i], sizeof(Eight));
+                    rows_[1 + first + n + i].eight[j / kBlock] = Wrapping(block[i]);
                 }
             }
         }
@@ -216,14 +237,13 @@ class Undo {
             const Rows& c = rows_[parents.row[2]];
             const Rows& d = rows_[parents.row[3]];
             Rows& row = rows_[1 + n];
-#pragma GCC ivdep
-            for (size_t j = 0; j < kLanes; ++j) {
-                int16_t predicted = mean(a.lane[j], b.lane[j], c.lane[j], d.lane[j]);
+#pragma GCC unroll 4
+            for (size_t j = 0; j < kLanes / kBlock; ++j) {
+                Wrapping predicted = mean(a.eight[j], b.eight[j], c.eight[j], d.eight[j]);
                 if constexpr (!kAllMeans) {
-                    predicted = static_cast<int16_t>((predicted & means_.lane[j]) |
-                                                     (a.lane[j] & latest_.lane[j]));
+                    predicted = (predicted & means_.eight[j]) | (a.eight[j] & ~means_.eight[j]);
                 }
-                row.lane[j] = static_cast<int16_t>(row.lane[j] + predicted);
+                row.eight[j] += predicted;
             }
         }
     }
@@ -234,7 +254,7 @@ class Undo {
             for (size_t n = 0; n < count; n += kBlock) {
                 Eight block[kBlock];
                 for (size_t i = 0; i < kBlock; ++i) {
-                    std::memcpy(&block[i], rows_[1 + first + n + i].lane + j, sizeof(Eight));
+                    block[i] = Eight(rows_[1 + first + n + i].eight[j / kBlock]);
                 }
                 transpose(block);
                 for (size_t i = 0; i < num_used; ++i) {
@@ -252,7 +272,7 @@ class Undo {
     std::unique_ptr<Rows[]> memory_;
     Rows* rows_;
     bool all_means_ = true;
-    Rows means_{}, latest_{};
+    Rows means_{};                                           // every bit of a lane
     int16_t tile_[kLanes][kTileValues + kTilePadding] = {};  // residuals
 };
 
