@@ -97,20 +97,21 @@ std::vector<uint8_t> encode_planes(const StoredValues& values, size_t num_planes
         contents.insert(contents.end(), best.bytes.begin(), best.bytes.end());
         ends.push_back(contents.size());
     }
-    return zstd_compress(contents, ends, effort);
+    return zstd_compress_numbers(contents, ends, effort);
 }
 
 template <typename Integer>
 bool decode_planes(std::span<const uint8_t> bytes, size_t num_planes,
-                   const PlanePredictor& predictor, std::span<Integer> out) {
+                   const PlanePredictor& predictor, ScratchPool& pool, std::span<Integer> out) {
     PAIM_CHECK(num_planes > 0);
     const size_t num_points = out.size() / num_planes;
     PAIM_CHECK_EQ(num_points * num_planes, out.size());
     const uint64_t most = kHeaderBytes * uint64_t{num_planes} + 2 * uint64_t{out.size()};
     const auto size = zstd_content_size(bytes);
     if (!size || *size > most || *size < kHeaderBytes * num_planes) return false;
-    std::vector<uint8_t> contents(*size);
-    if (!zstd_decompress(bytes, contents)) return false;
+    ScratchPool::Lease scratch(pool);
+    auto* const contents = reinterpret_cast<uint8_t*>((*scratch).contents.resize(*size));
+    if (!zstd_decompress(bytes, std::span(contents, *size))) return false;
 
     size_t place = kHeaderBytes * num_planes;
     std::vector<PackedPlane> planes(num_planes);
@@ -127,16 +128,17 @@ bool decode_planes(std::span<const uint8_t> bytes, size_t num_planes,
             return false;
         }
         const size_t plane_bytes = packed_size(header, num_points);
-        if (plane_bytes > contents.size() - place) return false;
-        planes[j] = {header, contents.data() + place};
+        if (plane_bytes > *size - place) return false;
+        planes[j] = {header, contents + place};
         place += plane_bytes;
     }
-    return place == contents.size() && undo_planes(planes, predictor, num_points, out.data());
+    return place == *size &&
+           undo_planes(planes, predictor, num_points, (*scratch).rows, out.data());
 }
 
-template bool decode_planes(std::span<const uint8_t>, size_t, const PlanePredictor&,
+template bool decode_planes(std::span<const uint8_t>, size_t, const PlanePredictor&, ScratchPool&,
                             std::span<int8_t>);
-template bool decode_planes(std::span<const uint8_t>, size_t, const PlanePredictor&,
+template bool decode_planes(std::span<const uint8_t>, size_t, const PlanePredictor&, ScratchPool&,
                             std::span<int16_t>);
 
 }  // namespace paim

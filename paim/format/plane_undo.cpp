@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
-#include <memory>
 #include <vector>
 
 #include "paim/base/check.h"
@@ -48,33 +47,39 @@ __attribute__((always_inline)) inline void transpose(Eight (&m)[kBlock]) {
     }
 }
 
-// Whether any value so far was outside of the symmetrical range of the integers.
+// Whether all values so far were in the symmetrical range of the integers.
 template <typename Integer>
 class RangeCheck {
   public:
-    void add(const Eight& values) {
-        constexpr int16_t kMost = std::numeric_limits<Integer>::max();
-        outside_ |= (values > kMost) | (values < static_cast<int16_t>(-kMost));
+    __attribute__((always_inline)) void add(const Eight& values) {
+        most_ = values > most_ ? values : most_;
+        least_ = values < least_ ? values : least_;
     }
     bool passed() const {
-        bool any = false;
-        for (size_t j = 0; j < kBlock; ++j) any = any || outside_[j] != 0;
-        return !any;
+        constexpr int16_t kMost = std::numeric_limits<Integer>::max();
+        for (size_t j = 0; j < kBlock; ++j) {
+            if (most_[j] > kMost || least_[j] < -kMost) return false;
+        }
+        return true;
     }
 
   private:
-    Eight outside_{};
+    Eight most_{}, least_{};
 };
 
 template <typename Integer>
-__attribute__((always_inline)) inline void store(const Eight& values, size_t count, Integer* out) {
+__attribute__((always_inline)) inline void store(const Eight& values, Integer* out) {
     typedef Integer Narrow __attribute__((vector_size(kBlock * sizeof(Integer))));
     const Narrow narrow = __builtin_convertvector(values, Narrow);
-    if (count >= kBlock) {
-        std::memcpy(out, &narrow, sizeof(narrow));
-    } else {
-        for (size_t j = 0; j < count; ++j) out[j] = narrow[j];
-    }
+    std::memcpy(out, &narrow, sizeof(narrow));
+}
+
+// The first so many of eight.
+template <typename Integer>
+void store_some(const Eight& values, size_t count, Integer* out) {
+    Integer all[kBlock];
+    store(values, all);
+    std::copy_n(all, count, out);
 }
 
 template <typename Integer>
@@ -89,7 +94,11 @@ void copy_plane(const PackedPlane& plane, size_t num_points, Integer* out,
             Eight values;
             std::memcpy(&values, tile + j, sizeof(values));
             range.add(values);
-            store(values, count - j, out + first + j);
+            if (count - j >= kBlock) {
+                store(values, out + first + j);
+            } else {
+                store_some(values, count - j, out + first + j);
+            }
         }
     }
 }
@@ -177,14 +186,13 @@ class Undo {
 
     // planes, outs [up to kLanes]
     Undo(std::span<const PackedPlane> planes, std::span<Integer* const> outs,
-         const PlanePredictor& predictor, size_t num_points)
+         const PlanePredictor& predictor, size_t num_points, ScratchPool::Buffer& rows)
         : planes_(planes),
           outs_(outs),
           parents_(predictor.parents()),
           num_points_(num_points),
           // Nobody's, then one a vertex, then what completes the last block.
-          memory_(std::make_unique_for_overwrite<Rows[]>(1 + num_points + kBlock)),
-          rows_(memory_.get()) {
+          rows_(reinterpret_cast<Rows*>(rows.resize((1 + num_points + kBlock) * sizeof(Rows)))) {
         PAIM_CHECK_EQ(parents_.size(), num_points);
         rows_[0] = {};
         for (size_t j = 0; j < planes.size(); ++j) {
@@ -208,7 +216,7 @@ class Undo {
     }
 
   private:
-    void read(size_t first, size_t count) {
+    __attribute__((noinline)) void read(size_t first, size_t count) {
         for (size_t j = 0; j < planes_.size(); ++j) {
             unpack_tile(planes_[j].header, planes_[j].source, num_points_, first, count, tile_[j]);
             std::fill_n(tile_[j] + count, kTilePadding, int16_t{0});
@@ -228,7 +236,7 @@ class Undo {
     }
 
     template <bool kAllMeans>
-    void add(size_t first, size_t count) {
+    __attribute__((noinline)) void add(size_t first, size_t count) {
         for (size_t n = first; n < first + count; ++n) {
             const PlanePredictor::Parents& parents = parents_[n];
             const Mean<Integer> mean(parents.has_three());
@@ -248,28 +256,46 @@ class Undo {
         }
     }
 
-    void write(size_t first, size_t count, RangeCheck<Integer>& range) {
+    __attribute__((noinline)) void write(size_t first, size_t count, RangeCheck<Integer>& range) {
+        const size_t whole = count - count % kBlock;
         for (size_t j = 0; j < planes_.size(); j += kBlock) {
             const size_t num_used = std::min(kBlock, planes_.size() - j);
-            for (size_t n = 0; n < count; n += kBlock) {
-                Eight block[kBlock];
-                for (size_t i = 0; i < kBlock; ++i) {
-                    block[i] = Eight(rows_[1 + first + n + i].eight[j / kBlock]);
-                }
-                transpose(block);
-                for (size_t i = 0; i < num_used; ++i) {
-                    range.add(block[i]);
-                    store(block[i], count - n, outs_[j + i] + first + n);
+            Integer* to[kBlock];
+            for (size_t i = 0; i < kBlock; ++i)
+                to[i] = outs_[j + std::min(i, num_used - 1)] + first;
+            Eight block[kBlock];
+            for (size_t n = 0; n < whole; n += kBlock) {
+                load_columns(first + n, j, block, range);
+                if (num_used == kBlock) {
+#pragma GCC unroll 8
+                    for (size_t i = 0; i < kBlock; ++i) store(block[i], to[i] + n);
+                } else {
+                    for (size_t i = 0; i < num_used; ++i) store(block[i], to[i] + n);
                 }
             }
+            if (whole == count) continue;
+            load_columns(first + whole, j, block, range);
+            for (size_t i = 0; i < num_used; ++i) {
+                store_some(block[i], count - whole, to[i] + whole);
+            }
         }
+    }
+
+    // block[i] = plane j + i at eight points from n on. Lanes that no plane has are zero.
+    __attribute__((always_inline)) void load_columns(size_t n, size_t j, Eight (&block)[kBlock],
+                                                     RangeCheck<Integer>& range) const {
+#pragma GCC unroll 8
+        for (size_t i = 0; i < kBlock; ++i) {
+            block[i] = Eight(rows_[1 + n + i].eight[j / kBlock]);
+            range.add(block[i]);
+        }
+        transpose(block);
     }
 
     std::span<const PackedPlane> planes_;
     std::span<Integer* const> outs_;
     std::span<const PlanePredictor::Parents> parents_;
     size_t num_points_;
-    std::unique_ptr<Rows[]> memory_;
     Rows* rows_;
     bool all_means_ = true;
     Rows means_{};                                           // every bit of a lane
@@ -280,7 +306,7 @@ class Undo {
 
 template <typename Integer>
 bool undo_planes(std::span<const PackedPlane> planes, const PlanePredictor& predictor,
-                 size_t num_points, Integer* out) {
+                 size_t num_points, ScratchPool::Buffer& rows, Integer* out) {
     RangeCheck<Integer> range;
     std::vector<PackedPlane> predicted;
     std::vector<Integer*> outs;
@@ -297,18 +323,20 @@ bool undo_planes(std::span<const PackedPlane> planes, const PlanePredictor& pred
         const auto some = std::span(predicted).subspan(first, count);
         const auto to = std::span<Integer* const>(outs).subspan(first, count);
         if (count <= 8) {
-            Undo<Integer, 8>(some, to, predictor, num_points).run(range);
+            Undo<Integer, 8>(some, to, predictor, num_points, rows).run(range);
         } else if (count <= 16) {
-            Undo<Integer, 16>(some, to, predictor, num_points).run(range);
+            Undo<Integer, 16>(some, to, predictor, num_points, rows).run(range);
         } else {
-            Undo<Integer, 32>(some, to, predictor, num_points).run(range);
+            Undo<Integer, 32>(some, to, predictor, num_points, rows).run(range);
         }
         first += count;
     }
     return range.passed();
 }
 
-template bool undo_planes(std::span<const PackedPlane>, const PlanePredictor&, size_t, int8_t*);
-template bool undo_planes(std::span<const PackedPlane>, const PlanePredictor&, size_t, int16_t*);
+template bool undo_planes(std::span<const PackedPlane>, const PlanePredictor&, size_t,
+                          ScratchPool::Buffer&, int8_t*);
+template bool undo_planes(std::span<const PackedPlane>, const PlanePredictor&, size_t,
+                          ScratchPool::Buffer&, int16_t*);
 
 }  // namespace paim
