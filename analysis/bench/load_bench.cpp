@@ -2,6 +2,7 @@
 // sections, and a copy of the values that come of it.
 // PAIM_BENCH_LOAD names a .paim to load as well.
 #include <benchmark/benchmark.h>
+#include <malloc.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -154,8 +155,21 @@ class BareFrames {
     size_t num_bytes_ = 0;
 };
 
+// Where the memory of a loaded model comes from: fresh pages cost time of their own.
+enum class Memory { from_system, kept };
+
+void keep_memory(Memory memory) {
+#if defined(__GLIBC__)
+    constexpr int kGigabyte = 1 << 30;
+    mallopt(M_MMAP_THRESHOLD, memory == Memory::kept ? kGigabyte : 128 << 10);
+    mallopt(M_TRIM_THRESHOLD, memory == Memory::kept ? kGigabyte : 128 << 10);
+#endif
+}
+
 // One thread. Counters, medians over the iterations, of processor time:
-//   decoded_GB_s       bytes of means and components in memory, a second
+//   decoded_GB_s       bytes of means and components in memory, a second, where the process has that
+//                      memory already
+//   fresh_GB_s         the same with all of it fresh from the system
 //   as_floats_GB_s     the same if every value were a float
 //   of_zstd            time of bare Zstandard over the file's sections, into memory that is there
 //                      already / time to load it
@@ -169,8 +183,12 @@ void load(benchmark::State& state, const fs::path& path) {
     const auto count = static_cast<double>(num_values(model));
     BareFrames frames(path);
     std::vector<char> from(bytes_of_values(model), 1), to(from.size(), 2);
-    std::vector<double> our_times, zstd_times, zstd_ratios, copy_ratios;
+    std::vector<double> our_times, fresh_times, zstd_times, zstd_ratios, copy_ratios;
     for (auto _ : state) {
+        keep_memory(Memory::from_system);
+        const Times fresh = timed([&] { benchmark::DoNotOptimize(read_paim(path)); });
+        keep_memory(Memory::kept);
+        benchmark::DoNotOptimize(read_paim(path));
         const Times ours = timed([&] { benchmark::DoNotOptimize(read_paim(path)); });
         const Times bare = timed([&] {
             if (!frames.decompress()) state.SkipWithError("frames do not decompress");
@@ -182,11 +200,13 @@ void load(benchmark::State& state, const fs::path& path) {
         });
         state.SetIterationTime(ours.wall_s);
         our_times.push_back(ours.cpu_s);
+        fresh_times.push_back(fresh.cpu_s);
         zstd_times.push_back(bare.cpu_s);
         zstd_ratios.push_back(bare.cpu_s / ours.cpu_s);
         copy_ratios.push_back(copy.cpu_s / ours.cpu_s);
     }
     state.counters["decoded_GB_s"] = 1e-9 * decoded_bytes / median(our_times);
+    state.counters["fresh_GB_s"] = 1e-9 * decoded_bytes / median(fresh_times);
     state.counters["as_floats_GB_s"] = 1e-9 * sizeof(float) * count / median(our_times);
     state.counters["of_zstd"] = median(zstd_ratios);
     state.counters["of_copy"] = median(copy_ratios);
