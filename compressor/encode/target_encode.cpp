@@ -249,6 +249,7 @@ class TargetEncoder {
         // Sizes fall about as a power of the error. Bisection in its logarithm; the last that fits.
         double low = std::log(1.02 * std::max(1e-4, material_.floor.transfer.total()));
         double high = std::log(0.5);
+        check_reachable(material_, std::exp(high));
         constexpr int kRounds = 7;
         std::string reason;
         std::optional<Result> best;
