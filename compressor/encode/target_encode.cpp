@@ -16,6 +16,7 @@
 #include "paim/base/error.h"
 #include "paim/base/file.h"
 #include "paim/format/paim_packer.h"
+#include "paim/metrics/rates.h"
 
 namespace paim {
 
@@ -209,6 +210,7 @@ class TargetEncoder {
                   const EncodeTarget& target, TargetSummary& summary)
         : material_(material),
           target_(target),
+          noise_(options.noise == NoiseTreatment::shrink ? "shrink" : "keep"),
           summary_(summary),
           encoder_(material, options, target) {}
 
@@ -236,7 +238,7 @@ class TargetEncoder {
         summary_.geometry_target = targets.geometry;
         nlohmann::ordered_json provenance = nlohmann::ordered_json::parse(
             bake_provenance(material_.bake.identity(), material_.statistics));
-        provenance["noise"] = "shrink";
+        provenance["noise"] = noise_;
         provenance["measured"] =
             nlohmann::ordered_json::parse(error_statement_json(summary_.error, target_.spectrum));
         model->provenance_json = provenance.dump();
@@ -282,6 +284,7 @@ class TargetEncoder {
   private:
     const Material& material_;
     const EncodeTarget& target_;
+    const char* noise_;
     TargetSummary& summary_;
     Encoder encoder_;
 };
@@ -332,7 +335,15 @@ TargetSummary encode_to_target(const BakeReader& bake, const EncodeOptions& opti
     summary.size_bytes = result->file.size_bytes();
     summary.geometry_components = result->model.geometry.num_components;
     for (Candidate& candidate : summary.candidates) {
-        if (candidate.chosen) candidate.bands = result->model.layout.bands;
+        if (!candidate.chosen) continue;
+        // Refining may have changed what was compared.
+        const Model& model = result->model;
+        candidate.bands = model.layout.bands;
+        candidate.components = model.transfer.num_components;
+        if (model.clusters.empty()) {
+            candidate.multiply_adds = static_cast<uint32_t>(
+                svd_transfer_cost(model.layout, candidate.components, true).per_vertex());
+        }
     }
     return summary;
 }

@@ -13,6 +13,7 @@
 #include "paim/codec/component_planes.h"
 #include "paim/format/paim_file.h"
 #include "paim/mesh/locality.h"
+#include "paim/metrics/rates.h"
 #include "tests/temporary_directory.h"
 #include "tests/unit/encode/target_bake.h"
 
@@ -71,6 +72,8 @@ TEST_F(TargetEncode, FilesAreWithinTheErrorsThatTheyState) {
             EXPECT_EQ(model.clusters.empty(), codec == CodecChoice::svd);
             EXPECT_EQ(summary.chosen().codec, codec == CodecChoice::svd ? "svd" : "cpca");
             EXPECT_EQ(summary.size_bytes, std::filesystem::file_size(output_));
+            EXPECT_EQ(summary.chosen().components, model.transfer.num_components);
+            EXPECT_NE(model.provenance_json.find(R"("noise":"shrink")"), std::string::npos);
             const LightSpectrum spectrum = LightSpectrum::flat(4);
             const auto measured = named_errors(measure_model(model, bake, spectrum));
             const ErrorStatement stated = read_error_statement(model, output_);
@@ -177,6 +180,11 @@ TEST_F(TargetEncode, BandsBelowTheTargetAreNotStored) {
     const TargetSummary summary = encode(bake, target(bake, 0.02));
     const Model model = read_paim(output_);
     EXPECT_LE(model.layout.bands, 2u);
+    if (model.clusters.empty()) {
+        EXPECT_EQ(
+            summary.chosen().multiply_adds,
+            svd_transfer_cost(model.layout, model.transfer.num_components, true).per_vertex());
+    }
     EXPECT_EQ(summary.chosen().bands, model.layout.bands);
     EXPECT_LE(summary.error.transfer.total(), 0.02);
 }
@@ -295,6 +303,14 @@ TEST_F(TargetEncode, FloatsMeetTheTargetToo) {
                   summary.error.transfer.total());
         EXPECT_EQ(summary.chosen().components, model.transfer.num_components);
     }
+}
+
+TEST_F(TargetEncode, KeepsNoiseWhereAskedTo) {
+    const BakeReader bake = this->bake();
+    options_.noise = NoiseTreatment::keep;
+    const TargetSummary summary = encode(bake, target(bake, 0.02));
+    EXPECT_LE(summary.error.transfer.total(), 0.02);
+    EXPECT_NE(read_paim(output_).provenance_json.find(R"("noise":"keep")"), std::string::npos);
 }
 
 TEST_F(TargetEncode, RefusesMemoryThatDoesNotSuffice) {
