@@ -16,6 +16,7 @@
 #include "paim/base/error.h"
 #include "paim/base/file.h"
 #include "paim/format/paim_packer.h"
+#include "paim/metrics/rates.h"
 
 namespace paim {
 
@@ -208,8 +209,8 @@ class TargetEncoder {
     TargetEncoder(const Material& material, const EncodeOptions& options,
                   const EncodeTarget& target, TargetSummary& summary)
         : material_(material),
-          noise_(options.noise),
           target_(target),
+          noise_(options.noise == NoiseTreatment::shrink ? "shrink" : "keep"),
           summary_(summary),
           encoder_(material, options, target) {}
 
@@ -237,7 +238,7 @@ class TargetEncoder {
         summary_.geometry_target = targets.geometry;
         nlohmann::ordered_json provenance = nlohmann::ordered_json::parse(
             bake_provenance(material_.bake.identity(), material_.statistics));
-        provenance["noise"] = noise_ == NoiseTreatment::shrink ? "shrink" : "keep";
+        provenance["noise"] = noise_;
         provenance["measured"] =
             nlohmann::ordered_json::parse(error_statement_json(summary_.error, target_.spectrum));
         model->provenance_json = provenance.dump();
@@ -251,6 +252,7 @@ class TargetEncoder {
         // Sizes fall about as a power of the error. Bisection in its logarithm; the last that fits.
         double low = std::log(1.02 * std::max(1e-4, material_.floor.transfer.total()));
         double high = std::log(0.5);
+        check_reachable(material_, std::exp(high));
         constexpr int kRounds = 7;
         std::string reason;
         std::optional<Result> best;
@@ -283,8 +285,8 @@ class TargetEncoder {
 
   private:
     const Material& material_;
-    NoiseTreatment noise_;
     const EncodeTarget& target_;
+    const char* noise_;
     TargetSummary& summary_;
     Encoder encoder_;
 };
@@ -335,7 +337,15 @@ TargetSummary encode_to_target(const BakeReader& bake, const EncodeOptions& opti
     summary.size_bytes = result->file.size_bytes();
     summary.geometry_components = result->model.geometry.num_components;
     for (Candidate& candidate : summary.candidates) {
-        if (candidate.chosen) candidate.bands = result->model.layout.bands;
+        if (!candidate.chosen) continue;
+        // Refining may have changed what was compared.
+        const Model& model = result->model;
+        candidate.bands = model.layout.bands;
+        candidate.components = model.transfer.num_components;
+        if (model.clusters.empty()) {
+            candidate.multiply_adds = static_cast<uint32_t>(
+                svd_transfer_cost(model.layout, candidate.components, true).per_vertex());
+        }
     }
     return summary;
 }
