@@ -73,6 +73,12 @@ TEST_F(Target, SpeedTakesTheFewestMultiplyAdds) {
         EXPECT_GE(candidate["multiply_adds"].get<int>(), fast["multiply_adds"].get<int>());
     }
     EXPECT_EQ(verify("y.paim"), 0);
+    const json held = parse_object(info({path("y.paim"), "--json"}));
+    EXPECT_EQ(held["transfer_codec"], "cpca");
+    EXPECT_EQ(held["clusters"], fast["clusters"]);
+    EXPECT_EQ(held["cluster_components"], fast["cluster_components"]);
+    EXPECT_EQ(held["vertex_order"], "local");
+    EXPECT_TRUE(held["geometry"]["precision"] == "i8" || held["geometry"]["precision"] == "i16");
     const json limited = encode("z.paim", {"--max-error", "5%", "--max-decode-cost", "40"});
     EXPECT_LE(limited["multiply_adds"].get<int>(), 40);
     EXPECT_EQ(verify("z.paim"), 0);
