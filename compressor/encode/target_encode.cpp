@@ -209,8 +209,8 @@ class TargetEncoder {
     TargetEncoder(const Material& material, const EncodeOptions& options,
                   const EncodeTarget& target, TargetSummary& summary)
         : material_(material),
+          noise_(options.noise),
           target_(target),
-          noise_(options.noise == NoiseTreatment::shrink ? "shrink" : "keep"),
           summary_(summary),
           encoder_(material, options, target) {}
 
@@ -238,7 +238,7 @@ class TargetEncoder {
         summary_.geometry_target = targets.geometry;
         nlohmann::ordered_json provenance = nlohmann::ordered_json::parse(
             bake_provenance(material_.bake.identity(), material_.statistics));
-        provenance["noise"] = noise_;
+        provenance["noise"] = noise_ == NoiseTreatment::shrink ? "shrink" : "keep";
         provenance["measured"] =
             nlohmann::ordered_json::parse(error_statement_json(summary_.error, target_.spectrum));
         model->provenance_json = provenance.dump();
@@ -247,7 +247,8 @@ class TargetEncoder {
     }
 
     // The smallest error whose file fits. Errors: threshold exceeded, with the smallest file there is.
-    Result fit(uint64_t most_bytes) {
+    // say  is told each error that is tried
+    Result fit(uint64_t most_bytes, const std::function<void(const char*)>& say) {
         // Sizes fall about as a power of the error. Bisection in its logarithm; the last that fits.
         double low = std::log(1.02 * std::max(1e-4, material_.floor.transfer.total()));
         double high = std::log(0.5);
@@ -260,6 +261,7 @@ class TargetEncoder {
         for (int round = 0; round < kRounds; ++round) {
             // First whether anything fits at all.
             const double at = round == 0 ? high : 0.5 * (low + high);
+            say(fmt::format("trying a transfer error of {:.3g} %", 100.0 * std::exp(at)).c_str());
             auto result = meet(std::exp(at), reason);
             if (result) smallest = result->file.size_bytes();
             if (result && result->file.size_bytes() <= most_bytes) {
@@ -283,8 +285,8 @@ class TargetEncoder {
 
   private:
     const Material& material_;
+    NoiseTreatment noise_;
     const EncodeTarget& target_;
-    const char* noise_;
     TargetSummary& summary_;
     Encoder encoder_;
 };
@@ -329,7 +331,7 @@ TargetSummary encode_to_target(const BakeReader& bake, const EncodeOptions& opti
                             result->file.size_bytes(), *target.size_bytes));
         }
     } else {
-        result = encoder.fit(*target.size_bytes);
+        result = encoder.fit(*target.size_bytes, say);
     }
     result->file.write(output);
     summary.size_bytes = result->file.size_bytes();
