@@ -216,6 +216,7 @@ class TargetEncoder {
     TargetEncoder(const Material& material, const EncodeOptions& options,
                   const EncodeTarget& target, TargetSummary& summary)
         : material_(material),
+          noise_(options.noise),
           target_(target),
           summary_(summary),
           encoder_(material, options, target) {}
@@ -244,11 +245,7 @@ class TargetEncoder {
         summary_.geometry_target = targets.geometry;
         nlohmann::ordered_json provenance = nlohmann::ordered_json::parse(
             bake_provenance(material_.bake.identity(), material_.statistics));
-<<<<<<< HEAD
-        provenance["noise"] = noise_;
-=======
         provenance["noise"] = noise_ == NoiseTreatment::shrink ? "shrink" : "keep";
->>>>>>> etests
         provenance["measured"] =
             nlohmann::ordered_json::parse(error_statement_json(summary_.error, target_.spectrum));
         model->provenance_json = provenance.dump();
@@ -295,6 +292,7 @@ class TargetEncoder {
 
   private:
     const Material& material_;
+    NoiseTreatment noise_;
     const EncodeTarget& target_;
     TargetSummary& summary_;
     Encoder encoder_;
