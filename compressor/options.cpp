@@ -134,6 +134,10 @@ void add_encode_options(CLI::App& app, CompressOptions& options, RawOptions& raw
         ->check(CLI::IsMember({"auto", "f32", "f16"}))
         ->capture_default_str();
     add_target_options(app, raw.target);
+    app.add_flag(
+        "--measure", options.measure,
+        "Measure the file when it is written, and state its errors in it, as is always done "
+        "with --max-error and --max-size; takes memory for the whole of it");
     app.add_option(
            "--memory", raw.memory,
            "Memory that encoding stays below, bytes or with K, M, G or T for powers of 1000; "

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "compressor/encode/float_part.h"
@@ -41,8 +42,11 @@ void TransferCoding::apply(const Material& material, Model& model) const {
     model.clusters = {};
     if (!is_integer(precision)) {
         model.transfer = float_part(material.transfer, quantiser.num_components, precision);
-    } else if (clustered) {
-        ClusteredMatrix quantised = quantise_clusters(*clustered, quantiser);
+    } else if (clusters) {
+        ClusteredMatrix quantised =
+            quantise_clusters(cluster_bases(material.transfer, material.plane_weight, *clusters,
+                                            candidate.cluster_components),
+                              quantiser);
         model.transfer = std::move(quantised.matrix);
         model.clusters = std::move(quantised.clusters);
     } else {
@@ -79,8 +83,8 @@ void TransferSearch::add_svd(double most_error, std::vector<TransferCoding>& cod
         TransferCoding coding;
         coding.quantiser = std::move(choice.quantiser);
         coding.candidate.codec = "svd";
-        coding.candidate.components = choice.matrix.num_components;
-        coding.candidate.multiply_adds = svd_cost(material_.layout, choice.matrix.num_components);
+        coding.candidate.components = choice.num_components;
+        coding.candidate.multiply_adds = svd_cost(material_.layout, choice.num_components);
         coding.candidate.bytes = choice.bytes;
         codings.push_back(std::move(coding));
     }
@@ -94,7 +98,7 @@ const TransferSearch::Clusters& TransferSearch::clusters(uint32_t num_clusters,
     clustering.num_clusters = num_clusters;
     clustering.assumed_components = assumed_components;
     clustering.max_components = kMostClusterComponents;
-    clustering.memory_bytes = options_.memory_bytes;
+    clustering.memory_bytes = material_.spare_bytes;
     const ScorePoints points(material_.transfer, material_.plane_weight);
     found.pca = std::make_shared<const ClusteredPca>(
         clustered_pca(points, clustering, nullptr, material_.bake.directory().string()));
@@ -119,25 +123,27 @@ void TransferSearch::add_clusters(uint32_t num_clusters, double most_error,
     if (needed > kMostClusterComponents) return;
     if (needed > kFirstGuess + kFirstGuess / 2) assumed = 2 * kFirstGuess;
     if (needed < kFirstGuess / 2 + 1) assumed = kFirstGuess / 2;
-    Clusters& chosen = clusters_[{num_clusters, (clusters(num_clusters, assumed), assumed)}];
+    const Clusters& chosen = clusters_[{num_clusters, (clusters(num_clusters, assumed), assumed)}];
 
     std::set<uint32_t> counts;
     for (const double share : {0.9, kUsualShare, 0.3}) counts.insert(fewest(*chosen.pca, share));
     for (const uint32_t count : counts) {
         if (count > kMostClusterComponents) continue;
+        // No more rows of bases than what they stand for.
+        if (uint64_t{chosen.pca->num_clusters} * (count + 1) > material_.transfer.num_points) {
+            continue;
+        }
         const uint32_t cost = cpca_cost(material_.layout, chosen.pca->num_clusters, count);
         if (!cheap_enough(cost)) continue;
-        auto& clustered = chosen.by_components[count];
-        if (!clustered) {
-            clustered = std::make_shared<const ClusteredScores>(
-                cluster_bases(material_.transfer, material_.plane_weight, *chosen.pca, count));
-        }
+        // Made again whenever they are needed: they may be larger than the scores.
+        const ClusteredScores clustered =
+            cluster_bases(material_.transfer, material_.plane_weight, *chosen.pca, count);
         TransferCoding coding;
-        coding.clustered = clustered;
+        coding.clusters = chosen.pca;
         coding.quantiser = {1.0, material_.transfer.num_components(), material_.plane_weight};
-        coding.quantiser.step = largest_step(*clustered, coding.quantiser, most_error);
+        coding.quantiser.step = largest_step(clustered, coding.quantiser, most_error);
         if (coding.quantiser.step == 0.0) continue;
-        const ClusteredMatrix quantised = quantise_clusters(*clustered, coding.quantiser);
+        const ClusteredMatrix quantised = quantise_clusters(clustered, coding.quantiser);
         coding.candidate.codec = "cpca";
         coding.candidate.components = quantised.matrix.num_components;
         coding.candidate.clusters = chosen.pca->num_clusters;
@@ -149,6 +155,34 @@ void TransferSearch::add_clusters(uint32_t num_clusters, double most_error,
     }
 }
 
+void TransferSearch::add_all_clusters(double most_error, std::vector<TransferCoding>& codings) {
+    // Fewer than some vertices a cluster and the bases are as large as what they stand for.
+    constexpr uint32_t kLeastPerCluster = 8;
+    constexpr std::array<uint32_t, 6> kCounts{32, 64, 128, 256, 512, 1024};
+    // Once more clusters have made files this much larger, they go on doing so.
+    constexpr double kPastTheSmallest = 1.3;
+    const uint32_t most = std::max(1u, material_.transfer.num_points / kLeastPerCluster);
+    const auto fewest_bytes = [&](size_t first) {
+        uint64_t fewest = std::numeric_limits<uint64_t>::max();
+        for (size_t j = first; j < codings.size(); ++j) {
+            fewest = std::min(fewest, codings[j].candidate.bytes);
+        }
+        return static_cast<double>(fewest);
+    };
+    const size_t first = codings.size();
+    uint32_t tried = 0;
+    for (const uint32_t count : kCounts) {
+        if (std::min(count, most) == tried) break;
+        tried = std::min(count, most);
+        const size_t before = codings.size();
+        add_clusters(tried, most_error, codings);
+        if (target_.preference == Preference::size && codings.size() > before &&
+            fewest_bytes(before) > kPastTheSmallest * fewest_bytes(first)) {
+            break;
+        }
+    }
+}
+
 std::vector<TransferCoding> TransferSearch::codings(double most_error) {
     std::vector<TransferCoding> codings;
     if (!is_integer(options_.precision)) {
@@ -157,16 +191,7 @@ std::vector<TransferCoding> TransferSearch::codings(double most_error) {
     }
     if (target_.codec != CodecChoice::cpca) add_svd(most_error, codings);
     if (target_.codec != CodecChoice::svd) {
-        // Fewer than some vertices a cluster and the bases are as large as what they stand for.
-        constexpr uint32_t kLeastPerCluster = 8;
-        constexpr std::array<uint32_t, 4> kCounts{32, 128, 512, 1024};
-        uint32_t tried = 0;
-        for (const uint32_t count : kCounts) {
-            const uint32_t most = std::max(1u, material_.transfer.num_points / kLeastPerCluster);
-            if (std::min(count, most) == tried) continue;
-            tried = std::min(count, most);
-            add_clusters(tried, most_error, codings);
-        }
+        add_all_clusters(most_error, codings);
     }
     for (TransferCoding& coding : codings) coding.candidate.bands = material_.layout.bands;
     return codings;
@@ -174,16 +199,21 @@ std::vector<TransferCoding> TransferSearch::codings(double most_error) {
 
 const TransferCoding* best_coding(const std::vector<TransferCoding>& codings, Preference preference,
                                   std::optional<uint64_t> most_bytes) {
+    uint64_t limit = most_bytes.value_or(std::numeric_limits<uint64_t>::max());
+    if (preference == Preference::size) {
+        uint64_t fewest = limit;
+        for (const TransferCoding& coding : codings) {
+            fewest = std::min(fewest, coding.candidate.bytes);
+        }
+        limit = std::min(limit, fewest + fewest / 100);
+    }
     const TransferCoding* best = nullptr;
-    const auto better = [&](const Candidate& a, const Candidate& b) {
-        const auto by_size = std::pair(a.bytes, a.multiply_adds);
-        const auto other_size = std::pair(b.bytes, b.multiply_adds);
-        if (preference == Preference::size) return by_size < other_size;
-        return std::pair(a.multiply_adds, by_size) < std::pair(b.multiply_adds, other_size);
+    const auto cost = [](const TransferCoding& coding) {
+        return std::pair(coding.candidate.multiply_adds, coding.candidate.bytes);
     };
     for (const TransferCoding& coding : codings) {
-        if (most_bytes && coding.candidate.bytes > *most_bytes) continue;
-        if (best == nullptr || better(coding.candidate, best->candidate)) best = &coding;
+        if (coding.candidate.bytes > limit) continue;
+        if (best == nullptr || cost(coding) < cost(*best)) best = &coding;
     }
     return best;
 }

@@ -18,8 +18,8 @@ namespace paim {
 struct TransferCoding {
     Candidate candidate;
     Quantiser quantiser;
-    std::shared_ptr<const ClusteredScores> clustered;  // of cpca
-    Precision precision = Precision::i16;              // or floats, which have no step
+    std::shared_ptr<const ClusteredPca> clusters;  // of cpca
+    Precision precision = Precision::i16;          // or floats, which have no step
 
     // Sets the transfer and the clusters of a model.
     void apply(const Material& material, Model& model) const;
@@ -37,11 +37,11 @@ class TransferSearch {
   private:
     struct Clusters {
         std::shared_ptr<const ClusteredPca> pca;
-        std::map<uint32_t, std::shared_ptr<const ClusteredScores>> by_components;
     };
 
     void add_floats(double most_error, std::vector<TransferCoding>& codings) const;
     void add_svd(double most_error, std::vector<TransferCoding>& codings) const;
+    void add_all_clusters(double most_error, std::vector<TransferCoding>& codings);
     void add_clusters(uint32_t num_clusters, double most_error,
                       std::vector<TransferCoding>& codings);
     const Clusters& clusters(uint32_t num_clusters, uint32_t assumed_components);
@@ -55,8 +55,9 @@ class TransferSearch {
     std::map<std::pair<uint32_t, uint32_t>, Clusters> clusters_;  // clusters, components assumed
 };
 
-// The best by preference: fewest bytes, or fewest multiply-adds and of these fewest bytes; nothing if
-// there are none. most_bytes: only those that are not larger, or none at all.
+// The best by preference: fewest bytes, or within 1 % of that fewer multiply-adds; or fewest
+// multiply-adds and of these fewest bytes. Nothing if there are none.
+// most_bytes  only those that are not larger are looked at
 const TransferCoding* best_coding(const std::vector<TransferCoding>& codings, Preference preference,
                                   std::optional<uint64_t> most_bytes);
 

@@ -96,6 +96,7 @@ struct Model {
     Vec3d origin = Vec3d::Zero();
     float frames_per_second = 24.0f;
     VertexOrder vertex_order = VertexOrder::baked;
+    bool complete = true;  // false: the file has more components, which were not there yet
     std::string name;
     std::string provenance_json;  // a JSON object: how it was made, for people and paim-info
 

@@ -44,13 +44,29 @@ std::string_view scalar_name(ScalarType type) {
 
 namespace {
 
+// Bytes that sections take or claim together, which may not be more than so many.
+class ByteBudget {
+  public:
+    explicit ByteBudget(uint64_t most) : most_(most), left_(most) {}
+    bool take(uint64_t size_bytes) {
+        if (size_bytes > left_) return false;
+        left_ -= size_bytes;
+        return true;
+    }
+    uint64_t most() const { return most_; }
+
+  private:
+    uint64_t most_, left_;
+};
+
 // a · b, or the largest number if that overflows.
 uint64_t saturating_product(uint64_t a, uint64_t b) {
     uint64_t product = 0;
     return __builtin_mul_overflow(a, b, &product) ? std::numeric_limits<uint64_t>::max() : product;
 }
 
-void check_header(const std::string& path, const Header& header, Tag kind, uint64_t size_bytes) {
+void check_header(const std::string& path, const Header& header, Tag kind, uint64_t size_bytes,
+                  Extent extent) {
     if (header.magic != container::kMagic) throw_bad_input("{}: not a Paim file", path);
     if (header.version != container::kVersion) {
         throw_unsupported("{}: format version {}, expected {}", path, header.version,
@@ -62,14 +78,20 @@ void check_header(const std::string& path, const Header& header, Tag kind, uint6
     if (header.kind != kind) {
         throw_bad_input("{}: holds '{}', expected '{}'", path, header.kind.str(), kind.str());
     }
-    if (header.file_size_bytes != size_bytes) {
+    const bool cut = size_bytes < header.file_size_bytes;
+    if (header.file_size_bytes != size_bytes && !(cut && extent == Extent::beginning)) {
         throw_bad_input("{}: {} bytes, expected {}{}", path, size_bytes, header.file_size_bytes,
-                        size_bytes < header.file_size_bytes ? ": the file is cut short" : "");
+                        cut ? ": the file is cut short" : "");
     }
     if (header.num_sections > container::kMaxSections ||
-        header.num_sections > (size_bytes - sizeof(Header)) / sizeof(TableEntry)) {
+        header.num_sections > (header.file_size_bytes - sizeof(Header)) / sizeof(TableEntry)) {
         throw_bad_input("{}: {} sections do not fit in {} bytes", path, header.num_sections,
-                        size_bytes);
+                        header.file_size_bytes);
+    }
+    const uint64_t table_end = sizeof(Header) + header.num_sections * sizeof(TableEntry);
+    if (size_bytes < table_end) {
+        throw_bad_input("{}: {} bytes, expected at least the {} of header and section table", path,
+                        size_bytes, table_end);
     }
 }
 
@@ -108,7 +130,7 @@ Section check_entry(const std::string& path, const TableEntry& entry, uint64_t f
 
 }  // namespace
 
-ContainerReader::ContainerReader(const std::filesystem::path& path, Tag kind)
+ContainerReader::ContainerReader(const std::filesystem::path& path, Tag kind, Extent extent)
     : path_(path.string()), descriptor_(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {
     if (descriptor_ < 0) throw_bad_input("{}: cannot open: {}", path_, std::strerror(errno));
     try {
@@ -123,36 +145,38 @@ ContainerReader::ContainerReader(const std::filesystem::path& path, Tag kind)
         }
         Header header;
         read_bytes(0, &header, sizeof(header));
-        check_header(path_, header, kind, file_size_bytes_);
+        check_header(path_, header, kind, file_size_bytes_, extent);
         std::vector<TableEntry> table(header.num_sections);
         const uint64_t table_bytes = table.size() * sizeof(TableEntry);
         read_bytes(sizeof(header), table.data(), table_bytes);
         if (header.table_xxh3 != xxh3(table.data(), table_bytes)) {
             throw_bad_input("{}: damaged: the section table's checksum does not match", path_);
         }
-        sections_.reserve(table.size());
-        uint64_t total_bytes = 0;
-        uint64_t value_bytes = 0;
-        const uint64_t most_value_bytes =
-            kMaxFreeBytes + saturating_product(kMaxExpansion, file_size_bytes_);
-        for (const TableEntry& entry : table) {
-            sections_.push_back(
-                check_entry(path_, entry, file_size_bytes_, sizeof(header) + table_bytes));
-            // Sections that share bytes would let a small file claim any amount of memory.
-            total_bytes += entry.stored_size_bytes;
-            if (total_bytes > file_size_bytes_ - sizeof(header) - table_bytes) {
-                throw_bad_input("{}: sections overlap: more than {} bytes in all", path_,
-                                file_size_bytes_ - sizeof(header) - table_bytes);
-            }
-            if (entry.raw_size_bytes > most_value_bytes - value_bytes) {
-                throw_bad_input("{}: sections claim more than {} bytes of values", path_,
-                                most_value_bytes);
-            }
-            value_bytes += entry.raw_size_bytes;
-        }
+        check_table(table, header.file_size_bytes);
     } catch (...) {
         ::close(descriptor_);
         throw;
+    }
+}
+
+void ContainerReader::check_table(const std::vector<TableEntry>& table, uint64_t whole_size_bytes) {
+    const uint64_t table_end = sizeof(Header) + table.size() * sizeof(TableEntry);
+    // Sections that share bytes would let a small file claim any amount of memory, and so would a
+    // header that claims any size: only what is there counts.
+    ByteBudget stored(file_size_bytes_ - table_end);
+    ByteBudget values(kMaxFreeBytes + saturating_product(kMaxExpansion, file_size_bytes_));
+    sections_.reserve(table.size());
+    for (const TableEntry& entry : table) {
+        sections_.push_back(check_entry(path_, entry, whole_size_bytes, table_end));
+        if (!holds(sections_.back())) continue;
+        if (!stored.take(entry.stored_size_bytes)) {
+            throw_bad_input("{}: sections overlap: more than {} bytes in all", path_,
+                            stored.most());
+        }
+        if (!values.take(entry.raw_size_bytes)) {
+            throw_bad_input("{}: sections claim more than {} bytes of values", path_,
+                            values.most());
+        }
     }
 }
 

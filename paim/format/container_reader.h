@@ -10,18 +10,30 @@
 
 namespace paim {
 
+// How much of a file there is.
+enum class Extent {
+    whole,      // a file that is cut short is an error
+    beginning,  // at least header and table; holds() tells which sections are there
+};
+
 class ContainerReader {
   public:
     // Opens the file and checks header and table. Errors (bad input; unsupported for a newer
     // version or an unknown codec) name the file, what was expected and what was got.
-    ContainerReader(const std::filesystem::path& path, Tag kind);
+    ContainerReader(const std::filesystem::path& path, Tag kind, Extent extent = Extent::whole);
     ~ContainerReader();
     ContainerReader(const ContainerReader&) = delete;
     ContainerReader& operator=(const ContainerReader&) = delete;
 
     const std::vector<Section>& sections() const { return sections_; }
+    // Of the bytes that are there.
     uint64_t file_size_bytes() const { return file_size_bytes_; }
     const std::string& path() const { return path_; }
+
+    // Whether all bytes of the section are there; reading one that is not is an error.
+    bool holds(const Section& section) const {
+        return section.offset + section.stored_size_bytes <= file_size_bytes_;
+    }
 
     // The section with this tag and index, or nullptr.
     const Section* find(Tag tag, uint32_t index = 0) const;
@@ -53,6 +65,7 @@ class ContainerReader {
   private:
     template <typename T>
     std::vector<T> read_values(const Section& section, ScalarType type) const;
+    void check_table(const std::vector<container::TableEntry>& table, uint64_t whole_size_bytes);
     void read_bytes(uint64_t offset, void* out, uint64_t size_bytes) const;
 
     std::string path_;

@@ -129,6 +129,13 @@ void read_spectrum(const ContainerReader& reader, size_t i, LowRankMatrix& matri
     }
 }
 
+// Of everything but the components themselves.
+void keep_components(uint32_t num_components, LowRankMatrix& matrix) {
+    matrix.num_components = num_components;
+    matrix.weights.resize(size_t{num_components} * matrix.num_poses);
+    if (!matrix.weight_steps.empty()) matrix.weight_steps.resize(num_components);
+}
+
 }  // namespace
 
 void expect_shape(const ContainerReader& reader, const Section& section, uint32_t rows,
@@ -141,7 +148,7 @@ void expect_shape(const ContainerReader& reader, const Section& section, uint32_
 }
 
 void read_matrix(const ContainerReader& reader, Part part, const PlanePredictor& predictor,
-                 LowRankMatrix& matrix) {
+                 uint32_t num_there, LowRankMatrix& matrix) {
     const auto i = static_cast<size_t>(part);
     ScratchPool pool;
     read_weights(reader, i, pool, matrix);
@@ -167,8 +174,9 @@ void read_matrix(const ContainerReader& reader, Part part, const PlanePredictor&
     matrix.precision =
         precision_of(sections.size() > 1 ? sections[1]->spec.type : sections[0]->spec.type);
     if (integers) matrix.steps = read_steps(reader, section::kSteps[i], matrix.num_planes);
-    std::vector<StoredValues> values(sections.size());
-    parallel_for(sections.size(), 1, [&](size_t j, size_t) {
+    if (num_there < matrix.num_components) keep_components(num_there, matrix);
+    std::vector<StoredValues> values(1 + matrix.num_components);
+    parallel_for(values.size(), 1, [&](size_t j, size_t) {
         values[j] = read_values(reader, *sections[j], predictor, pool);
     });
     matrix.mean = std::move(values[0]);

@@ -11,11 +11,12 @@ namespace paim {
 void expect_shape(const ContainerReader& reader, const Section& section, uint32_t rows,
                   uint32_t columns);
 
-// Fills a matrix whose dimensions are set.
+// Fills a matrix whose dimensions are set, those of the whole file.
 // predictor  of its points, where they are a mesh
+// num_there  components are read, and matrix.num_components becomes that if the file has more
 // Errors (bad input, unsupported) name the file and the section.
 void read_matrix(const ContainerReader& reader, Part part, const PlanePredictor& predictor,
-                 LowRankMatrix& matrix);
+                 uint32_t num_there, LowRankMatrix& matrix);
 
 // Fills clusters whose dimensions are set. The same errors; and an index or coefficient that no
 // cluster has.

@@ -56,8 +56,15 @@ class PaimWriter {
 // Errors (output failed) name the path.
 void write_paim(const std::filesystem::path& path, const Model& model);
 
+struct ReadOptions {
+    // Take a file of which only the beginning is there, as while it is being loaded: a model with
+    // the components that are there (Model::complete, format/prefixes.h).
+    bool progressive = false;
+};
+
 // Errors (bad input, unsupported) name the file and what is wrong; indices, shapes and numbers are
-// checked, so that a model that is returned can be played.
-Model read_paim(const std::filesystem::path& path);
+// checked, so that a model that is returned can be played. What is not there is an error: of a file
+// that is read progressively all but the components, and the message says how many bytes that takes.
+Model read_paim(const std::filesystem::path& path, const ReadOptions& options = {});
 
 }  // namespace paim

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "paim/base/error.h"
@@ -11,18 +12,38 @@
 #include "paim/format/metadata.h"
 #include "paim/format/paim_file.h"
 #include "paim/format/paim_sections.h"
+#include "paim/format/prefixes.h"
 #include "paim/format/scenery_sections.h"
 
 namespace paim {
 
-Model read_paim(const std::filesystem::path& path) {
+namespace {
+
+// The longest playable prefix that is there. Error (bad input) if there is none.
+Prefix find_prefix(const ContainerReader& reader) {
+    const std::vector<Prefix> prefixes = list_prefixes(reader);
+    const auto next = std::find_if(prefixes.begin(), prefixes.end(), [&](const Prefix& prefix) {
+        return prefix.size_bytes > reader.file_size_bytes();
+    });
+    if (next == prefixes.begin()) {
+        throw_bad_input("{}: cut short: {} bytes, expected at least the {} that can be played",
+                        reader.path(), reader.file_size_bytes(), next->size_bytes);
+    }
+    return *std::prev(next);
+}
+
+}  // namespace
+
+Model read_paim(const std::filesystem::path& path, const ReadOptions& options) {
     if (std::filesystem::is_directory(path)) {
         throw_bad_input(
             "{}: is a directory, expected a .paim file (paim-compress encode makes one of a "
             ".bake)",
             path.string());
     }
-    const ContainerReader reader(path, section::kKindAnimation);
+    const ContainerReader reader(path, section::kKindAnimation,
+                                 options.progressive ? Extent::beginning : Extent::whole);
+    const Prefix prefix = find_prefix(reader);
     const Metadata metadata(reader.read_text(reader.require(section::kMetadata, ScalarType::u8)),
                             reader.path());
     Model model;
@@ -78,9 +99,14 @@ Model read_paim(const std::filesystem::path& path) {
         std::any_of(reader.sections().begin(), reader.sections().end(),
                     [](const Section& s) { return s.codec == SectionCodec::planes; });
     const PlanePredictor predictor = predicted ? PlanePredictor(model.topology) : PlanePredictor();
-    read_matrix(reader, Part::geometry, predictor, model.geometry);
+    const uint32_t geometry_components = model.geometry.num_components;
+    const uint32_t transfer_components = model.transfer.num_components;
+    read_matrix(reader, Part::geometry, predictor, prefix.geometry_components, model.geometry);
     if (clustered) read_clusters(reader, predictor, num_vertices, model.clusters);
-    read_matrix(reader, Part::transfer, clustered ? PlanePredictor() : predictor, model.transfer);
+    read_matrix(reader, Part::transfer, clustered ? PlanePredictor() : predictor,
+                prefix.transfer_components, model.transfer);
+    model.complete = model.geometry.num_components == geometry_components &&
+                     model.transfer.num_components == transfer_components;
     model.scenery = read_scenery(reader, model.layout);
     return model;
 }

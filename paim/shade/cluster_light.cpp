@@ -7,6 +7,7 @@
 
 #include "paim/base/check.h"
 #include "paim/base/parallel.h"
+#include "paim/codec/accumulate.h"
 #include "paim/codec/low_rank.h"
 
 namespace paim {
@@ -57,10 +58,8 @@ void ClusterLight::add_plane(uint32_t plane, uint32_t channel, const Vec3f& inci
     const LowRankMatrix& matrix = model_.transfer;
     const size_t first = size_t{plane} * matrix.num_points + first_row;
     const std::span<float> values = std::span(plane_).first(num_rows);
-    matrix.mean.widen(first, values);
-    for (uint32_t k = 0; k < num_components; ++k) {
-        matrix.components[k].add_to(weights_[k], first, values);
-    }
+    accumulate(matrix.mean, std::span(matrix.components).first(num_components),
+               std::span(weights_).first(num_components), 1.0f, first, values);
     const Vec3f light = matrix.step(plane) * incident;
     if (model_.layout.channels == 3) {
         Plane& sum = sums_[channel];

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "paim/metrics/rates.h"
+
 namespace paim::player {
 
 namespace {
@@ -40,19 +42,24 @@ Cost frame_cost(const Model& model, const DecodeLimits& limits) {
     cost.transfer_components = std::min(limits.transfer_components, model.transfer.num_components);
     cost.cluster_components = std::min(limits.cluster_components, model.clusters.num_components);
     cost.bands = std::min(limits.bands, model.layout.bands);
-    const uint64_t coefficients = uint64_t{cost.bands} * cost.bands;
-    const uint64_t planes = model.layout.channels * coefficients;
+    TransferLayout layout = model.layout;
+    layout.bands = cost.bands;
     cost.bytes = part_bytes(model.geometry, 3, cost.geometry_components) +
-                 part_bytes(model.transfer, planes, cost.transfer_components);
-    const uint64_t position = uint64_t{3} * (cost.geometry_components + 1);
-    const uint64_t transfer = planes * (cost.transfer_components + 1) + 3 * coefficients;
+                 part_bytes(model.transfer, layout.num_planes(), cost.transfer_components);
+    cost.multiply_adds = svd_geometry_cost(cost.geometry_components).per_vertex();
     if (model.clusters.empty()) {
-        cost.multiply_adds = position + transfer;
+        cost.multiply_adds +=
+            svd_transfer_cost(layout, cost.transfer_components, true).per_vertex();
         return cost;
     }
+    const auto of_clusters = [&](uint32_t num_components) {
+        return clustered_transfer_cost(layout, model.clusters.num_clusters, num_components,
+                                       cost.transfer_components, true);
+    };
     cost.bytes += cluster_bytes(model.clusters, cost.cluster_components);
-    cost.multiply_adds = position + uint64_t{3} * (cost.cluster_components + 1);
-    cost.cluster_multiply_adds = uint64_t{model.clusters.num_rows()} * transfer;
+    cost.multiply_adds += of_clusters(cost.cluster_components).per_vertex();
+    // Whole bases are lit, whatever vertices use of them.
+    cost.cluster_multiply_adds = of_clusters(model.clusters.num_components).cpu_per_frame;
     return cost;
 }
 

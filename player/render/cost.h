@@ -12,9 +12,7 @@ struct Cost {
     // Of means, components, weights, clusters and coefficients in use, as their precision is, before
     // the file packs them.
     uint64_t bytes;
-    // Per vertex and frame. Position: 3 (Kg + 1). Vertices with transfer of their own rebuild it,
-    // (Kt + 1) C a channel, and shade, 3 C. Clustered ones do both in 3 (K + 1), K components of a
-    // cluster. Means count as components whose weight is 1.
+    // Per vertex and frame, positions and transfer under coloured light (metrics/rates.h).
     uint64_t multiply_adds;
     // Per frame beside these: rebuilding and lighting the bases of clusters, on the CPU.
     uint64_t cluster_multiply_adds;

@@ -156,7 +156,7 @@ TEST_F(PlayTest, PlaysClusters) {
     EXPECT_EQ(json["clusters"], 7);
     EXPECT_EQ(json["cluster_components"], 6);
     EXPECT_EQ(json["multiply_adds_per_vertex"], 3 * 4 + 3 * 7);
-    EXPECT_EQ(json["cluster_multiply_adds"], 49 * (75 * 6 + 3 * 25));
+    EXPECT_EQ(json["cluster_multiply_adds"], 49 * (75 * 5 + 3 * 25));
 
     std::vector<std::string> fewer = arguments;
     fewer.insert(fewer.end(), {"--cluster-components", "1"});

@@ -1,0 +1,157 @@
+// Errors of the first components of a compressed animation.
+#include "paim/metrics/prefix_error.h"
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+
+#include "paim/base/check.h"
+#include "paim/base/parallel.h"
+
+namespace paim {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+namespace {
+
+// What squares of values of a cluster's rows come to over its vertices: Σ_v a_v a_vᵀ, a_v the numbers
+// by which vertex v multiplies the rows. [clusters] of [rows][rows]
+std::vector<MatrixXd> cluster_metrics(const VertexClusters& clusters) {
+    const uint32_t num_rows = clusters.rows_per_cluster();
+    std::vector<MatrixXd> metrics(clusters.num_clusters, MatrixXd::Zero(num_rows, num_rows));
+    Eigen::VectorXd factors(num_rows);
+    for (size_t v = 0; v < clusters.cluster.size(); ++v) {
+        const uint32_t c = clusters.cluster[v];
+        for (uint32_t row = 0; row < num_rows; ++row) {
+            const float coefficient = row == 0 ? 1.0f : clusters.coefficients[row - 1][v];
+            factors(row) = double{coefficient} * double{clusters.scales[c * num_rows + row]};
+        }
+        metrics[c].noalias() += factors * factors.transpose();
+    }
+    return metrics;
+}
+
+// Values `first` … first + rows of the mean and of every component, in steps.
+void gather(const LowRankMatrix& matrix, size_t first, MatrixXd& values) {
+    const auto fill = [&](const StoredValues& from, Index column) {
+        from.for_each(first, static_cast<size_t>(values.rows()), [&](size_t j, float value) {
+            values(static_cast<Index>(j - first), column) = double{value};
+        });
+    };
+    fill(matrix.mean, 0);
+    for (uint32_t k = 0; k < matrix.num_components; ++k) fill(matrix.components[k], 1 + Index{k});
+}
+
+// Products of the mean and the components with each other in one plane, in steps.
+// metrics  of runs of points; empty: each point counts for itself
+MatrixXd plane_gram(const LowRankMatrix& matrix, uint32_t plane,
+                    const std::vector<MatrixXd>& metrics) {
+    const Index num_columns = 1 + Index{matrix.num_components};
+    MatrixXd gram = MatrixXd::Zero(num_columns, num_columns);
+    const size_t plane_begin = size_t{plane} * matrix.num_points;
+    MatrixXd values;
+    for (size_t c = 0; c < metrics.size(); ++c) {
+        values.resize(metrics[c].rows(), num_columns);
+        gather(matrix, plane_begin + c * static_cast<size_t>(metrics[c].rows()), values);
+        gram.noalias() += values.transpose() * (metrics[c] * values);
+    }
+    if (!metrics.empty()) return gram;
+    constexpr size_t kPointsAtOnce = 512;  // so that they stay in the cache
+    for (size_t n = 0; n < matrix.num_points; n += kPointsAtOnce) {
+        const size_t count = std::min<size_t>(kPointsAtOnce, matrix.num_points - n);
+        values.resize(static_cast<Index>(count), num_columns);
+        gather(matrix, plane_begin + n, values);
+        gram.noalias() += values.transpose() * values;
+    }
+    return gram;
+}
+
+std::optional<double> stated(const ErrorStatement& statement, const char* name) {
+    const auto found = std::find_if(statement.errors.begin(), statement.errors.end(),
+                                    [&](const NamedError& error) { return error.name == name; });
+    if (found == statement.errors.end()) return {};
+    return found->value;
+}
+
+// √(whole² + dropped / norm)
+std::vector<double> add_in_squares(double whole, const std::vector<double>& dropped, double norm) {
+    std::vector<double> errors;
+    for (const double energy : dropped) {
+        errors.push_back(std::hypot(whole, energy > 0.0 ? std::sqrt(energy / norm) : 0.0));
+    }
+    return errors;
+}
+
+}  // namespace
+
+ComponentEnergy component_energy(const Model& model, Part part,
+                                 const std::vector<double>& plane_weight) {
+    const LowRankMatrix& matrix = model.part(part);
+    PAIM_CHECK_EQ(plane_weight.size(), size_t{matrix.num_planes});
+    const bool clustered = part == Part::transfer && !model.clusters.empty();
+    const std::vector<MatrixXd> metrics =
+        clustered ? cluster_metrics(model.clusters) : std::vector<MatrixXd>{};
+    std::vector<MatrixXd> planes(matrix.num_planes);
+    parallel_for(planes.size(), 1, [&](size_t j, size_t) {
+        const auto plane = static_cast<uint32_t>(j);
+        const double step = double{matrix.step(plane)};
+        planes[j] = plane_weight[j] * step * step * plane_gram(matrix, plane, metrics);
+    });
+    const Index num_columns = 1 + Index{matrix.num_components};
+    MatrixXd energy = MatrixXd::Zero(num_columns, num_columns);
+    for (const MatrixXd& gram : planes) energy += gram;
+
+    // Times the products of their weights over poses, the mean's being 1.
+    MatrixXd weights = MatrixXd::Ones(num_columns, Index{matrix.num_poses});
+    for (Index k = 1; k < num_columns; ++k) {
+        for (Index p = 0; p < weights.cols(); ++p) {
+            weights(k, p) =
+                double{matrix.weights[static_cast<size_t>((k - 1) * weights.cols() + p)]};
+        }
+    }
+    energy = energy.cwiseProduct(weights * weights.transpose());
+    ComponentEnergy result;
+    result.decoded = energy.sum();
+    result.dropped.assign(static_cast<size_t>(num_columns), 0.0);
+    for (Index k = num_columns - 1; k > 0; --k) {
+        const Index after = num_columns - 1 - k;
+        const double more = energy(k, k) + 2.0 * energy.row(k).tail(after).sum();
+        const auto j = static_cast<size_t>(k);
+        result.dropped[j - 1] = result.dropped[j] + more;
+    }
+    return result;
+}
+
+PrefixErrors prefix_errors(const Model& model, const std::optional<ErrorStatement>& statement) {
+    const ErrorStatement whole = statement.value_or(ErrorStatement{});
+    const bool named = whole.light_spectrum == "flat" || whole.light_spectrum == "natural";
+    const std::optional<double> transfer_error =
+        named ? stated(whole, "transfer_total_error") : std::nullopt;
+    const std::optional<double> position_rms = stated(whole, "position_rms");
+
+    const TransferLayout& layout = model.layout;
+    const LightSpectrum spectrum =
+        parse_light_spectrum(named ? whole.light_spectrum : "flat", layout.bands);
+    std::vector<double> weights(layout.num_planes());
+    for (uint32_t plane = 0; plane < layout.num_planes(); ++plane) {
+        const uint32_t i = plane % layout.num_coefficients();
+        weights[plane] = spectrum.weight(static_cast<uint32_t>(sh::band_of(static_cast<int>(i))));
+    }
+    const ComponentEnergy transfer = component_energy(model, Part::transfer, weights);
+    // The bake's norm: what was decoded of it and what was not are orthogonal.
+    const double deviation =
+        transfer_error ? stated(whole, "transfer_deviation").value_or(0.0) : 0.0;
+    const double share = deviation < 1.0 ? 1.0 - deviation * deviation : 1.0;
+    const ComponentEnergy geometry = component_energy(model, Part::geometry, {1.0, 1.0, 1.0});
+    const double num_positions =
+        static_cast<double>(model.topology.num_vertices) * static_cast<double>(model.num_poses());
+    return {
+        spectrum.name,
+        add_in_squares(transfer_error.value_or(0.0), transfer.dropped, transfer.decoded / share),
+        add_in_squares(position_rms.value_or(0.0), geometry.dropped, num_positions),
+        transfer_error.has_value(), position_rms.has_value()};
+}
+
+}  // namespace paim

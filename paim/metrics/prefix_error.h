@@ -1,0 +1,40 @@
+// What a compressed animation costs in accuracy while it has only its first components.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "paim/codec/model.h"
+#include "paim/metrics/light_spectrum.h"
+#include "paim/metrics/model_error.h"
+
+namespace paim {
+
+// Squared norms over all rows and poses of what a part decodes to. Components need not be
+// orthogonal.
+struct ComponentEnergy {
+    double decoded = 0.0;         // ‖t̂‖², or that of positions
+    std::vector<double> dropped;  // [1 + K] ‖t̂ − t̂_k‖², t̂_k with the first k components
+};
+
+// plane_weight [planes] of squares
+ComponentEnergy component_energy(const Model& model, Part part,
+                                 const std::vector<double>& plane_weight);
+
+// Errors with the first k components, k = 0 … K. What is stated of the whole file and what the
+// missing components take away are taken for orthogonal: errors² = stated² + dropped.
+struct PrefixErrors {
+    std::string light_spectrum;
+    std::vector<double> transfer;      // [1 + Kt] relative to the bake's transfer
+    std::vector<double> position_rms;  // [1 + Kg] scene units
+    // Whether the error of the whole file is part of it; else it is what the missing components cost.
+    bool transfer_stated = false;
+    bool position_stated = false;
+};
+
+// statement  of the model's file, if there is one. Its transfer counts under the light spectra that
+//            have names; errors under a map are taken for not stated. Not stated: `flat`.
+PrefixErrors prefix_errors(const Model& model, const std::optional<ErrorStatement>& statement);
+
+}  // namespace paim
