@@ -4,6 +4,7 @@
 #include <zstd.h>
 
 #include <memory>
+#include <utility>
 
 #include "paim/base/check.h"
 
@@ -55,9 +56,17 @@ std::vector<uint8_t> zstd_compress(std::span<const uint8_t> bytes) {
 std::vector<uint8_t> zstd_compress_numbers(std::span<const uint8_t> bytes,
                                            std::span<const size_t> block_ends, Effort effort) {
     const int level = effort == Effort::small ? kSmallLevel : 1;
-    std::vector<uint8_t> whole = compress(bytes, {}, level, kShortestInNumbers);
-    std::vector<uint8_t> split = compress(bytes, block_ends, level, kShortestInNumbers);
-    return split.size() < whole.size() ? split : whole;
+    std::vector<uint8_t> best = compress(bytes, {}, level, kShortestInNumbers);
+    const auto consider = [&](std::span<const size_t> ends, int shortest_match) {
+        std::vector<uint8_t> other = compress(bytes, ends, level, shortest_match);
+        if (other.size() < best.size()) best = std::move(other);
+    };
+    consider(block_ends, kShortestInNumbers);
+    if (effort == Effort::small) {
+        consider(block_ends, 0);
+        consider({}, 0);
+    }
+    return best;
 }
 
 std::optional<uint64_t> zstd_content_size(std::span<const uint8_t> frame) {

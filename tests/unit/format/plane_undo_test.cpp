@@ -225,6 +225,19 @@ TEST(PlaneUndo, JudgesAnyBytesAsTheSlowReferenceDoes) {
     EXPECT_GT(num_taken, 20);
 }
 
+TEST(ScratchPool, GivesEveryoneTheirOwnAndKeepsIt) {
+    ScratchPool pool;
+    const std::byte* first = nullptr;
+    {
+        ScratchPool::Lease one(pool), other(pool);
+        first = (*one).rows.resize(100);
+        EXPECT_NE(first, (*other).rows.resize(100));
+        EXPECT_EQ(first, (*one).rows.resize(30));  // there is room
+    }
+    ScratchPool::Lease one(pool);
+    EXPECT_EQ(first, (*one).rows.resize(100));
+}
+
 TEST(PlaneUndo, SharesWorkSpaceBetweenThreads) {
     RandomStream random(23);
     const Topology topology = random_mesh(500, random);
