@@ -130,7 +130,7 @@ void add_encode_options(CLI::App& app, CompressOptions& options, RawOptions& raw
            "--precision", raw.precision,
            "How components are stored: f32, f16 (half the size, relative rounding 0.05 %; "
            "means and weights stay f32), or integers that the error allows: 'auto' is those "
-           "with --max-error or --max-size, else f32")
+           "with --max-error or --max-size, else f32. Floats are always coded as svd")
         ->check(CLI::IsMember({"auto", "f32", "f16"}))
         ->capture_default_str();
     add_target_options(app, raw.target);
@@ -215,6 +215,9 @@ void apply(const RawOptions& raw, CompressOptions& options) {
     options.target = parse_target(raw.target);
     options.light_spectrum = raw.target.light_spectrum;
     options.encode.precision = raw.precision == "f16" ? Precision::f16 : Precision::f32;
+    if (options.target && options.target->codec == CodecChoice::cpca && raw.precision != "auto") {
+        throw_usage("--codec cpca: goes with --precision auto, floats are coded as svd");
+    }
     if (options.target && raw.precision == "auto") options.encode.precision = Precision::i16;
     if (raw.encode_bands > 0) options.encode.bands = raw.encode_bands;
 }

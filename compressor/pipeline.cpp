@@ -186,6 +186,11 @@ ordered_json bake(const CompressOptions& options, const std::filesystem::path& d
     return json;
 }
 
+// Before anything long begins.
+void check_light_spectrum(const CompressOptions& options, uint32_t bands) {
+    if (options.target) parse_light_spectrum(options.light_spectrum, bands);
+}
+
 ordered_json encode_target_to(const CompressOptions& options, const EncodeOptions& encode_options,
                               const BakeReader& reader) {
     EncodeTarget target = *options.target;
@@ -210,6 +215,7 @@ ordered_json encode_to(const CompressOptions& options, const std::filesystem::pa
     EncodeOptions encode_options = options.encode;
     encode_options.name = options.output.stem().string();
     check_memory(reader, encode_options);
+    check_light_spectrum(options, reader.identity().layout.bands);
     reader.verify_all();
     if (options.target) return encode_target_to(options, encode_options, reader);
     cli::Progress encoding("encoding", "rows", num_rows_to_read(reader, encode_options),
@@ -272,6 +278,7 @@ void run(const CompressOptions& options) {
             break;
         case CompressOptions::Command::bake_and_encode: {
             check_paim_output(options.output);
+            check_light_spectrum(options, options.bake.bands);
             std::filesystem::path directory = options.output;
             directory.replace_extension(".bake");
             json["bake"] = bake(options, directory);

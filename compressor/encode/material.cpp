@@ -97,11 +97,15 @@ Material read_material(const BakeReader& bake, const EncodeOptions& options,
     const PrincipalComponents transfer = principal_components(transfer_rows, in_flight);
     const ComponentNoise noise =
         measure_component_noise(transfer_rows, noise_rows, material.layout, transfer, in_flight);
-    double energy = 0.0;
-    for (size_t l = 0; l < material.layout.bands; ++l) {
+    // As if all that is dropped were in the band that weighs most.
+    double energy = 0.0, heaviest = 0.0;
+    for (uint32_t l = 0; l < material.layout.bands; ++l) {
         const double rms = material.statistics.transfer_rms[l];
-        energy += static_cast<double>(2 * l + 1) * material.layout.channels * rms * rms;
+        const double weight = target.spectrum.weight(l);
+        energy += weight * (2.0 * l + 1.0) * material.layout.channels * rms * rms;
+        heaviest = std::max(heaviest, weight);
     }
+    if (heaviest > 0.0) energy /= heaviest;
     TargetSize size{encode_size(bake, options), material.layout.num_planes()};
     size.geometry_components = components_for(
         geometry.rank(), kDroppedShare * kDroppedShare * distance * distance * num_values,

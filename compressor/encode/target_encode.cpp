@@ -58,9 +58,16 @@ class Encoder {
 
     // The best coding that should meet the targets; nothing if none does. Leaves what was compared in
     // `candidates`.
-    std::optional<Coding> choose(const Targets& targets, std::vector<Candidate>& candidates) {
+    std::optional<Coding> choose(const Targets& targets, std::vector<Candidate>& candidates,
+                                 std::string& reason) {
         Coding coding;
-        if (!choose_geometry(targets.geometry, coding)) return std::nullopt;
+        if (!choose_geometry(targets.geometry, coding)) {
+            reason = fmt::format(
+                "an RMS distance of {:.3g} needs positions of more than 16 bits: allow a larger "
+                "--geometry-error, or use --precision f32",
+                targets.geometry);
+            return std::nullopt;
+        }
         const std::vector<TransferCoding> codings =
             search_.codings(transfer_budget(targets.transfer));
         std::optional<uint64_t> most;
@@ -71,7 +78,20 @@ class Encoder {
         const TransferCoding* best = best_coding(codings, target_.preference, most);
         // What seems too large may still fit once it is squeezed.
         if (best == nullptr) best = best_coding(codings, Preference::size, {});
-        if (best == nullptr) return std::nullopt;
+        if (best == nullptr) {
+            reason = fmt::format("a transfer error of {:.3g} % ", 100.0 * targets.transfer);
+            if (target_.decode_cost) {
+                reason += fmt::format("cannot be met with {} multiply-adds a vertex",
+                                      *target_.decode_cost);
+            } else if (target_.codec == CodecChoice::cpca) {
+                reason +=
+                    "cannot be met by clusters of as many components as are tried: use "
+                    "--codec auto";
+            } else {
+                reason += "needs values of more than 16 bits: use --precision f32";
+            }
+            return std::nullopt;
+        }
         candidates.clear();
         for (const TransferCoding& one : codings) {
             candidates.push_back(one.candidate);
@@ -205,6 +225,15 @@ void check_reachable(const Material& material, double target) {
                              asked, 100.0 * floor.total()));
 }
 
+uint64_t multiply_adds(const Model& model) {
+    const VertexClusters& clusters = model.clusters;
+    const FrameCost cost =
+        clusters.empty() ? svd_transfer_cost(model.layout, model.transfer.num_components, true)
+                         : clustered_transfer_cost(model.layout, clusters.num_clusters,
+                                                   clusters.num_components, 0, true);
+    return cost.per_vertex();
+}
+
 // A file that is ready to be written.
 struct Result {
     Model model;
@@ -224,21 +253,27 @@ class TargetEncoder {
     // The file of this error. Nothing, with the reason, if there is none.
     std::optional<Result> meet(double transfer_error, std::string& reason) {
         const Targets targets = targets_of(material_, target_, transfer_error);
-        const auto coding = encoder_.choose(targets, summary_.candidates);
-        const std::string what = fmt::format(
-            "{}: {:.3g} % of the transfer and an RMS distance of {:.3g}",
-            material_.bake.directory().string(), 100.0 * targets.transfer, targets.geometry);
+        const std::string bake = material_.bake.directory().string() + ": ";
+        const auto coding = encoder_.choose(targets, summary_.candidates, reason);
         if (!coding) {
-            reason = what + (target_.decode_cost
-                                 ? fmt::format(" cannot be met with {} multiply-adds a vertex",
-                                               *target_.decode_cost)
-                                 : std::string(" need values of more than 16 bits: use --precision "
-                                               "f32"));
+            reason = bake + reason;
             return std::nullopt;
         }
         auto model = encoder_.refine(*coding, targets, summary_.error);
         if (!model) {
-            reason = what + " were not met by any step that was tried";
+            reason = fmt::format(
+                "{}{:.3g} % of the transfer and an RMS distance of {:.3g} were not met by any step "
+                "that was tried",
+                bake, 100.0 * targets.transfer, targets.geometry);
+            return std::nullopt;
+        }
+        // Floats may have needed a component more than was asked about.
+        if (const uint64_t cost = multiply_adds(*model);
+            target_.decode_cost && cost > *target_.decode_cost) {
+            reason = fmt::format(
+                "{}a transfer error of {:.3g} % takes {} multiply-adds a vertex, "
+                "--max-decode-cost allows {}",
+                bake, 100.0 * targets.transfer, cost, *target_.decode_cost);
             return std::nullopt;
         }
         summary_.transfer_target = targets.transfer;

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "paim/base/check.h"
+#include "paim/base/error.h"
 #include "paim/base/half.h"
 #include "paim/base/parallel.h"
 #include "paim/format/index_codec.h"
@@ -196,8 +197,15 @@ PackedFile::PackedFile(const Model& model, Effort effort) {
     bytes_.resize(tasks.size());
     parallel_for(tasks.size(), 1,
                  [&](size_t task, size_t) { bytes_[task] = tasks[task].compress(); });
+    uint64_t value_bytes = 0;
     for (size_t j = 0; j < tasks.size(); ++j) {
+        value_bytes += tasks[j].spec.size_bytes();
         plans_.emplace_back(tasks[j].spec, tasks[j].codec, bytes_[j].size());
+    }
+    const uint64_t readable = kMaxFreeBytes + kMaxExpansion * size_bytes();
+    if (value_bytes > readable) {
+        throw_unsupported("{} bytes of values that compress to {}: readers take at most {}",
+                          value_bytes, size_bytes(), readable);
     }
 }
 

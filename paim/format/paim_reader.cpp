@@ -94,7 +94,10 @@ Model read_paim(const std::filesystem::path& path, const ReadOptions& options) {
               model.layout.num_planes());
     // Memory for every vertex is taken once the file is known to claim values for it.
     const Section* mean = reader.find(section::kMean[0]);
-    if (mean != nullptr) expect_shape(reader, *mean, 3, num_vertices);
+    if (mean == nullptr) {
+        throw_bad_input("{}: section {} 0 is missing", reader.path(), section::kMean[0].str());
+    }
+    expect_shape(reader, *mean, 3, num_vertices);
     const bool predicted =
         std::any_of(reader.sections().begin(), reader.sections().end(),
                     [](const Section& s) { return s.codec == SectionCodec::planes; });

@@ -115,6 +115,8 @@ TEST_F(Target, ThatCannotBeMetIsRefusedWithTheBestThatCan) {
                    {"cannot be met with 2 multiply-adds"});
     expect_failure(try_to_encode({"--max-error", "2%", "--max-size", "3K"}), 5,
                    {"takes", "--max-size allows 3000"});
+    expect_failure(try_to_encode({"--max-error", "5%", "--geometry-error", "0.0001%"}), 5,
+                   {"positions of more than 16 bits", "--geometry-error"});
     expect_failure(try_to_encode({"--max-size", "1K"}), 5, {"--max-size asks for 1000 bytes"});
     EXPECT_FALSE(std::filesystem::exists(path("none.paim")));
 }
@@ -153,6 +155,13 @@ TEST_F(Target, RefusesWhatMakesNoSense) {
                    {"--transfer-components"});
     expect_failure(try_to_encode({"--max-error", "5%", "--light-spectrum", "dim"}), 1, {"dim"});
     expect_failure(try_to_encode({"--max-error", "5%", "--codec", "wavelet"}), 1, {"wavelet"});
+    expect_failure(try_to_encode({"--max-error", "5%", "--codec", "cpca", "--precision", "f32"}), 1,
+                   {"--codec cpca", "--precision auto"});
+    // Before a long bake, not after it.
+    expect_failure(compress({path("octopus"), "-o", path("late.paim"), "--max-error", "5%",
+                             "--light-spectrum", "natrual"}),
+                   1, {"natrual"});
+    EXPECT_FALSE(std::filesystem::exists(path("late.bake")));
 }
 
 TEST_F(Target, FilesOfCountsStateTheirErrorsWhereAsked) {

@@ -150,6 +150,40 @@ TEST(PaimFile, SurvivesAnyByteOfCompressedSections) {
     }
 }
 
+TEST(PaimFile, TakesNoMemoryForVerticesThatNothingIsClaimedOf) {
+    const TemporaryDirectory directory;
+    const auto path = directory / "x.paim";
+    Model model = packed_example(false);
+    write_paim(path, model);
+    // Without the mean of the geometry, and two thousand million vertices.
+    const auto bytes = read_file(path, 1 << 20);
+    const ContainerReader reader(path, section::kKindAnimation);
+    std::string metadata = reader.read_text(reader.require(section::kMetadata, ScalarType::u8));
+    const std::string count = "\"num_vertices\": 4";
+    metadata.replace(metadata.find(count), count.size(), "\"num_vertices\": 2147483647");
+    std::vector<SectionPlan> plans{SectionSpec{
+        section::kMetadata, ScalarType::u8, 0, {1, 1, static_cast<uint32_t>(metadata.size())}}};
+    std::vector<std::string> contents{metadata};
+    for (const Section& section : reader.sections()) {
+        if (section.spec.tag == section::kMetadata || section.spec.tag == section::kMean[0])
+            continue;
+        plans.emplace_back(section.spec, section.codec, section.stored_size_bytes);
+        contents.emplace_back(bytes.data() + section.offset, section.stored_size_bytes);
+    }
+    ContainerWriter writer(path, section::kKindAnimation, plans);
+    for (size_t j = 0; j < plans.size(); ++j) {
+        writer.append(j, contents[j].data(), contents[j].size());
+    }
+    writer.commit();
+    try {
+        read_paim(path);
+        ADD_FAILURE() << "read a file without positions";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("GMEA 0 is missing"), std::string::npos)
+            << error.what();
+    }
+}
+
 TEST(PaimFile, RefusesClaimsOfFarMoreValuesThanBytes) {
     const TemporaryDirectory directory;
     const auto path = directory / "x.paim";
