@@ -13,15 +13,18 @@ set(public_rooms base codec format image light mesh metrics sh shade transfer)
 set(private_headers
     codec/vector_kernels.h
     format/bake_manifest.h
+    format/index_codec.h
     format/matrix_sections.h
     format/mesh_sections.h
     format/metadata.h
-    format/index_codec.h
     format/paim_metadata.h
     format/paim_packer.h
     format/paim_sections.h
     format/plane_codec.h
+    format/plane_packing.h
     format/plane_predictor.h
+    format/plane_undo.h
+    format/scratch_pool.h
     format/zstd_codec.h
     image/exr_header.h
     sh/recurrence.h)
