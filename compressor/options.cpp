@@ -134,11 +134,16 @@ void add_encode_options(CLI::App& app, CompressOptions& options, RawOptions& raw
         ->check(CLI::IsMember({"auto", "f32", "f16"}))
         ->capture_default_str();
     add_target_options(app, raw.target);
+    app.add_flag(
+        "--measure", options.measure,
+        "Measure the file when it is written, and state its errors in it, as is always done "
+        "with --max-error and --max-size; takes memory for the whole of it");
     app.add_option(
            "--memory", raw.memory,
            "Memory that encoding stays below, bytes or with K, M, G or T for powers of 1000; "
            "at least 64M, and about 130 bytes times the square of the number of poses and 40 for "
-           "each vertex and band; the result is the same for any")
+           "each vertex and band; more for --max-error and --max-size, which hold all that may be "
+           "kept; the result is the same for any")
         ->capture_default_str();
     app.add_option("--fps", options.encode.frames_per_second,
                    "Poses per second at which the animation plays, 0.001 to 1000000")
@@ -149,7 +154,8 @@ void add_encode_options(CLI::App& app, CompressOptions& options, RawOptions& raw
 void add_common_options(CLI::App& app, CompressOptions& options, const std::string& output_help) {
     app.add_option("-o,--output", options.output, output_help)->required();
     app.add_option("--threads", options.num_threads,
-                   "Threads, 0 to 1024; 0 takes every core; the result is the same for any number")
+                   "Threads, 0 to 1024; 0 takes every core; more for --max-error and --max-size, "
+                   "which hold all that may be kept; the result is the same for any number")
         ->check(cli::in_range(0, 1024))
         ->capture_default_str();
     app.add_flag("--json", options.json, "Write one JSON object on stdout and nothing else");

@@ -217,9 +217,12 @@ ordered_json encode_to(const CompressOptions& options, const std::filesystem::pa
     const EncodeSummary summary = encode(reader, encode_options, options.output,
                                          [&](uint64_t rows) { encoding.advance(rows); });
     encoding.finish();
-    const std::optional<ModelError> error =
-        state_errors(options.output, reader, LightSpectrum::flat(reader.identity().layout.bands),
-                     encode_options.memory_bytes);
+    std::optional<ModelError> error;
+    if (options.measure) {
+        error = state_errors(options.output, reader,
+                             LightSpectrum::flat(reader.identity().layout.bands),
+                             encode_options.memory_bytes);
+    }
     ordered_json json;
     json["paim"] = options.output.string();
     json["num_vertices"] = reader.identity().num_vertices;
@@ -238,8 +241,6 @@ ordered_json encode_to(const CompressOptions& options, const std::filesystem::pa
             "  measured: transfer {:.3g} %, RMS distance {:.3g} ({:.2g} % of the diagonal)\n",
             100.0 * error->transfer.total(), error->geometry.rms(),
             100.0 * error->geometry.relative_rms());
-    } else {
-        fmt::print("  not measured: that takes more than --memory allows\n");
     }
     if (more_rays_would_help(summary)) {
         fmt::print(stderr,

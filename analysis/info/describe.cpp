@@ -18,7 +18,7 @@ namespace {
 ordered_json describe_part(const LowRankMatrix& matrix) {
     ordered_json json;
     json["components"] = matrix.num_components;
-    json["precision"] = matrix.precision == Precision::f16 ? "f16" : "f32";
+    json["precision"] = precision_name(matrix.precision);
     json["theory_error"] = theory_error(matrix.singular_values, matrix.num_components);
     json["energy_error"] = energy_error(matrix.singular_values, matrix.num_components);
     const size_t shown = std::min<size_t>(matrix.singular_values.size(), 10);
@@ -50,6 +50,12 @@ ordered_json describe_paim(const std::filesystem::path& path) {
     if (!model.scenery.empty()) {
         json["scenery_vertices"] = model.scenery.topology.num_vertices;
         json["scenery_triangles"] = model.scenery.topology.triangles.size();
+    }
+    json["vertex_order"] = model.vertex_order == VertexOrder::local ? "local" : "baked";
+    json["transfer_codec"] = model.clusters.empty() ? "svd" : "cpca";
+    if (!model.clusters.empty()) {
+        json["clusters"] = model.clusters.num_clusters;
+        json["cluster_components"] = model.clusters.num_components;
     }
     json["geometry"] = describe_part(model.geometry);
     json["transfer"] = describe_part(model.transfer);

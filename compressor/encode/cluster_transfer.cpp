@@ -133,12 +133,27 @@ double clustered_error(const ClusteredScores& clustered, const Quantiser& quanti
            clustered.bases.num_poses() * of_coefficients;
 }
 
+double smallest_step(const ClusteredScores& clustered, const Quantiser& quantiser) {
+    const ClusteredPca& pca = *clustered.pca;
+    double largest = 0.0;  // coefficient, in steps of 1
+    for (Index j = 0; j < clustered.norms.cols(); ++j) {
+        for (size_t v = 0; v < pca.cluster.size(); ++v) {
+            const auto coefficient =
+                static_cast<double>(pca.coefficients(static_cast<Index>(v), j));
+            const auto c = static_cast<Index>(pca.cluster[v]);
+            largest = std::max(largest, std::abs(coefficient) * clustered.norms(c, j));
+        }
+    }
+    // A little more, as the quotient is rounded.
+    return std::max(smallest_step(clustered.bases, quantiser, Precision::i16),
+                    1.0001 * largest / largest_integer(Precision::i16));
+}
+
 double largest_step(const ClusteredScores& clustered, Quantiser quantiser, double most) {
-    return largest_step(smallest_step(clustered.bases, quantiser, Precision::i16),
-                        [&](double step) {
-                            quantiser.step = step;
-                            return clustered_error(clustered, quantiser) <= most;
-                        });
+    return largest_step(smallest_step(clustered, quantiser), [&](double step) {
+        quantiser.step = step;
+        return clustered_error(clustered, quantiser) <= most;
+    });
 }
 
 }  // namespace paim

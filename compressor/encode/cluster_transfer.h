@@ -59,6 +59,9 @@ ClusteredMatrix quantise_clusters(const ClusteredScores& clustered, const Quanti
 // Weighted squared error against the scores, over all vertices and poses.
 double clustered_error(const ClusteredScores& clustered, const Quantiser& quantiser);
 
+// The smallest step with which bases and coefficients fit in 16 bits.
+double smallest_step(const ClusteredScores& clustered, const Quantiser& quantiser);
+
 // As largest_step() of scores: 0 if clusters and components alone leave more.
 double largest_step(const ClusteredScores& clustered, Quantiser quantiser, double most);
 

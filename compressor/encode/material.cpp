@@ -10,6 +10,7 @@
 #include "compressor/encode/float_part.h"
 #include "compressor/encode/memory_plan.h"
 #include "compressor/encode/playable_scenery.h"
+#include "compressor/encode/target_memory.h"
 
 namespace paim {
 
@@ -50,12 +51,21 @@ double largest_diagonal(const BakeReader& bake) {
 
 Material read_material(const BakeReader& bake, const EncodeOptions& options,
                        const EncodeTarget& target) {
-    const uint32_t in_flight = choose_num_in_flight(
-        encode_size(bake, options), options.memory_bytes, bake.directory().string());
+    uint32_t in_flight = choose_num_in_flight(encode_size(bake, options), options.memory_bytes,
+                                              bake.directory().string());
     const BakeIdentity& identity = bake.identity();
-    Material material{
-        bake, identity.layout, target.spectrum, bake.total_statistics(), {}, {}, {}, {}, {}, {},
-        0.0};
+    Material material{bake,
+                      identity.layout,
+                      target.spectrum,
+                      bake.total_statistics(),
+                      {},
+                      {},
+                      {},
+                      {},
+                      {},
+                      {},
+                      0.0,
+                      0};
     material.layout.bands = std::min(options.bands, identity.layout.bands);
     LocalOrder order = local_order(bake.topology());
     Model& frame = material.frame;
@@ -77,41 +87,38 @@ Material read_material(const BakeReader& bake, const EncodeOptions& options,
     }
 
     const double asked = target.transfer_error.value_or(0.001);
-    {
-        const GeometryRows rows(bake);
-        const PrincipalComponents pca = principal_components(rows, in_flight);
-        const double rms = largest_diagonal(bake) *
-                           target.geometry_error.value_or(kGeometryPerTransferError * asked);
-        const double most = kDroppedShare * kDroppedShare * rms * rms *
-                            static_cast<double>(identity.num_vertices) * bake.num_poses();
-        const auto energy = [&](uint32_t k) {
-            return pca.singular_values[k] * pca.singular_values[k];
-        };
-        material.geometry = read_scores(rows, pca, components_for(pca.rank(), most, energy),
-                                        nullptr, order.old_vertex, in_flight);
+    const double num_values = static_cast<double>(identity.num_vertices) * bake.num_poses();
+    const GeometryRows geometry_rows(bake);
+    const PrincipalComponents geometry = principal_components(geometry_rows, in_flight);
+    const double distance =
+        largest_diagonal(bake) * target.geometry_error.value_or(kGeometryPerTransferError * asked);
+    const TransferRows transfer_rows(bake, material.layout.bands);
+    const TransferRows noise_rows(bake, material.layout.bands, TransferRows::Content::noise);
+    const PrincipalComponents transfer = principal_components(transfer_rows, in_flight);
+    const ComponentNoise noise =
+        measure_component_noise(transfer_rows, noise_rows, material.layout, transfer, in_flight);
+    double energy = 0.0;
+    for (size_t l = 0; l < material.layout.bands; ++l) {
+        const double rms = material.statistics.transfer_rms[l];
+        energy += static_cast<double>(2 * l + 1) * material.layout.channels * rms * rms;
     }
-    {
-        const TransferRows rows(bake, material.layout.bands);
-        const TransferRows noise_rows(bake, material.layout.bands, TransferRows::Content::noise);
-        const PrincipalComponents pca = principal_components(rows, in_flight);
-        const ComponentNoise noise =
-            measure_component_noise(rows, noise_rows, material.layout, pca, in_flight);
-        const Shrinkage shrinkage(noise);
-        double energy = 0.0;
-        for (size_t l = 0; l < material.layout.bands; ++l) {
-            const double rms = material.statistics.transfer_rms[l];
-            energy += static_cast<double>(2 * l + 1) * material.layout.channels * rms * rms;
-        }
-        energy *= static_cast<double>(identity.num_vertices) * bake.num_poses();
-        const auto signal = [&](uint32_t k) {
-            return noise.signal_of(static_cast<Eigen::Index>(k));
-        };
-        const double most = kDroppedShare * kDroppedShare * asked * asked * energy;
-        const bool shrink = options.noise == NoiseTreatment::shrink;
-        material.transfer =
-            read_scores(rows, pca, components_for(noise.num_above_noise, most, signal),
-                        shrink ? &shrinkage : nullptr, order.old_vertex, in_flight);
-    }
+    TargetSize size{encode_size(bake, options), material.layout.num_planes()};
+    size.geometry_components = components_for(
+        geometry.rank(), kDroppedShare * kDroppedShare * distance * distance * num_values,
+        [&](uint32_t k) { return geometry.singular_values[k] * geometry.singular_values[k]; });
+    size.transfer_components = components_for(
+        noise.num_above_noise, kDroppedShare * kDroppedShare * asked * asked * energy * num_values,
+        [&](uint32_t k) { return noise.signal_of(static_cast<Eigen::Index>(k)); });
+    size.clusters = target.codec != CodecChoice::svd && is_integer(options.precision);
+    check_target_memory(size, options.memory_bytes, bake.directory().string());
+    material.spare_bytes = options.memory_bytes - target_held_bytes(size);
+    in_flight = choose_target_in_flight(size, options.memory_bytes);
+    material.geometry = read_scores(geometry_rows, geometry, size.geometry_components, nullptr,
+                                    order.old_vertex, in_flight);
+    const Shrinkage shrinkage(noise);
+    material.transfer = read_scores(transfer_rows, transfer, size.transfer_components,
+                                    options.noise == NoiseTreatment::shrink ? &shrinkage : nullptr,
+                                    order.old_vertex, in_flight);
 
     Model floor = material.frame;
     floor.geometry =

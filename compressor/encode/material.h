@@ -23,11 +23,13 @@ struct Material {
     std::vector<double> plane_weight;  // [planes of layout] of squared transfer errors
     ModelError floor;                  // of these components, not quantised: the best there is
     double transfer_energy = 0.0;      // weighted ‖y‖² of the whole bake
+    uint64_t spare_bytes = 0;          // of options.memory_bytes, beside what is held throughout
 
     ModelError measure(const Model& model) const { return measure_model(model, bake, spectrum); }
 };
 
-// Errors: unsupported if memory does not suffice.
+// Errors: unsupported, saying what is needed, if options.memory_bytes do not suffice for all that
+// encode_to_target() does.
 Material read_material(const BakeReader& bake, const EncodeOptions& options,
                        const EncodeTarget& target);
 

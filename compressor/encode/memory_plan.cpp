@@ -55,12 +55,12 @@ struct Need {
     }
 };
 
-std::string megabytes(uint64_t bytes) {
+}  // namespace
+
+std::string memory_text(uint64_t bytes) {
     return bytes >= 10'000'000'000 ? fmt::format("{:.0f} GB", static_cast<double>(bytes) * 1e-9)
                                    : fmt::format("{} MB", bytes / 1'000'000 + 1);
 }
-
-}  // namespace
 
 EncodeSize encode_size(const BakeReader& bake, const EncodeOptions& options) {
     const auto components = [&](const ComponentChoice& choice) {
@@ -86,8 +86,6 @@ EncodeSize encode_size(const BakeReader& bake, const EncodeOptions& options) {
 }
 
 uint64_t encode_memory_bytes(const EncodeSize& size, uint32_t num_in_flight) {
-    // Measured: code, libraries and threads are 18 MB before any data.
-    constexpr uint64_t kProgram = 24'000'000;
     // The mesh is held twice (the bake's and the model's), as are names and checksums of poses; each
     // part keeps its V and its weights.
     const uint64_t mesh = 2 * (size.num_triangles + size.num_colours) * 12;
@@ -103,7 +101,7 @@ uint64_t encode_memory_bytes(const EncodeSize& size, uint32_t num_in_flight) {
         std::max({need.factors_bytes(size.num_poses) + need.working_bytes(),
                   need.decomposing_bytes(), need.measuring_bytes(size.bands), need.output_bytes()});
     // The allocator keeps some of what was freed: a quarter more.
-    return kProgram + (mesh + names + kept + vertices + scenery + streamed) / 4 * 5;
+    return kProgramBytes + (mesh + names + kept + vertices + scenery + streamed) / 4 * 5;
 }
 
 uint32_t choose_num_in_flight(const EncodeSize& size, uint64_t limit_bytes,
@@ -113,8 +111,8 @@ uint32_t choose_num_in_flight(const EncodeSize& size, uint64_t limit_bytes,
         throw_unsupported(
             "{}: {} poses of {} vertices in {} bands need {} of memory to be encoded, but --memory "
             "allows {}",
-            what, size.num_poses, size.num_vertices, size.bands, megabytes(least),
-            megabytes(limit_bytes - 1));
+            what, size.num_poses, size.num_vertices, size.bands, memory_text(least),
+            memory_text(limit_bytes - 1));
     }
     uint32_t num_in_flight = kMaxInFlight;
     while (encode_memory_bytes(size, num_in_flight) > limit_bytes) num_in_flight /= 2;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "compressor/encode/encode.h"
 
@@ -20,6 +21,12 @@ struct EncodeSize {
 };
 
 EncodeSize encode_size(const BakeReader& bake, const EncodeOptions& options);
+
+// Measured: code, libraries and threads are 18 MB before any data.
+constexpr uint64_t kProgramBytes = 24'000'000;
+
+// As messages say it: "13 GB", "250 MB".
+std::string memory_text(uint64_t bytes);
 
 // Peak memory of the process, an upper bound: with `num_in_flight` runs of rows factored side by side.
 uint64_t encode_memory_bytes(const EncodeSize& size, uint32_t num_in_flight);

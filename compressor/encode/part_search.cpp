@@ -30,7 +30,9 @@ std::vector<PartChoice> part_choices(const Scores& scores, const std::vector<dou
                                      const PlanePredictor& predictor) {
     // Few enough values that a step is found in a moment, enough that it is the right one.
     constexpr size_t kSampledValues = 2'000'000;
-    const Scores few = sample(scores, kSampledValues);
+    Scores few = sample(scores, kSampledValues);
+    const Quantiser all{1.0, scores.num_components(), plane_weight};
+    if (smallest_step(few, all, Precision::i16) == 0.0) few = scores;  // it missed what there is
     const double sampled = static_cast<double>(few.num_points) / scores.num_points;
     const std::vector<double> tails = tail_errors(scores, plane_weight);
 
@@ -44,15 +46,16 @@ std::vector<PartChoice> part_choices(const Scores& scores, const std::vector<dou
     }
     std::vector<PartChoice> choices;
     for (const uint32_t count : counts) {
-        if (tails[count] >= most_error) continue;
+        if (tails[count] > most_error) continue;
         PartChoice choice;
         choice.quantiser = {1.0, count, plane_weight};
         choice.quantiser.step = largest_step(few, choice.quantiser, sampled * most_error);
         if (choice.quantiser.step == 0.0) continue;
         choice.quantiser.step = std::max(choice.quantiser.step,
                                          smallest_step(scores, choice.quantiser, Precision::i16));
-        choice.matrix = quantise(scores, choice.quantiser);
-        choice.bytes = stored_bytes(choice.matrix, predictor, Effort::fast);
+        const LowRankMatrix matrix = quantise(scores, choice.quantiser);
+        choice.num_components = matrix.num_components;
+        choice.bytes = stored_bytes(matrix, predictor, Effort::fast);
         choices.push_back(std::move(choice));
     }
     return choices;

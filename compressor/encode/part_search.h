@@ -12,8 +12,8 @@ namespace paim {
 
 struct PartChoice {
     Quantiser quantiser;
-    LowRankMatrix matrix;
-    uint64_t bytes = 0;  // stored_bytes() with fast effort
+    uint32_t num_components = 0;  // that are more than zero
+    uint64_t bytes = 0;           // stored_bytes() with fast effort
 };
 
 // Several numbers of components, ascending, each with the largest step that meets the error; none if no

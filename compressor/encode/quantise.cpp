@@ -93,9 +93,14 @@ Normal normal_equations(const Scores& scores, const Quantiser& quantiser) {
 
 // (ĈᵀĈ)⁻¹ Ĉᵀ [m − m̂, C], with zeros for components that are nothing but zero.
 MatrixXd fit(const Normal& normal) {
+    if (normal.gram.rows() == 0) return normal.cross;
+    // Few integers are often multiples of each other, and what rounding then leaves of a pivot would
+    // make weights of any size. This much more of every square is far above rounding and costs less
+    // than 1e-10 of the energy.
+    constexpr double kRidge = 1e-10;
     MatrixXd gram = normal.gram;
     for (Index k = 0; k < gram.rows(); ++k) {
-        if (gram(k, k) == 0.0) gram(k, k) = 1.0;
+        gram(k, k) = gram(k, k) == 0.0 ? 1.0 : (1.0 + kRidge) * gram(k, k);
     }
     return gram.ldlt().solve(normal.cross);
 }
@@ -149,12 +154,14 @@ LowRankMatrix quantise(const Scores& scores, const Quantiser& quantiser) {
     matrix.mean = store(scores, quantiser, scores.mean, &round_mean);
     for (Index k = 0; k < weights.rows(); ++k) {
         if (normal.gram(k, k) == 0.0) continue;
+        // A value of a component errs in every pose, by weights of unit RMS; a weight in every row.
+        const double alike = std::sqrt(static_cast<double>(weights.cols()) / normal.gram(k, k));
+        const double largest = weights.row(k).cwiseAbs().maxCoeff();
+        if (std::nearbyint(largest / alike) == 0.0) continue;
+        const double step = std::max(alike, largest / 32767.0);
         matrix.components.push_back(
             store(scores, quantiser, scores.components[static_cast<size_t>(k)], &round_component));
         if (!matrix.components.back().holds_i8()) matrix.precision = Precision::i16;
-        // A value of a component errs in every pose, by weights of unit RMS; a weight in every row.
-        const double alike = std::sqrt(static_cast<double>(weights.cols()) / normal.gram(k, k));
-        const double step = std::max(alike, weights.row(k).cwiseAbs().maxCoeff() / 32767.0);
         matrix.weight_steps.push_back(static_cast<float>(step));
         for (Index p = 0; p < weights.cols(); ++p) {
             const double q = std::nearbyint(weights(k, p) / matrix.weight_steps.back());
@@ -184,7 +191,8 @@ double smallest_step(const Scores& scores, const Quantiser& quantiser, Precision
         }
     };
     extend(scores.mean);
-    for (uint32_t k = 0; k < quantiser.num_components; ++k) extend(scores.components[k]);
+    const uint32_t kept = std::min(quantiser.num_components, scores.num_components());
+    for (uint32_t k = 0; k < kept; ++k) extend(scores.components[k]);
     // A little more, as the quotient is rounded.
     return 1.0001 * largest / largest_integer(precision);
 }

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 
 #include "paim/format/bake_directory.h"
 #include "paim/metrics/model_error.h"
@@ -11,10 +10,10 @@
 namespace paim {
 
 // Measures the file against the bake that it was just made from and rewrites it, all or nothing, with
-// the errors in its provenance ("measured"). Nothing is done, and nothing returned, if the model and a
-// plane of the bake over all poses do not fit in memory_bytes.
-// Errors: output failed.
-std::optional<ModelError> state_errors(const std::filesystem::path& file, const BakeReader& bake,
-                                       const LightSpectrum& spectrum, uint64_t memory_bytes);
+// the errors in its provenance ("measured"). The whole model is in memory meanwhile.
+// Errors: unsupported if that, and a plane of the bake over all poses, do not fit in memory_bytes (the
+// file stays as it is); output failed.
+ModelError state_errors(const std::filesystem::path& file, const BakeReader& bake,
+                        const LightSpectrum& spectrum, uint64_t memory_bytes);
 
 }  // namespace paim

@@ -16,6 +16,7 @@
 #include "paim/base/error.h"
 #include "paim/base/file.h"
 #include "paim/format/paim_packer.h"
+#include "paim/metrics/rates.h"
 
 namespace paim {
 
@@ -88,7 +89,14 @@ class Encoder {
         const double floor = material_.floor.transfer.total();
         std::optional<Model> best;
         for (int round = 0; round < kMostRounds; ++round) {
-            Model model = build(coding);
+            Model model;
+            try {
+                model = build(coding);
+            } catch (const Error& error_of_step) {
+                // Finer than values of 16 bits can be: what there is, is the best there is.
+                if (error_of_step.code() != ExitCode::unsupported) throw;
+                break;
+            }
             const ModelError measured = material_.measure(model);
             const double transfer = measured.transfer.total();
             const double geometry = measured.geometry.rms();
@@ -208,6 +216,7 @@ class TargetEncoder {
     TargetEncoder(const Material& material, const EncodeOptions& options,
                   const EncodeTarget& target, TargetSummary& summary)
         : material_(material),
+          noise_(options.noise),
           target_(target),
           summary_(summary),
           encoder_(material, options, target) {}
@@ -236,7 +245,7 @@ class TargetEncoder {
         summary_.geometry_target = targets.geometry;
         nlohmann::ordered_json provenance = nlohmann::ordered_json::parse(
             bake_provenance(material_.bake.identity(), material_.statistics));
-        provenance["noise"] = "shrink";
+        provenance["noise"] = noise_ == NoiseTreatment::shrink ? "shrink" : "keep";
         provenance["measured"] =
             nlohmann::ordered_json::parse(error_statement_json(summary_.error, target_.spectrum));
         model->provenance_json = provenance.dump();
@@ -245,10 +254,12 @@ class TargetEncoder {
     }
 
     // The smallest error whose file fits. Errors: threshold exceeded, with the smallest file there is.
-    Result fit(uint64_t most_bytes) {
+    // say  is told each error that is tried
+    Result fit(uint64_t most_bytes, const std::function<void(const char*)>& say) {
         // Sizes fall about as a power of the error. Bisection in its logarithm; the last that fits.
         double low = std::log(1.02 * std::max(1e-4, material_.floor.transfer.total()));
         double high = std::log(0.5);
+        check_reachable(material_, std::exp(high));
         constexpr int kRounds = 7;
         std::string reason;
         std::optional<Result> best;
@@ -257,6 +268,7 @@ class TargetEncoder {
         for (int round = 0; round < kRounds; ++round) {
             // First whether anything fits at all.
             const double at = round == 0 ? high : 0.5 * (low + high);
+            say(fmt::format("trying a transfer error of {:.3g} %", 100.0 * std::exp(at)).c_str());
             auto result = meet(std::exp(at), reason);
             if (result) smallest = result->file.size_bytes();
             if (result && result->file.size_bytes() <= most_bytes) {
@@ -280,6 +292,7 @@ class TargetEncoder {
 
   private:
     const Material& material_;
+    NoiseTreatment noise_;
     const EncodeTarget& target_;
     TargetSummary& summary_;
     Encoder encoder_;
@@ -325,13 +338,21 @@ TargetSummary encode_to_target(const BakeReader& bake, const EncodeOptions& opti
                             result->file.size_bytes(), *target.size_bytes));
         }
     } else {
-        result = encoder.fit(*target.size_bytes);
+        result = encoder.fit(*target.size_bytes, say);
     }
     result->file.write(output);
     summary.size_bytes = result->file.size_bytes();
     summary.geometry_components = result->model.geometry.num_components;
     for (Candidate& candidate : summary.candidates) {
-        if (candidate.chosen) candidate.bands = result->model.layout.bands;
+        if (!candidate.chosen) continue;
+        // Refining may have changed what was compared.
+        const Model& model = result->model;
+        candidate.bands = model.layout.bands;
+        candidate.components = model.transfer.num_components;
+        if (model.clusters.empty()) {
+            candidate.multiply_adds = static_cast<uint32_t>(
+                svd_transfer_cost(model.layout, candidate.components, true).per_vertex());
+        }
     }
     return summary;
 }

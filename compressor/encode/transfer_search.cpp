@@ -42,8 +42,11 @@ void TransferCoding::apply(const Material& material, Model& model) const {
     model.clusters = {};
     if (!is_integer(precision)) {
         model.transfer = float_part(material.transfer, quantiser.num_components, precision);
-    } else if (clustered) {
-        ClusteredMatrix quantised = quantise_clusters(*clustered, quantiser);
+    } else if (clusters) {
+        ClusteredMatrix quantised =
+            quantise_clusters(cluster_bases(material.transfer, material.plane_weight, *clusters,
+                                            candidate.cluster_components),
+                              quantiser);
         model.transfer = std::move(quantised.matrix);
         model.clusters = std::move(quantised.clusters);
     } else {
@@ -80,8 +83,8 @@ void TransferSearch::add_svd(double most_error, std::vector<TransferCoding>& cod
         TransferCoding coding;
         coding.quantiser = std::move(choice.quantiser);
         coding.candidate.codec = "svd";
-        coding.candidate.components = choice.matrix.num_components;
-        coding.candidate.multiply_adds = svd_cost(material_.layout, choice.matrix.num_components);
+        coding.candidate.components = choice.num_components;
+        coding.candidate.multiply_adds = svd_cost(material_.layout, choice.num_components);
         coding.candidate.bytes = choice.bytes;
         codings.push_back(std::move(coding));
     }
@@ -95,7 +98,7 @@ const TransferSearch::Clusters& TransferSearch::clusters(uint32_t num_clusters,
     clustering.num_clusters = num_clusters;
     clustering.assumed_components = assumed_components;
     clustering.max_components = kMostClusterComponents;
-    clustering.memory_bytes = options_.memory_bytes;
+    clustering.memory_bytes = material_.spare_bytes;
     const ScorePoints points(material_.transfer, material_.plane_weight);
     found.pca = std::make_shared<const ClusteredPca>(
         clustered_pca(points, clustering, nullptr, material_.bake.directory().string()));
@@ -120,25 +123,27 @@ void TransferSearch::add_clusters(uint32_t num_clusters, double most_error,
     if (needed > kMostClusterComponents) return;
     if (needed > kFirstGuess + kFirstGuess / 2) assumed = 2 * kFirstGuess;
     if (needed < kFirstGuess / 2 + 1) assumed = kFirstGuess / 2;
-    Clusters& chosen = clusters_[{num_clusters, (clusters(num_clusters, assumed), assumed)}];
+    const Clusters& chosen = clusters_[{num_clusters, (clusters(num_clusters, assumed), assumed)}];
 
     std::set<uint32_t> counts;
     for (const double share : {0.9, kUsualShare, 0.3}) counts.insert(fewest(*chosen.pca, share));
     for (const uint32_t count : counts) {
         if (count > kMostClusterComponents) continue;
+        // No more rows of bases than what they stand for.
+        if (uint64_t{chosen.pca->num_clusters} * (count + 1) > material_.transfer.num_points) {
+            continue;
+        }
         const uint32_t cost = cpca_cost(material_.layout, chosen.pca->num_clusters, count);
         if (!cheap_enough(cost)) continue;
-        auto& clustered = chosen.by_components[count];
-        if (!clustered) {
-            clustered = std::make_shared<const ClusteredScores>(
-                cluster_bases(material_.transfer, material_.plane_weight, *chosen.pca, count));
-        }
+        // Made again whenever they are needed: they may be larger than the scores.
+        const ClusteredScores clustered =
+            cluster_bases(material_.transfer, material_.plane_weight, *chosen.pca, count);
         TransferCoding coding;
-        coding.clustered = clustered;
+        coding.clusters = chosen.pca;
         coding.quantiser = {1.0, material_.transfer.num_components(), material_.plane_weight};
-        coding.quantiser.step = largest_step(*clustered, coding.quantiser, most_error);
+        coding.quantiser.step = largest_step(clustered, coding.quantiser, most_error);
         if (coding.quantiser.step == 0.0) continue;
-        const ClusteredMatrix quantised = quantise_clusters(*clustered, coding.quantiser);
+        const ClusteredMatrix quantised = quantise_clusters(clustered, coding.quantiser);
         coding.candidate.codec = "cpca";
         coding.candidate.components = quantised.matrix.num_components;
         coding.candidate.clusters = chosen.pca->num_clusters;

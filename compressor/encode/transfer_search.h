@@ -18,8 +18,8 @@ namespace paim {
 struct TransferCoding {
     Candidate candidate;
     Quantiser quantiser;
-    std::shared_ptr<const ClusteredScores> clustered;  // of cpca
-    Precision precision = Precision::i16;              // or floats, which have no step
+    std::shared_ptr<const ClusteredPca> clusters;  // of cpca
+    Precision precision = Precision::i16;          // or floats, which have no step
 
     // Sets the transfer and the clusters of a model.
     void apply(const Material& material, Model& model) const;
@@ -37,7 +37,6 @@ class TransferSearch {
   private:
     struct Clusters {
         std::shared_ptr<const ClusteredPca> pca;
-        std::map<uint32_t, std::shared_ptr<const ClusteredScores>> by_components;
     };
 
     void add_floats(double most_error, std::vector<TransferCoding>& codings) const;

@@ -15,6 +15,20 @@ namespace paim {
 // How values are stored. Half floats are floats again in memory; integers stay integers.
 enum class Precision : uint32_t { f32 = 0, f16 = 1, i16 = 2, i8 = 3 };
 
+constexpr const char* precision_name(Precision precision) {
+    switch (precision) {
+        case Precision::f32:
+            return "f32";
+        case Precision::f16:
+            return "f16";
+        case Precision::i16:
+            return "i16";
+        case Precision::i8:
+            return "i8";
+    }
+    return "unknown";
+}
+
 constexpr bool is_integer(Precision precision) {
     return precision == Precision::i16 || precision == Precision::i8;
 }

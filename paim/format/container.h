@@ -31,10 +31,10 @@ constexpr uint64_t scalar_size_bytes(ScalarType type) {
         case ScalarType::u8:
         case ScalarType::i8:
             return 1;
-        case ScalarType::i16:
         case ScalarType::u32:
             return 4;
         case ScalarType::f16:
+        case ScalarType::i16:
             return 2;
         case ScalarType::f32:
             return 4;

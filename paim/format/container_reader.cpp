@@ -161,28 +161,21 @@ ContainerReader::ContainerReader(const std::filesystem::path& path, Tag kind, Ex
 
 void ContainerReader::check_table(const std::vector<TableEntry>& table, uint64_t whole_size_bytes) {
     const uint64_t table_end = sizeof(Header) + table.size() * sizeof(TableEntry);
-    const auto most_values = [](uint64_t size_bytes) {
-        return kMaxFreeBytes + saturating_product(kMaxExpansion, size_bytes);
-    };
-    // Sections that share bytes would let a small file claim any amount of memory; a header that
-    // claims any size would, too, so that what is there is held to the bytes that are there.
-    ByteBudget stored(whole_size_bytes - table_end);
-    ByteBudget values(most_values(whole_size_bytes));
-    ByteBudget stored_here(file_size_bytes_ - table_end);
-    ByteBudget values_here(most_values(file_size_bytes_));
+    // Sections that share bytes would let a small file claim any amount of memory, and so would a
+    // header that claims any size: only what is there counts.
+    ByteBudget stored(file_size_bytes_ - table_end);
+    ByteBudget values(kMaxFreeBytes + saturating_product(kMaxExpansion, file_size_bytes_));
     sections_.reserve(table.size());
     for (const TableEntry& entry : table) {
         sections_.push_back(check_entry(path_, entry, whole_size_bytes, table_end));
-        const bool here = holds(sections_.back());
-        if (!stored.take(entry.stored_size_bytes) ||
-            (here && !stored_here.take(entry.stored_size_bytes))) {
+        if (!holds(sections_.back())) continue;
+        if (!stored.take(entry.stored_size_bytes)) {
             throw_bad_input("{}: sections overlap: more than {} bytes in all", path_,
-                            here ? stored_here.most() : stored.most());
+                            stored.most());
         }
-        if (!values.take(entry.raw_size_bytes) ||
-            (here && !values_here.take(entry.raw_size_bytes))) {
+        if (!values.take(entry.raw_size_bytes)) {
             throw_bad_input("{}: sections claim more than {} bytes of values", path_,
-                            here ? values_here.most() : values.most());
+                            values.most());
         }
     }
 }

@@ -24,7 +24,7 @@ const Section& require(const ContainerReader& reader, Tag tag, uint32_t index = 
 
 template <typename Integer>
 StoredValues read_integers(const ContainerReader& reader, const Section& section,
-                           const PlanePredictor& predictor) {
+                           const PlanePredictor& predictor, ScratchPool& pool) {
     const size_t num_planes = section.spec.shape[1];
     std::vector<Integer> values(section.spec.num_values());
     if (section.codec != SectionCodec::planes) {
@@ -32,7 +32,7 @@ StoredValues read_integers(const ContainerReader& reader, const Section& section
                           static_cast<int>(section.codec));
     }
     const std::vector<uint8_t> stored = reader.read_stored(section);
-    if (num_planes == 0 || !decode_planes(stored, num_planes, predictor, std::span(values))) {
+    if (num_planes == 0 || !decode_planes(stored, num_planes, predictor, pool, std::span(values))) {
         throw_bad_input("{}: holds no {} planes of {} integers", reader.label(section), num_planes,
                         section.spec.shape[2]);
     }
@@ -41,12 +41,12 @@ StoredValues read_integers(const ContainerReader& reader, const Section& section
 
 // Integers, or finite floats.
 StoredValues read_values(const ContainerReader& reader, const Section& section,
-                         const PlanePredictor& predictor) {
+                         const PlanePredictor& predictor, ScratchPool& pool) {
     switch (section.spec.type) {
         case ScalarType::i8:
-            return read_integers<int8_t>(reader, section, predictor);
+            return read_integers<int8_t>(reader, section, predictor, pool);
         case ScalarType::i16:
-            return read_integers<int16_t>(reader, section, predictor);
+            return read_integers<int16_t>(reader, section, predictor, pool);
         case ScalarType::f16:
         case ScalarType::f32: {
             std::vector<float> values = reader.read_f32(section);
@@ -86,7 +86,8 @@ std::vector<float> read_steps(const ContainerReader& reader, Tag tag, uint32_t c
     return steps;
 }
 
-void read_weights(const ContainerReader& reader, size_t i, LowRankMatrix& matrix) {
+void read_weights(const ContainerReader& reader, size_t i, ScratchPool& pool,
+                  LowRankMatrix& matrix) {
     const Section& section = require(reader, section::kWeights[i]);
     expect_shape(reader, section, matrix.num_components, matrix.num_poses);
     if (section.spec.type != ScalarType::i16) {
@@ -96,7 +97,7 @@ void read_weights(const ContainerReader& reader, size_t i, LowRankMatrix& matrix
     }
     matrix.weight_steps = read_steps(reader, section::kWeightSteps[i], matrix.num_components);
     const StoredValues integers =
-        read_values(reader, section, PlanePredictor::chain(matrix.num_poses));
+        read_values(reader, section, PlanePredictor::chain(matrix.num_poses), pool);
     matrix.weights.resize(integers.size());
     integers.widen(0, matrix.weights);
     for (size_t j = 0; j < matrix.weights.size(); ++j) {
@@ -149,7 +150,8 @@ void expect_shape(const ContainerReader& reader, const Section& section, uint32_
 void read_matrix(const ContainerReader& reader, Part part, const PlanePredictor& predictor,
                  uint32_t num_there, LowRankMatrix& matrix) {
     const auto i = static_cast<size_t>(part);
-    read_weights(reader, i, matrix);
+    ScratchPool pool;
+    read_weights(reader, i, pool, matrix);
     read_spectrum(reader, i, matrix);
 
     // Every shape is checked before memory for all values is taken: together they are no larger
@@ -175,7 +177,7 @@ void read_matrix(const ContainerReader& reader, Part part, const PlanePredictor&
     if (num_there < matrix.num_components) keep_components(num_there, matrix);
     std::vector<StoredValues> values(1 + matrix.num_components);
     parallel_for(values.size(), 1, [&](size_t j, size_t) {
-        values[j] = read_values(reader, *sections[j], predictor);
+        values[j] = read_values(reader, *sections[j], predictor, pool);
     });
     matrix.mean = std::move(values[0]);
     matrix.components.assign(std::make_move_iterator(values.begin() + 1),
@@ -184,9 +186,10 @@ void read_matrix(const ContainerReader& reader, Part part, const PlanePredictor&
 
 void read_clusters(const ContainerReader& reader, const PlanePredictor& predictor,
                    uint32_t num_vertices, VertexClusters& clusters) {
+    ScratchPool pool;
     const Section& numbers = reader.require(section::kClusters, ScalarType::i16);
     expect_shape(reader, numbers, 1, num_vertices);
-    const StoredValues cluster = read_values(reader, numbers, predictor);
+    const StoredValues cluster = read_values(reader, numbers, predictor, pool);
     clusters.cluster.resize(num_vertices);
     cluster.for_each(0, num_vertices, [&](size_t v, float number) {
         if (!(number >= 0.0f && number < static_cast<float>(clusters.num_clusters))) {
@@ -205,7 +208,7 @@ void read_clusters(const ContainerReader& reader, const PlanePredictor& predicto
         expect_shape(reader, *sections.back(), 1, num_vertices);
     }
     for (const Section* section : sections) {
-        clusters.coefficients.push_back(read_values(reader, *section, predictor));
+        clusters.coefficients.push_back(read_values(reader, *section, predictor, pool));
     }
 }
 

@@ -1,11 +1,6 @@
 // Planes of small integers as bytes.
 //
-// The contents of the frame: two bytes a plane (what is predicted and how it is packed; the largest
-// magnitude a, if it is less than 256), then the planes' residuals one after the other:
-//   nothing  all zero
-//   packed   as many base-(2a + 1) digits r + a a byte as fit, the first one the highest
-//   bytes    one a value, zigzag (0, −1, 1, −2, …)
-//   words    two a value, zigzag: all low bytes, then all high bytes
+// The contents of the frame: the planes' headers, then their residuals one after the other.
 #include "paim/format/plane_codec.h"
 
 #include <algorithm>
@@ -14,123 +9,14 @@
 #include <limits>
 
 #include "paim/base/check.h"
+#include "paim/format/plane_packing.h"
+#include "paim/format/plane_undo.h"
 
 namespace paim {
 
 namespace {
 
-enum class Packing : uint8_t { nothing = 0, packed = 1, bytes = 2, words = 3 };
-
-constexpr int32_t kMaxPackedMagnitude = 7;  // 15² < 256: at least two values a byte
 constexpr size_t kHeaderBytes = 2;
-
-struct PlaneHeader {
-    Prediction prediction = Prediction::none;
-    Packing packing = Packing::nothing;
-    uint8_t magnitude = 0;
-};
-
-uint32_t zigzag(int32_t value) {
-    return (static_cast<uint32_t>(value) << 1) ^ static_cast<uint32_t>(value >> 31);
-}
-
-int32_t unzigzag(uint32_t code) {
-    return static_cast<int32_t>((code >> 1) ^ (0u - (code & 1u)));
-}
-
-// Digits of a base that fit into a byte.
-uint32_t digits_per_byte(uint32_t base) {
-    uint32_t digits = 0;
-    for (uint32_t range = base; range <= 256; range *= base) ++digits;
-    return digits;
-}
-
-// Bytes of `count` values.
-size_t packed_size(const PlaneHeader& header, size_t count) {
-    switch (header.packing) {
-        case Packing::nothing:
-            return 0;
-        case Packing::packed: {
-            const uint32_t digits = digits_per_byte(2u * header.magnitude + 1u);
-            return (count + digits - 1) / digits;
-        }
-        case Packing::bytes:
-            return count;
-        case Packing::words:
-            return 2 * count;
-    }
-    return 0;
-}
-
-void pack_digits(std::span<const int32_t> residuals, uint8_t magnitude, uint8_t* out) {
-    const uint32_t base = 2u * magnitude + 1u;
-    const uint32_t digits = digits_per_byte(base);
-    for (size_t first = 0; first < residuals.size(); first += digits) {
-        uint32_t byte = 0;
-        for (size_t j = first; j < first + digits; ++j) {
-            const int32_t residual = j < residuals.size() ? residuals[j] : 0;
-            byte = byte * base + static_cast<uint32_t>(residual + magnitude);
-        }
-        *out++ = static_cast<uint8_t>(byte);
-    }
-}
-
-void pack(const PlaneHeader& header, std::span<const int32_t> residuals, uint8_t* out) {
-    switch (header.packing) {
-        case Packing::nothing:
-            return;
-        case Packing::packed:
-            return pack_digits(residuals, header.magnitude, out);
-        case Packing::bytes:
-            for (const int32_t r : residuals) *out++ = static_cast<uint8_t>(zigzag(r));
-            return;
-        case Packing::words:
-            for (size_t j = 0; j < residuals.size(); ++j) {
-                const uint32_t code = zigzag(residuals[j]);
-                out[j] = static_cast<uint8_t>(code);
-                out[residuals.size() + j] = static_cast<uint8_t>(code >> 8);
-            }
-            return;
-    }
-}
-
-// False if the bytes are none that pack() makes. residuals [N], [source] of packed_size() bytes
-bool unpack(const PlaneHeader& header, const uint8_t* source, std::span<int32_t> residuals) {
-    const size_t count = residuals.size();
-    switch (header.packing) {
-        case Packing::nothing:
-            std::fill(residuals.begin(), residuals.end(), 0);
-            return true;
-        case Packing::packed: {
-            const uint32_t base = 2u * header.magnitude + 1u;
-            const uint32_t digits = digits_per_byte(base);
-            // What each byte stands for.
-            std::array<std::array<int8_t, 8>, 256> table{};
-            for (uint32_t byte = 0; byte < 256; ++byte) {
-                uint32_t rest = byte;
-                for (uint32_t j = digits; j-- > 0; rest /= base) {
-                    table[byte][j] = static_cast<int8_t>(static_cast<int32_t>(rest % base) -
-                                                         static_cast<int32_t>(header.magnitude));
-                }
-            }
-            for (size_t first = 0; first < count; first += digits) {
-                const auto& values = table[*source++];
-                const size_t end = std::min(count, first + digits);
-                for (size_t j = first; j < end; ++j) residuals[j] = values[j - first];
-            }
-            return true;
-        }
-        case Packing::bytes:
-            for (size_t j = 0; j < count; ++j) residuals[j] = unzigzag(source[j]);
-            return true;
-        case Packing::words:
-            for (size_t j = 0; j < count; ++j) {
-                residuals[j] = unzigzag(source[j] | (uint32_t{source[count + j]} << 8));
-            }
-            return true;
-    }
-    return false;
-}
 
 // About how many bits an entropy coder without memory makes of these bytes, its table included.
 double cost_bits(std::span<const uint8_t> bytes) {
@@ -211,23 +97,24 @@ std::vector<uint8_t> encode_planes(const StoredValues& values, size_t num_planes
         contents.insert(contents.end(), best.bytes.begin(), best.bytes.end());
         ends.push_back(contents.size());
     }
-    return zstd_compress(contents, ends, effort);
+    return zstd_compress_numbers(contents, ends, effort);
 }
 
 template <typename Integer>
 bool decode_planes(std::span<const uint8_t> bytes, size_t num_planes,
-                   const PlanePredictor& predictor, std::span<Integer> out) {
+                   const PlanePredictor& predictor, ScratchPool& pool, std::span<Integer> out) {
     PAIM_CHECK(num_planes > 0);
     const size_t num_points = out.size() / num_planes;
     PAIM_CHECK_EQ(num_points * num_planes, out.size());
     const uint64_t most = kHeaderBytes * uint64_t{num_planes} + 2 * uint64_t{out.size()};
     const auto size = zstd_content_size(bytes);
     if (!size || *size > most || *size < kHeaderBytes * num_planes) return false;
-    std::vector<uint8_t> contents(*size);
-    if (!zstd_decompress(bytes, contents)) return false;
+    ScratchPool::Lease scratch(pool);
+    auto* const contents = reinterpret_cast<uint8_t*>((*scratch).contents.resize(*size));
+    if (!zstd_decompress(bytes, std::span(contents, *size))) return false;
 
     size_t place = kHeaderBytes * num_planes;
-    std::vector<int32_t> plane(num_points);
+    std::vector<PackedPlane> planes(num_planes);
     for (size_t j = 0; j < num_planes; ++j) {
         const uint8_t how = contents[kHeaderBytes * j];
         const PlaneHeader header{static_cast<Prediction>(how & 3u),
@@ -241,23 +128,17 @@ bool decode_planes(std::span<const uint8_t> bytes, size_t num_planes,
             return false;
         }
         const size_t plane_bytes = packed_size(header, num_points);
-        if (plane_bytes > contents.size() - place) return false;
-        if (!unpack(header, contents.data() + place, plane)) return false;
+        if (plane_bytes > *size - place) return false;
+        planes[j] = {header, contents + place};
         place += plane_bytes;
-        predictor.add(header.prediction, plane);
-        for (size_t n = 0; n < num_points; ++n) {
-            // Symmetrical, so that a value and its negative are both there or neither is.
-            constexpr int32_t kMost = std::numeric_limits<Integer>::max();
-            if (plane[n] > kMost || plane[n] < -kMost) return false;
-            out[j * num_points + n] = static_cast<Integer>(plane[n]);
-        }
     }
-    return place == contents.size();
+    return place == *size &&
+           undo_planes(planes, predictor, num_points, (*scratch).rows, out.data());
 }
 
-template bool decode_planes(std::span<const uint8_t>, size_t, const PlanePredictor&,
+template bool decode_planes(std::span<const uint8_t>, size_t, const PlanePredictor&, ScratchPool&,
                             std::span<int8_t>);
-template bool decode_planes(std::span<const uint8_t>, size_t, const PlanePredictor&,
+template bool decode_planes(std::span<const uint8_t>, size_t, const PlanePredictor&, ScratchPool&,
                             std::span<int16_t>);
 
 }  // namespace paim

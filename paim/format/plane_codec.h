@@ -7,6 +7,7 @@
 
 #include "paim/codec/stored_values.h"
 #include "paim/format/plane_predictor.h"
+#include "paim/format/scratch_pool.h"
 #include "paim/format/zstd_codec.h"
 
 namespace paim {
@@ -20,8 +21,16 @@ std::vector<uint8_t> encode_planes(const StoredValues& values, size_t num_planes
 
 // Fills out [planes][N]; false for bytes that are not such planes, or whose values do not fit.
 // bytes  the stored section; whatever they are, memory grows with out.size() alone
+// pool   to work in, shared by whoever decodes at the same time
 template <typename Integer>
 bool decode_planes(std::span<const uint8_t> bytes, size_t num_planes,
-                   const PlanePredictor& predictor, std::span<Integer> out);
+                   const PlanePredictor& predictor, ScratchPool& pool, std::span<Integer> out);
+
+template <typename Integer>
+bool decode_planes(std::span<const uint8_t> bytes, size_t num_planes,
+                   const PlanePredictor& predictor, std::span<Integer> out) {
+    ScratchPool pool;
+    return decode_planes(bytes, num_planes, predictor, pool, out);
+}
 
 }  // namespace paim

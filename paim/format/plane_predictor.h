@@ -30,7 +30,15 @@ class PlanePredictor {
     // For points in a row, such as poses: the neighbour of each is the one before.
     static PlanePredictor chain(size_t num_points);
 
+    // The latest first: one more than the vertex, 0 for nobody. A mean is over four, or over three
+    // and nobody: one parent is there four times, two twice in turns, which has the same mean.
+    struct Parents {
+        std::array<uint32_t, kMaxParents> row;
+        bool has_three() const { return row[3] == 0; }
+    };
+
     bool has_mesh() const { return !parents_.empty(); }
+    std::span<const Parents> parents() const { return parents_; }
 
     // residuals[n] = values[n] − prediction, wrapped around to 16 bits, as values are
     void subtract(Prediction prediction, std::span<const int32_t> values,
@@ -40,12 +48,6 @@ class PlanePredictor {
     void add(Prediction prediction, std::span<int32_t> residuals) const;
 
   private:
-    // The latest first.
-    struct Parents {
-        std::array<uint32_t, kMaxParents> vertex;
-        uint32_t count = 0;
-    };
-
     int32_t predict(Prediction prediction, size_t v, const int32_t* values) const;
 
     std::vector<Parents> parents_;  // [V], or none

@@ -4,6 +4,7 @@
 #include <zstd.h>
 
 #include <memory>
+#include <utility>
 
 #include "paim/base/check.h"
 
@@ -15,11 +16,16 @@ struct FreeContext {
     void operator()(ZSTD_CCtx* context) const { ZSTD_freeCCtx(context); }
 };
 
+constexpr int kSmallLevel = 19;
+// Lowest length of what is found to repeat, in bytes; 0: what the level has.
+constexpr int kShortestInNumbers = 7;
+
 std::vector<uint8_t> compress(std::span<const uint8_t> bytes, std::span<const size_t> block_ends,
-                              int level) {
+                              int level, int shortest_match) {
     const std::unique_ptr<ZSTD_CCtx, FreeContext> context(ZSTD_createCCtx());
     PAIM_CHECK(context != nullptr);
     ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, level);
+    ZSTD_CCtx_setParameter(context.get(), ZSTD_c_minMatch, shortest_match);
     ZSTD_CCtx_setPledgedSrcSize(context.get(), bytes.size());
     // A flush adds a block header, and may end one block early.
     constexpr size_t kBytesPerFlush = 64;
@@ -43,13 +49,24 @@ std::vector<uint8_t> compress(std::span<const uint8_t> bytes, std::span<const si
 
 }  // namespace
 
-std::vector<uint8_t> zstd_compress(std::span<const uint8_t> bytes,
-                                   std::span<const size_t> block_ends, Effort effort) {
-    const int level = effort == Effort::small ? 19 : 1;
-    std::vector<uint8_t> whole = compress(bytes, {}, level);
-    if (block_ends.empty()) return whole;
-    std::vector<uint8_t> split = compress(bytes, block_ends, level);
-    return split.size() < whole.size() ? split : whole;
+std::vector<uint8_t> zstd_compress(std::span<const uint8_t> bytes) {
+    return compress(bytes, {}, kSmallLevel, 0);
+}
+
+std::vector<uint8_t> zstd_compress_numbers(std::span<const uint8_t> bytes,
+                                           std::span<const size_t> block_ends, Effort effort) {
+    const int level = effort == Effort::small ? kSmallLevel : 1;
+    std::vector<uint8_t> best = compress(bytes, {}, level, kShortestInNumbers);
+    const auto consider = [&](std::span<const size_t> ends, int shortest_match) {
+        std::vector<uint8_t> other = compress(bytes, ends, level, shortest_match);
+        if (other.size() < best.size()) best = std::move(other);
+    };
+    consider(block_ends, kShortestInNumbers);
+    if (effort == Effort::small) {
+        consider(block_ends, 0);
+        consider({}, 0);
+    }
+    return best;
 }
 
 std::optional<uint64_t> zstd_content_size(std::span<const uint8_t> frame) {

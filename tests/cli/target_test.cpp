@@ -73,6 +73,12 @@ TEST_F(Target, SpeedTakesTheFewestMultiplyAdds) {
         EXPECT_GE(candidate["multiply_adds"].get<int>(), fast["multiply_adds"].get<int>());
     }
     EXPECT_EQ(verify("y.paim"), 0);
+    const json held = parse_object(info({path("y.paim"), "--json"}));
+    EXPECT_EQ(held["transfer_codec"], "cpca");
+    EXPECT_EQ(held["clusters"], fast["clusters"]);
+    EXPECT_EQ(held["cluster_components"], fast["cluster_components"]);
+    EXPECT_EQ(held["vertex_order"], "local");
+    EXPECT_TRUE(held["geometry"]["precision"] == "i8" || held["geometry"]["precision"] == "i16");
     const json limited = encode("z.paim", {"--max-error", "5%", "--max-decode-cost", "40"});
     EXPECT_LE(limited["multiply_adds"].get<int>(), 40);
     EXPECT_EQ(verify("z.paim"), 0);
@@ -149,10 +155,15 @@ TEST_F(Target, RefusesWhatMakesNoSense) {
     expect_failure(try_to_encode({"--max-error", "5%", "--codec", "wavelet"}), 1, {"wavelet"});
 }
 
-TEST_F(Target, FilesOfCountsStateTheirErrorsToo) {
+TEST_F(Target, FilesOfCountsStateTheirErrorsWhereAsked) {
     encode("x.paim", {"--transfer-components", "2", "--geometry-components", "2"});
+    EXPECT_EQ(verify("x.paim"), 2);
+    const json counted =
+        encode("x.paim", {"--transfer-components", "2", "--geometry-components", "2", "--measure"});
+    EXPECT_GT(counted["measured"]["transfer_total_error"], 0.01);
+    EXPECT_EQ(counted["size_bytes"], std::filesystem::file_size(path("x.paim")));
     EXPECT_EQ(verify("x.paim"), 0);
-    encode("x.paim", {"--precision", "f16"});
+    encode("x.paim", {"--precision", "f16", "--measure"});
     EXPECT_EQ(verify("x.paim"), 0);
 }
 

@@ -109,6 +109,17 @@ TEST(Container, RefusesPipesWithoutWaiting) {
     EXPECT_NE(complaint(directory / "pipe").find("expected a regular file"), std::string::npos);
 }
 
+TEST(Container, KnowsTheSizeOfEveryValue) {
+    EXPECT_EQ(scalar_size_bytes(ScalarType::u8), sizeof(uint8_t));
+    EXPECT_EQ(scalar_size_bytes(ScalarType::i8), sizeof(int8_t));
+    EXPECT_EQ(scalar_size_bytes(ScalarType::i16), sizeof(int16_t));
+    EXPECT_EQ(scalar_size_bytes(ScalarType::f16), sizeof(uint16_t));
+    EXPECT_EQ(scalar_size_bytes(ScalarType::u32), sizeof(uint32_t));
+    EXPECT_EQ(scalar_size_bytes(ScalarType::f32), sizeof(float));
+    EXPECT_EQ(scalar_size_bytes(ScalarType::f64), sizeof(double));
+    EXPECT_EQ(scalar_size_bytes(static_cast<ScalarType>(99)), 0u);
+}
+
 TEST(Container, RefusesAnotherKind) {
     const TemporaryDirectory directory;
     write_example(directory / "x");

@@ -1,0 +1,135 @@
+// Errors of the first components, against decoding with and without the others.
+#include "paim/metrics/prefix_error.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "paim/codec/component_planes.h"
+#include "tests/example_model.h"
+#include "tests/first_components.h"
+
+namespace paim {
+namespace {
+
+double decoded_energy(const Model& model, const Model& other, Part part,
+                      const std::vector<double>& plane_weight) {
+    double energy = 0.0;
+    for (uint32_t plane = 0; plane < plane_weight.size(); ++plane) {
+        const Eigen::MatrixXd difference = decode_plane(model, part, plane).cast<double>() -
+                                           decode_plane(other, part, plane).cast<double>();
+        energy += plane_weight[plane] * difference.squaredNorm();
+    }
+    return energy;
+}
+
+Model without_values(Model model, Part part) {
+    LowRankMatrix& matrix = part == Part::geometry ? model.geometry : model.transfer;
+    model = part == Part::geometry ? first_components(model, 0, model.transfer.num_components)
+                                   : first_components(model, model.geometry.num_components, 0);
+    matrix.mean = std::vector<float>(matrix.num_rows());
+    return model;
+}
+
+// Components of the examples are random, so that they are far from orthogonal.
+TEST(PrefixError, IsWhatDecodingLacks) {
+    for (const Model& model :
+         {make_example_model(3, 1), quantise_example(make_example_model(2, 3)),
+          make_clustered_example(2, 3, 2, true), make_clustered_example(3, 1, 1)}) {
+        for (const Part part : {Part::geometry, Part::transfer}) {
+            const LowRankMatrix& matrix = model.part(part);
+            std::vector<double> plane_weight;
+            for (uint32_t j = 0; j < matrix.num_planes; ++j) plane_weight.push_back(1.0 / (1 + j));
+            const ComponentEnergy energy = component_energy(model, part, plane_weight);
+            const double decoded =
+                decoded_energy(model, without_values(model, part), part, plane_weight);
+            // Decoding adds up in floats: a few roundings of 6e-8, times two as these are squares.
+            EXPECT_NEAR(energy.decoded, decoded, 1e-6 * decoded);
+            ASSERT_EQ(energy.dropped.size(), size_t{matrix.num_components} + 1);
+            EXPECT_EQ(energy.dropped.back(), 0.0);
+            for (uint32_t k = 0; k < matrix.num_components; ++k) {
+                const Model coarser = first_components(model, k, k);
+                const double lacking = decoded_energy(model, coarser, part, plane_weight);
+                EXPECT_GT(lacking, 0.0);
+                EXPECT_NEAR(energy.dropped[k], lacking, 1e-6 * decoded) << k;
+            }
+        }
+    }
+}
+
+// One vertex, one plane or three, numbers that can be followed by hand.
+Model hand_made() {
+    Model model = make_example_model(1, 1, 2, 1);
+    const auto fill = [](LowRankMatrix& matrix, float mean, float component) {
+        matrix.mean = std::vector<float>(matrix.num_rows(), mean);
+        matrix.components = {StoredValues(std::vector<float>(matrix.num_rows(), component))};
+        matrix.weights = {1.0f, -1.0f};
+    };
+    fill(model.geometry, 5.0f, 2.0f);
+    fill(model.transfer, 4.0f, 3.0f);
+    return model;
+}
+
+TEST(PrefixError, WithoutAStatementIsWhatTheMissingComponentsCost) {
+    const PrefixErrors errors = prefix_errors(hand_made(), {});
+    EXPECT_FALSE(errors.transfer_stated);
+    EXPECT_FALSE(errors.position_stated);
+    EXPECT_EQ(errors.light_spectrum, "flat");
+    // A transfer of 7 and 1 in turns, of which 3 and −3 are missing: √(9 / 25). Every position is off
+    // by (2, 2, 2).
+    ASSERT_EQ(errors.transfer.size(), 2u);
+    EXPECT_DOUBLE_EQ(errors.transfer[0], 0.6);
+    EXPECT_EQ(errors.transfer[1], 0.0);
+    ASSERT_EQ(errors.position_rms.size(), 2u);
+    EXPECT_DOUBLE_EQ(errors.position_rms[0], std::sqrt(12.0));
+    EXPECT_EQ(errors.position_rms[1], 0.0);
+}
+
+TEST(PrefixError, AddsWhatTheFileStatesInSquares) {
+    ErrorStatement statement{
+        "natural",
+        {{"transfer_total_error", 0.3}, {"transfer_deviation", 0.8}, {"position_rms", 2}}};
+    PrefixErrors errors = prefix_errors(hand_made(), statement);
+    EXPECT_TRUE(errors.transfer_stated);
+    EXPECT_TRUE(errors.position_stated);
+    EXPECT_EQ(errors.light_spectrum, "natural");
+    // The bake's transfer has an energy of 25 a pose decoded and (0.8 / 0.6)² times that not.
+    EXPECT_DOUBLE_EQ(errors.transfer[0], std::sqrt(0.09 + 0.36 * 0.36));
+    EXPECT_DOUBLE_EQ(errors.transfer[1], 0.3);
+    EXPECT_DOUBLE_EQ(errors.position_rms[0], 4.0);
+    EXPECT_DOUBLE_EQ(errors.position_rms[1], 2.0);
+
+    // Under a map that is not at hand.
+    statement.light_spectrum = "sky.exr";
+    errors = prefix_errors(hand_made(), statement);
+    EXPECT_FALSE(errors.transfer_stated);
+    EXPECT_TRUE(errors.position_stated);
+    EXPECT_EQ(errors.light_spectrum, "flat");
+    EXPECT_DOUBLE_EQ(errors.transfer[0], 0.6);
+    EXPECT_DOUBLE_EQ(errors.position_rms[1], 2.0);
+}
+
+// Bands count as much as there is light in them.
+TEST(PrefixError, WeighsBandsByTheLight) {
+    Model model = make_example_model(2, 1, 2, 1);
+    const std::vector<float> mean{1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+    const std::vector<float> component{0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 0, 0, 0, 0};
+    model.transfer.mean = mean;
+    model.transfer.components = {StoredValues(component)};
+    model.transfer.weights = {1.0f, -1.0f};
+    EXPECT_DOUBLE_EQ(prefix_errors(model, {}).transfer[0], std::sqrt(1.0 / 2.0));
+    // (l + 1)⁻² is a quarter in band 1.
+    const ErrorStatement statement{"natural", {{"transfer_total_error", 0.0}}};
+    EXPECT_DOUBLE_EQ(prefix_errors(model, statement).transfer[0], std::sqrt(0.25 / 1.25));
+}
+
+// An animation of which nothing is lit has no error that is not a number.
+TEST(PrefixError, OfZerosIsZero) {
+    Model model = make_example_model(2, 1, 3, 1);
+    model.transfer.mean = std::vector<float>(16);
+    model.transfer.components = {StoredValues(std::vector<float>(16))};
+    EXPECT_EQ(prefix_errors(model, {}).transfer, (std::vector<double>{0.0, 0.0}));
+}
+
+}  // namespace
+}  // namespace paim
