@@ -37,17 +37,4 @@ class GrowingFile {
     uint64_t written_ = 0;
 };
 
-// The model without the components that the prefix lacks.
-inline Model cut_model(Model model, const Prefix& prefix) {
-    const auto cut = [&](LowRankMatrix& matrix, uint32_t num_components) {
-        matrix.num_components = num_components;
-        matrix.components.resize(num_components);
-        matrix.weights.resize(size_t{num_components} * matrix.num_poses);
-        if (!matrix.weight_steps.empty()) matrix.weight_steps.resize(num_components);
-    };
-    cut(model.geometry, prefix.geometry_components);
-    cut(model.transfer, prefix.transfer_components);
-    return model;
-}
-
 }  // namespace paim::player

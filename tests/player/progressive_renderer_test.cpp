@@ -5,7 +5,6 @@
 #include "paim/light/sky.h"
 #include "player/gl/headless_context.h"
 #include "player/render/scene_renderer.h"
-#include "tests/player/growing_file.h"
 #include "tests/player/test_model.h"
 
 namespace paim::player {
@@ -26,7 +25,9 @@ TEST(ProgressiveRenderer, DrawsAnotherModelAsIfItWereTheFirst) {
     const auto context = gl::make_headless_context();
     TestModelOptions options;
     const Model whole = make_test_model(options);
-    const Model coarse = cut_model(whole, {0, 1, 2});
+    options.geometry_components = 1;
+    options.transfer_components = 2;
+    const Model coarse = make_test_model(options);
     options.bands = 3;  // projects the light anew
     options.num_poses = 4;
     const Model other = make_test_model(options);
