@@ -140,7 +140,7 @@ TEST_F(ProgressivePlayTest, WindowSharpensToTheWholeFilesPicture) {
     for (size_t i = 1; i < file_.prefixes.size(); ++i) file_.grow_to(file_.prefixes[i].size_bytes);
     const std::vector<char> whole = expected({});
     bool reached = false;
-    for (int i = 0; i < 600 && !reached; ++i) {
+    for (int i = 0; i < 200 && !reached; ++i) {
         keys.press("f");
         reached = save_view() == whole;
     }

@@ -32,9 +32,9 @@ TEST(ProgressiveRenderer, DrawsAnotherModelAsIfItWereTheFirst) {
     options.num_poses = 4;
     const Model other = make_test_model(options);
     const Image environment = make_sky();
-    SceneRenderer growing(coarse, environment, {});
-    Image last = draw(growing, coarse);
-    for (const Model* model : {&whole, &other, &coarse, &whole}) {
+    SceneRenderer growing(other, environment, {});
+    Image last = draw(growing, other);
+    for (const Model* model : {&coarse, &whole, &other, &coarse}) {
         growing.set_model(*model, {});
         const Image image = draw(growing, *model);
         EXPECT_NE(image.pixels, last.pixels);
