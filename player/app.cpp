@@ -8,11 +8,13 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "paim/base/error.h"
 #include "paim/image/png.h"
 #include "player/gl/check.h"
 #include "player/gl/window.h"
+#include "player/progressive_loader.h"
 #include "player/render/pose_bounds_cache.h"
 #include "player/render/scene_renderer.h"
 #include "player/render/tone_mapper.h"
@@ -33,28 +35,33 @@ constexpr int kSnapshotSamples = 2;
 
 // Uploads all of the model, so that limits can be raised again, or, where that is more than this
 // driver takes, what the options ask for.
-std::unique_ptr<SceneRenderer> make_renderer(const Scene& scene, const DecodeLimits& wanted) {
+template <typename Upload>
+auto upload_within(const DecodeLimits& wanted, Upload upload) {
     try {
-        return std::make_unique<SceneRenderer>(scene.model, scene.environment, DecodeLimits());
+        return upload(DecodeLimits());
     } catch (const Error&) {
-        return std::make_unique<SceneRenderer>(scene.model, scene.environment, wanted);
+        return upload(wanted);
     }
 }
 
 class App {
   public:
-    App(const Options& options, const Scene& scene)
+    // loader  of a file that grows, or nullptr
+    App(const Options& options, Scene scene, ProgressiveLoader* loader)
         : options_(options),
-          scene_(scene),
+          scene_(std::make_unique<Scene>(std::move(scene))),
+          loader_(loader),
           window_(options.size.first, options.size.second,
                   options.model_path.filename().string() + " - paim-play"),
-          renderer_(make_renderer(scene, options.limits)),
-          bounds_(scene.model),
+          renderer_(upload_within(options.wanted_limits,
+                                  [&](const DecodeLimits& limits) {
+                                      return std::make_unique<SceneRenderer>(
+                                          scene_->model, scene_->environment, limits);
+                                  })),
+          range_(range()),
           environment_name_(options.environment_path ? options.environment_path->filename().string()
                                                      : "built-in sky") {
-        const UploadPlan& plan = renderer_->plan();
-        range_ = {scene.model.num_poses(), plan.geometry_components, plan.transfer_components,
-                  plan.layout.bands, plan.cluster_components};
+        bounds_.emplace(scene_->model);
         view_.time = options.pose;
         view_.limits = options.limits;
         view_.tone_curve = options.tone_curve;
@@ -73,12 +80,45 @@ class App {
             const auto now = Clock::now();
             const double elapsed_s = std::chrono::duration<double>(now - last).count();
             last = now;
-            advance(view_, range_, scene_.model.frames_per_second, elapsed_s);
+            if (loader_ != nullptr) show_more();
+            advance(view_, range_, scene_->model.frames_per_second, elapsed_s);
             draw();
         }
     }
 
   private:
+    ViewRange range() const {
+        const UploadPlan& plan = renderer_->plan();
+        return {scene_->model.num_poses(), plan.geometry_components, plan.transfer_components,
+                plan.layout.bands, plan.cluster_components};
+    }
+
+    // Takes what has been read since the last frame; all else of the view stays.
+    void show_more() {
+        if (const std::string error = loader_->take_error(); !error.empty()) say(error);
+        std::optional<LoadedModel> loaded = loader_->take();
+        if (!loaded) return;
+        auto scene = std::make_unique<Scene>();
+        scene->model = std::move(loaded->model);
+        scene->bounds = loaded->bounds;
+        scene->size_bytes = loaded->progress.size_bytes;
+        scene->progress = loaded->progress;
+        try {
+            upload_within(options_.wanted_limits, [&](const DecodeLimits& limits) {
+                renderer_->set_model(scene->model, limits);
+            });
+        } catch (const Error& error) {
+            say(error.what());
+            return;
+        }
+        scene->environment = std::move(scene_->environment);
+        bounds_.emplace(scene->model);
+        scene_ = std::move(scene);
+        const ViewRange before = std::exchange(range_, range());
+        follow(view_, before, range_, options_.wanted_limits);
+        if (loaded->replaced) frame_all();
+    }
+
     void listen() {
         gl::WindowEvents& events = window_.events();
         events.on_key = [this](int key, bool shift) {
@@ -118,7 +158,7 @@ class App {
         const auto [width, height] = window_.framebuffer_size();
         const float aspect =
             static_cast<float>(std::max(1, width)) / static_cast<float>(std::max(1, height));
-        camera_.frame(options_.camera, scene_.bounds, aspect);
+        camera_.frame(options_.camera, scene_->bounds, aspect);
     }
 
     // False while the window is minimised.
@@ -133,7 +173,7 @@ class App {
         frame.limits = view_.limits;
         frame.env_rotation_rad = view_.env_rotation_deg * kPi / 180.0;
         frame.camera = camera_.camera();
-        frame.bounds = bounds_.at(view_.time, view_.limits.geometry_components);
+        frame.bounds = bounds_->at(view_.time, view_.limits.geometry_components);
         frame.background = view_.background;
         return frame;
     }
@@ -166,11 +206,14 @@ class App {
         info.environment = environment_name_;
         info.renderer = renderer_name_;
         if (Clock::now() < message_end_) info.message = message_;
-        info.file_bytes = scene_.size_bytes;
-        info.num_vertices = scene_.model.topology.num_vertices;
-        info.num_triangles = static_cast<uint32_t>(scene_.model.topology.triangles.size());
+        info.file_bytes = scene_->size_bytes;
+        if (loader_ != nullptr && !scene_->model.complete) {
+            info.loading = progress_text(loader_->progress());
+        }
+        info.num_vertices = scene_->model.topology.num_vertices;
+        info.num_triangles = static_cast<uint32_t>(scene_->model.topology.triangles.size());
         info.frame_ms = frame_ms_;
-        info.cost = frame_cost(scene_.model, view_.limits);
+        info.cost = frame_cost(scene_->model, view_.limits);
         return info;
     }
 
@@ -214,17 +257,18 @@ class App {
     }
 
     const Options& options_;
-    const Scene& scene_;
+    std::unique_ptr<Scene> scene_;
+    ProgressiveLoader* loader_;
     gl::Window window_;
     std::string renderer_name_ = window_.renderer();
     std::unique_ptr<SceneRenderer> renderer_;
+    ViewRange range_;
     ToneMapper tone_mapper_;
-    PoseBoundsCache bounds_;
+    std::optional<PoseBoundsCache> bounds_;
     std::optional<gl::Target> target_;
     std::optional<ImGuiLayer> imgui_;
     OrbitCamera camera_;
     ViewState view_;
-    ViewRange range_;
     std::string environment_name_;
     std::string message_;
     Clock::time_point message_end_{};
@@ -233,8 +277,18 @@ class App {
 
 }  // namespace
 
-void run_app(const Options& options, const Scene& scene) {
-    App(options, scene).run();
+void run_app(const Options& options, Scene scene) {
+    App(options, std::move(scene), nullptr).run();
+}
+
+void run_growing(Options& options) {
+    ProgressiveLoader loader(options.model_path);
+    LoadedModel first = loader.wait_for_first([&] {
+        fmt::print(stderr, "paim-play: note: {}: waiting for the beginning that can be played\n",
+                   options.model_path.string());
+    });
+    Scene scene = make_scene(options, std::move(first));
+    App(options, std::move(scene), &loader).run();
 }
 
 }  // namespace paim::player

@@ -1,4 +1,6 @@
 // paim-play: plays a .paim under a light that can be changed and turned.
+#include <utility>
+
 #include "paim/cli/run_main.h"
 #include "player/app.h"
 #include "player/bench.h"
@@ -11,13 +13,17 @@ int main(int argc, char** argv) {
     return paim::cli::run_main("paim-play", [&] {
         Options options;
         if (const int code = parse_options(argc, argv, options); code >= 0) return code;
-        const Scene scene = load_scene(options);
+        if (options.progressive && options.opens_window()) {
+            run_growing(options);
+            return 0;
+        }
+        Scene scene = load_scene(options);
         if (options.snapshot_path) {
             take_snapshot(options, scene);
         } else if (options.bench_frames) {
             run_bench(options, scene);
         } else {
-            run_app(options, scene);
+            run_app(options, std::move(scene));
         }
         return 0;
     });

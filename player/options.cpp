@@ -71,7 +71,7 @@ CameraOptions parse_camera(const std::string& text) {
 }
 
 // What every option means. Kept in one place, so that --help is the documentation.
-void describe(CLI::App& app, RawOptions& raw, bool& json) {
+void describe(CLI::App& app, RawOptions& raw, Options& options) {
     const auto number = [&](const char* name, double& value, const char* unit, const char* text) {
         app.add_option(name, value, text)->type_name(unit);
     };
@@ -80,9 +80,15 @@ void describe(CLI::App& app, RawOptions& raw, bool& json) {
         return app.add_option(name, value, help)->type_name(unit);
     };
     text("model", raw.model, "X.paim", "The compressed animation to play")->required();
-    app.add_flag("--json", json,
+    app.add_flag("--json", options.json,
                  "Print one JSON object on standard output and nothing else; with --snapshot or "
                  "--bench");
+    app.add_flag(
+        "--progressive", options.progressive,
+        "Play a file of which only the beginning is there: the window starts as soon as "
+        "that can be played (gives up if no byte comes for 30 seconds before) and sharpens "
+        "while the file grows; --snapshot and --bench take what is there now (default: a "
+        "file that is cut short is refused)");
 
     text("--env", raw.environment, "FILE.exr",
          "Light and background: a lat-long OpenEXR map of linear radiance (default: a built-in "
@@ -144,7 +150,7 @@ int parse_options(int argc, const char* const* argv, Options& options) {
         "turned.",
         "paim-play");
     app.set_version_flag("--version", cli::version_text("paim-play"));
-    describe(app, raw, options.json);
+    describe(app, raw, options);
     app.footer(keys_help() +
                "\nMouse: drag to orbit, right or middle drag to move, wheel to zoom; drop an .exr "
                "onto the window to change the light.\n"
@@ -164,6 +170,7 @@ int parse_options(int argc, const char* const* argv, Options& options) {
     limit("--transfer-components", raw.transfer_components, 0, options.limits.transfer_components);
     limit("--cluster-components", raw.cluster_components, 0, options.limits.cluster_components);
     limit("--bands", raw.bands, 1, options.limits.bands);
+    options.wanted_limits = options.limits;
 
     require_range("--exposure", raw.exposure, -30.0, 30.0);
     if (raw.gamma != 0.0) require_range("--gamma (or 0)", raw.gamma, 0.1, 10.0);

@@ -20,7 +20,8 @@ struct CameraOptions {
 struct Options {
     std::filesystem::path model_path;
     std::optional<std::filesystem::path> environment_path;  // else the built-in sky
-    DecodeLimits limits;
+    DecodeLimits limits;         // no more than the file has, once it is loaded
+    DecodeLimits wanted_limits;  // as they were given, for a file that grows
     ToneCurve tone_curve;
     double pose = 0.0;
     double env_rotation_rad = 0.0;
@@ -32,6 +33,9 @@ struct Options {
     std::optional<int> bench_frames;
     std::optional<int> window_frames;  // then quit
     bool json = false;
+    bool progressive = false;  // play what is there of a file that is not all there
+
+    bool opens_window() const { return !snapshot_path && !bench_frames; }
 };
 
 // Fills the options. Returns an exit code where there is nothing more to do (help, version, a

@@ -28,6 +28,13 @@ nlohmann::ordered_json describe_frame(const Options& options, const Scene& scene
     json["bands"] = cost.bands;
     json["channels"] = scene.model.layout.channels;
     json["file_bytes"] = scene.size_bytes;
+    if (scene.progress) {
+        json["complete"] = scene.model.complete;
+        json["bytes"] = scene.progress->size_bytes;
+        json["whole_bytes"] = scene.progress->whole_size_bytes;
+        json["components"] = scene.progress->components;
+        json["whole_components"] = scene.progress->whole_components;
+    }
     json["bytes_in_use"] = cost.bytes;
     json["texture_bytes"] = renderer.texture_bytes();
     json["multiply_adds_per_vertex"] = cost.multiply_adds;

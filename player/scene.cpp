@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <utility>
 
 #include "paim/base/error.h"
 #include "paim/codec/sequence_bounds.h"
@@ -16,8 +17,10 @@ namespace paim::player {
 
 namespace {
 
-void lower_limit(const char* option, const char* what, uint32_t& limit, uint32_t available) {
-    if (limit == DecodeLimits().bands) {
+// all_there  the file will not have more
+void lower_limit(const char* option, const char* what, uint32_t& limit, uint32_t available,
+                 bool all_there) {
+    if (limit == DecodeLimits().bands || (limit > available && !all_there)) {
         limit = available;
     } else if (limit > available) {
         fmt::print(stderr, "paim-play: note: {} {}: the file has {} {}, using all of them\n",
@@ -29,28 +32,39 @@ void lower_limit(const char* option, const char* what, uint32_t& limit, uint32_t
 }  // namespace
 
 Scene load_scene(Options& options) {
-    Scene scene;
-    scene.model = read_paim(options.model_path);
-    const Model& model = scene.model;
+    if (options.progressive) return make_scene(options, load_beginning(options.model_path));
+    LoadedModel loaded;
+    loaded.model = read_paim(options.model_path);
+    loaded.bounds = sequence_bounds(loaded.model);
     std::error_code ignored;
-    scene.size_bytes = std::filesystem::file_size(options.model_path, ignored);
+    loaded.progress.size_bytes = std::filesystem::file_size(options.model_path, ignored);
+    return make_scene(options, std::move(loaded));
+}
+
+Scene make_scene(Options& options, LoadedModel loaded) {
+    Scene scene;
+    scene.model = std::move(loaded.model);
+    scene.bounds = loaded.bounds;
+    scene.size_bytes = loaded.progress.size_bytes;
+    if (options.progressive) scene.progress = loaded.progress;
+    const Model& model = scene.model;
 
     const double last_pose = static_cast<double>(model.num_poses()) - 1.0;
     if (options.pose > last_pose) {
         throw_usage("--pose: expected 0 to {} ({} has {} poses), got {}", last_pose,
                     options.model_path.string(), model.num_poses(), options.pose);
     }
-    lower_limit("--geometry-components", "geometry components", options.limits.geometry_components,
-                model.geometry.num_components);
-    lower_limit("--transfer-components", "transfer components", options.limits.transfer_components,
-                model.transfer.num_components);
-    lower_limit("--cluster-components", "cluster components", options.limits.cluster_components,
-                model.clusters.num_components);
-    lower_limit("--bands", "bands", options.limits.bands, model.layout.bands);
+    DecodeLimits& limits = options.limits;
+    lower_limit("--geometry-components", "geometry components", limits.geometry_components,
+                model.geometry.num_components, model.complete);
+    lower_limit("--transfer-components", "transfer components", limits.transfer_components,
+                model.transfer.num_components, model.complete);
+    lower_limit("--cluster-components", "cluster components", limits.cluster_components,
+                model.clusters.num_components, true);
+    lower_limit("--bands", "bands", limits.bands, model.layout.bands, true);
 
     scene.environment =
         options.environment_path ? load_environment(*options.environment_path) : make_sky();
-    scene.bounds = sequence_bounds(model);
     return scene;
 }
 

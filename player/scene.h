@@ -1,23 +1,30 @@
 // What a command line names, loaded and checked: the animation and its light.
 #pragma once
 
+#include <optional>
+
 #include "paim/codec/model.h"
 #include "paim/image/image.h"
 #include "paim/mesh/bounds.h"
+#include "player/file_beginning.h"
 #include "player/options.h"
 
 namespace paim::player {
 
 struct Scene {
     Model model;
-    Image environment;        // lat-long, linear radiance, finite and not negative
-    Bounds bounds;            // of the whole animation
-    uint64_t size_bytes = 0;  // of the .paim file
+    Image environment;                     // lat-long, linear radiance, finite and not negative
+    Bounds bounds;                         // of the whole animation
+    uint64_t size_bytes = 0;               // of the .paim file, as far as it is there
+    std::optional<LoadProgress> progress;  // of a file that is read progressively
 };
 
 // Reads the animation and the environment. Lowers the options' limits to what the file has, with a
 // note on stderr. Errors name the file; Error(usage) if the pose is beyond the last.
 Scene load_scene(Options& options);
+
+// The same, of an animation that has been read progressively.
+Scene make_scene(Options& options, LoadedModel loaded);
 
 // Reads a lat-long map that can light a scene. Errors (bad input) name the file.
 Image load_environment(const std::filesystem::path& path);

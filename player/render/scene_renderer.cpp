@@ -1,7 +1,8 @@
 // The model, then the background where there is none.
 #include "player/render/scene_renderer.h"
 
-#include "paim/light/environment.h"
+#include <utility>
+
 #include "player/gl/check.h"
 
 namespace paim::player {
@@ -31,21 +32,35 @@ Model scenery_model(const Model& model) {
 }  // namespace
 
 SceneRenderer::SceneRenderer(const Model& model, const Image& environment,
-                             const DecodeLimits& limits)
-    : model_renderer_(model, limits) {
-    if (!model.scenery.empty()) {
-        scenery_ = scenery_model(model);
-        scenery_renderer_.emplace(scenery_, limits);
-    }
+                             const DecodeLimits& limits) {
+    set_model(model, limits);
     set_environment(environment);
 }
 
+void SceneRenderer::set_model(const Model& model, const DecodeLimits& limits) {
+    auto model_renderer = std::make_unique<ModelRenderer>(model, limits);
+    std::unique_ptr<Model> scenery;
+    std::unique_ptr<ModelRenderer> scenery_renderer;
+    if (!model.scenery.empty()) {
+        scenery = std::make_unique<Model>(scenery_model(model));
+        scenery_renderer = std::make_unique<ModelRenderer>(*scenery, limits);
+    }
+    model_renderer_ = std::move(model_renderer);
+    scenery_renderer_ = std::move(scenery_renderer);
+    scenery_ = std::move(scenery);
+    if (environment_ && light_.bands != static_cast<int>(plan().layout.bands)) project_light();
+}
+
 void SceneRenderer::set_environment(const Image& environment) {
-    const EnvironmentLight light(environment);
-    light_ = light.coefficients(Vec3f::Zero(), static_cast<int>(plan().layout.bands));
+    environment_.emplace(environment);
+    project_light();
+    background_renderer_.set_environment(environment);
+}
+
+void SceneRenderer::project_light() {
+    light_ = environment_->coefficients(Vec3f::Zero(), static_cast<int>(plan().layout.bands));
     turned_light_ = light_;
     turned_rad_ = 0.0;
-    background_renderer_.set_environment(environment);
 }
 
 void SceneRenderer::draw(const Frame& frame, const gl::Target& target) {
@@ -56,7 +71,7 @@ void SceneRenderer::draw(const Frame& frame, const gl::Target& target) {
     const float aspect = static_cast<float>(target.width()) / static_cast<float>(target.height());
     target.bind();
     background_renderer_.clear(frame);
-    model_renderer_.draw(frame, turned_light_, aspect);
+    model_renderer_->draw(frame, turned_light_, aspect);
     if (scenery_renderer_) scenery_renderer_->draw(frame, turned_light_, aspect);
     background_renderer_.draw(frame, aspect);
 }

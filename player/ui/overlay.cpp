@@ -53,6 +53,7 @@ void draw_settings(const OverlayInfo& info, const ViewRange& range, ViewState& v
         text(info.title);
         dim_text(fmt::format("{} vertices, {} triangles, {} poses", info.num_vertices,
                              info.num_triangles, range.num_poses));
+        if (!info.loading.empty()) text(info.loading);
         ImGui::Separator();
         ImGui::PushItemWidth(12.0f * ImGui::GetFontSize());
         count_slider("transfer components", view.limits.transfer_components, 0,

@@ -14,6 +14,7 @@ struct OverlayInfo {
     std::string environment;  // the light's
     std::string renderer;
     std::string message;  // of the last moments, or empty
+    std::string loading;  // how much of the file is there, or empty
     uint64_t file_bytes = 0;
     uint32_t num_vertices = 0;
     uint32_t num_triangles = 0;

@@ -1,6 +1,7 @@
 // Time goes by.
 #include "player/ui/view_state.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace paim::player {
@@ -9,7 +10,24 @@ namespace {
 
 constexpr double kTurnDegreesPerSecond = 30.0;
 
+void follow_limit(uint32_t& limit, uint32_t before, uint32_t now, uint32_t wanted) {
+    limit = limit < before ? std::min(limit, now) : std::clamp(wanted, std::min(limit, now), now);
+}
+
 }  // namespace
+
+void follow(ViewState& view, const ViewRange& before, const ViewRange& now,
+            const DecodeLimits& wanted) {
+    DecodeLimits& limits = view.limits;
+    follow_limit(limits.geometry_components, before.geometry_components, now.geometry_components,
+                 wanted.geometry_components);
+    follow_limit(limits.transfer_components, before.transfer_components, now.transfer_components,
+                 wanted.transfer_components);
+    follow_limit(limits.cluster_components, before.cluster_components, now.cluster_components,
+                 wanted.cluster_components);
+    follow_limit(limits.bands, before.bands, now.bands, wanted.bands);
+    view.time = std::min(view.time, static_cast<double>(now.num_poses));
+}
 
 void advance(ViewState& view, const ViewRange& range, float frames_per_second, double elapsed_s) {
     if (view.playing) {

@@ -30,6 +30,11 @@ struct ViewRange {
     uint32_t cluster_components = 0;
 };
 
+// The model has become another: what showed all there was shows all there is now, up to what was
+// asked for at the start, and what was lowered stays.
+void follow(ViewState& view, const ViewRange& before, const ViewRange& now,
+            const DecodeLimits& wanted);
+
 // Moves pose and light on by the time that has passed. Playing starts over after the last pose.
 void advance(ViewState& view, const ViewRange& range, float frames_per_second, double elapsed_s);
 

@@ -236,6 +236,7 @@ TEST_F(PlayTest, HelpNamesEveryOptionAndKey) {
                              "--bench",
                              "--frames",
                              "--json",
+                             "--progressive",
                              "Space",
                              "Esc",
                              "degrees",

@@ -4,6 +4,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <array>
 #include <cmath>
 
 #include "player/render/clip_from_world.h"
@@ -26,6 +27,44 @@ ViewState start() {
     ViewState view;
     view.limits = {3, 5, 6, 2};
     return view;
+}
+
+using Limits = std::array<uint32_t, 4>;
+
+Limits limits_of(const ViewState& view) {
+    const DecodeLimits& limits = view.limits;
+    return {limits.geometry_components, limits.transfer_components, limits.bands,
+            limits.cluster_components};
+}
+
+TEST(ViewState, FollowsAModelThatGrows) {
+    const DecodeLimits all;
+    constexpr ViewRange kMore{4, 4, 9, 6, 2};
+    ViewState view = start();
+    view.time = 1.5;
+    view.tone_curve.exposure_ev = 2.0f;
+    follow(view, kRange, kMore, all);
+    EXPECT_EQ(limits_of(view), (Limits{4, 9, 6, 2}));
+    EXPECT_EQ(view.time, 1.5);
+    EXPECT_EQ(view.tone_curve.exposure_ev, 2.0f);
+
+    view = start();  // what was lowered stays
+    view.limits.transfer_components = 2;
+    follow(view, kRange, kMore, all);
+    EXPECT_EQ(limits_of(view), (Limits{4, 2, 6, 2}));
+
+    view = start();  // up to what was asked for, or raised to since
+    DecodeLimits wanted;
+    wanted.transfer_components = 7;
+    wanted.geometry_components = 1;
+    follow(view, kRange, kMore, wanted);
+    EXPECT_EQ(limits_of(view), (Limits{3, 7, 6, 2}));
+
+    view.time = 4.0;  // another model, with less of everything
+    constexpr ViewRange kLess{2, 1, 0, 3, 0};
+    follow(view, kMore, kLess, wanted);
+    EXPECT_EQ(limits_of(view), (Limits{1, 0, 3, 0}));
+    EXPECT_EQ(view.time, 2.0);
 }
 
 TEST(Keys, ChangeLimitsWithinTheModel) {

@@ -1,0 +1,114 @@
+// Looking at the beginning of a file.
+#include "player/file_beginning.h"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <fstream>
+
+#include "paim/base/hash.h"
+#include "paim/codec/sequence_bounds.h"
+#include "paim/format/container_reader.h"
+#include "paim/format/paim_file.h"
+#include "paim/format/paim_sections.h"
+
+namespace paim::player {
+
+namespace {
+
+using container::Header;
+using container::TableEntry;
+
+// How many bytes header and section table take, or 0 where the header is none that counts.
+uint64_t table_end(const std::filesystem::path& path) {
+    Header header;
+    std::ifstream file(path, std::ios::binary);
+    file.read(reinterpret_cast<char*>(&header), sizeof(header));
+    const auto got = static_cast<size_t>(file.gcount());
+    const size_t num_known = std::min(got, header.magic.size());
+    if (!std::equal(container::kMagic.begin(),
+                    container::kMagic.begin() + static_cast<ptrdiff_t>(num_known),
+                    header.magic.begin())) {
+        return 0;
+    }
+    if (got < sizeof(header)) return sizeof(header);
+    if (header.header_xxh3 != xxh3(&header, sizeof(header) - sizeof(header.header_xxh3))) return 0;
+    const uint64_t end = sizeof(header) + uint64_t{header.num_sections} * sizeof(TableEntry);
+    return end <= header.file_size_bytes ? end : 0;
+}
+
+uint32_t num_components(const Model& model) {
+    return model.geometry.num_components + model.transfer.num_components;
+}
+
+std::string size_text(uint64_t size_bytes) {
+    const auto size = static_cast<double>(size_bytes);
+    return size_bytes < 1000000 ? fmt::format("{:.0f} kB", 1e-3 * size)
+                                : fmt::format("{:.1f} MB", 1e-6 * size);
+}
+
+}  // namespace
+
+std::string progress_text(const LoadProgress& progress) {
+    if (progress.whole_size_bytes == 0) return size_text(progress.size_bytes);
+    const double share =
+        static_cast<double>(progress.size_bytes) / static_cast<double>(progress.whole_size_bytes);
+    return fmt::format("{} % of {}, {} of {} components", static_cast<int>(100.0 * share),
+                       size_text(progress.whole_size_bytes), progress.components,
+                       progress.whole_components);
+}
+
+uint64_t Beginning::playable_bytes() const {
+    uint64_t playable = 0;
+    for (const Prefix& prefix : prefixes) {
+        if (prefix.size_bytes <= size_bytes) playable = prefix.size_bytes;
+    }
+    return playable;
+}
+
+LoadProgress Beginning::progress() const {
+    LoadProgress progress{size_bytes, 0, 0, 0};
+    if (!prefixes.empty()) {
+        const Prefix& whole = prefixes.back();
+        progress.whole_size_bytes = whole.size_bytes;
+        progress.size_bytes = std::min(size_bytes, whole.size_bytes);
+        progress.whole_components = whole.geometry_components + whole.transfer_components;
+    }
+    return progress;
+}
+
+Beginning inspect_beginning(const std::filesystem::path& path) {
+    Beginning beginning;
+    struct stat info {};
+    if (::stat(path.c_str(), &info) != 0 && errno == ENOENT) return beginning;
+    beginning.inode = info.st_ino;
+    if (S_ISREG(info.st_mode)) {
+        beginning.size_bytes = static_cast<uint64_t>(info.st_size);
+        if (beginning.size_bytes < table_end(path)) return beginning;
+    }
+    const ContainerReader reader(path, section::kKindAnimation, Extent::beginning);
+    beginning.size_bytes = reader.file_size_bytes();
+    beginning.prefixes = list_prefixes(reader);
+    for (const Section& section : reader.sections()) beginning.checksums.push_back(section.xxh3);
+    return beginning;
+}
+
+LoadedModel read_beginning(const std::filesystem::path& path, const Beginning& beginning) {
+    LoadedModel loaded;
+    loaded.model = read_paim(path, {.progressive = true});
+    loaded.progress = beginning.progress();
+    loaded.progress.components = num_components(loaded.model);
+    // More may have come since the look.
+    if (loaded.model.complete) loaded.progress.size_bytes = loaded.progress.whole_size_bytes;
+    return loaded;
+}
+
+LoadedModel load_beginning(const std::filesystem::path& path) {
+    LoadedModel loaded = read_beginning(path, inspect_beginning(path));
+    loaded.bounds = sequence_bounds(loaded.model);
+    return loaded;
+}
+
+}  // namespace paim::player

@@ -1,0 +1,168 @@
+// Watching a file that grows.
+#include "player/progressive_loader.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "paim/codec/sequence_bounds.h"
+
+namespace paim::player {
+
+ProgressiveLoader::ProgressiveLoader(std::filesystem::path path, const LoaderPace& pace)
+    : path_(std::move(path)),
+      pace_(pace),
+      waiting_since_(Clock::now()),
+      thread_([this](const std::stop_token& stop) { run(stop); }) {}
+
+LoadedModel ProgressiveLoader::wait_for_first(const std::function<void()>& on_wait) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return newest_ || failure_ || waiting_; });
+    if (!newest_ && !failure_) {
+        lock.unlock();
+        on_wait();
+        lock.lock();
+        changed_.wait(lock, [&] { return newest_ || failure_; });
+    }
+    if (!newest_) throw *failure_;
+    return *std::exchange(newest_, std::nullopt);
+}
+
+std::optional<LoadedModel> ProgressiveLoader::take() {
+    const std::scoped_lock lock(mutex_);
+    return std::exchange(newest_, std::nullopt);
+}
+
+std::string ProgressiveLoader::take_error() {
+    const std::scoped_lock lock(mutex_);
+    return std::exchange(error_, {});
+}
+
+LoadProgress ProgressiveLoader::progress() const {
+    const std::scoped_lock lock(mutex_);
+    return progress_;
+}
+
+void ProgressiveLoader::run(const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+        const auto start = Clock::now();
+        if (!look()) return;
+        // Long files take long to read: no more than half of the time goes into that.
+        const auto pause = std::max<Clock::duration>(pace_.interval, Clock::now() - start);
+        std::unique_lock lock(mutex_);
+        changed_.wait_for(lock, stop, pause, [] { return false; });
+    }
+}
+
+bool ProgressiveLoader::look() {
+    Beginning beginning;
+    try {
+        beginning = inspect_beginning(path_);
+        return read_more(beginning);
+    } catch (const Error& error) {
+        // What is written over while it is read looks damaged and is not.
+        if (!beginning.prefixes.empty() && !is_same_file(beginning)) {
+            tried_bytes_ = 0;
+            return true;
+        }
+        report(error);
+    } catch (const std::exception& error) {  // of the file system, or memory
+        report(Error(ExitCode::bad_input, path_.string() + ": " + error.what()));
+    }
+    const std::scoped_lock lock(mutex_);
+    return !failure_;
+}
+
+bool ProgressiveLoader::read_more(const Beginning& beginning) {
+    const bool other = !beginning.prefixes.empty() && beginning.checksums != checksums_;
+    if (other) {
+        replaced_ = replaced_ || !checksums_.empty();
+        checksums_ = beginning.checksums;
+        tried_bytes_ = 0;
+        bounds_.reset();
+    }
+    const uint64_t playable_bytes = beginning.playable_bytes();
+    if (tried_in_vain_) {  // a damaged file may be mended by another that has the same table
+        tried_bytes_ = beginning.inode != tried_inode_ ? 0 : std::min(tried_bytes_, playable_bytes);
+    }
+    {
+        const std::scoped_lock lock(mutex_);
+        const uint32_t components = other ? 0 : progress_.components;
+        progress_ = beginning.progress();
+        progress_.components = components;
+    }
+    if (playable_bytes <= tried_bytes_) {
+        wait_for_start(beginning);
+        const std::scoped_lock lock(mutex_);
+        return !failure_;
+    }
+    tried_bytes_ = playable_bytes;
+    tried_inode_ = beginning.inode;
+    tried_in_vain_ = true;
+    LoadedModel loaded = read_beginning(path_, beginning);
+    const uint32_t geometry_components = loaded.model.geometry.num_components;
+    if (!bounds_ || bounds_components_ != geometry_components) {
+        bounds_ = sequence_bounds(loaded.model);
+        bounds_components_ = geometry_components;
+    }
+    loaded.bounds = *bounds_;
+    const bool complete = loaded.model.complete;
+    tried_in_vain_ = false;
+    {
+        const std::scoped_lock lock(mutex_);
+        // A model that nobody took may have been another file's, too.
+        loaded.replaced = std::exchange(replaced_, false) || (newest_ && newest_->replaced);
+        progress_ = loaded.progress;
+        newest_ = std::move(loaded);
+        started_ = true;
+    }
+    last_error_.clear();
+    changed_.notify_all();
+    return !complete;
+}
+
+bool ProgressiveLoader::is_same_file(const Beginning& beginning) const {
+    try {
+        const Beginning now = inspect_beginning(path_);
+        return now.checksums == beginning.checksums && now.size_bytes >= beginning.size_bytes;
+    } catch (const std::exception&) {
+        return false;
+    }
+}
+
+void ProgressiveLoader::wait_for_start(const Beginning& beginning) {
+    const auto now = Clock::now();
+    {
+        const std::scoped_lock lock(mutex_);
+        if (started_) return;
+        waiting_ = true;
+    }
+    changed_.notify_all();
+    if (beginning.size_bytes != waiting_bytes_) {
+        waiting_bytes_ = beginning.size_bytes;
+        waiting_since_ = now;
+    }
+    if (now - waiting_since_ < pace_.patience) return;
+    const auto patience_s = std::chrono::duration<double>(pace_.patience).count();
+    const std::string expected =
+        beginning.prefixes.empty()
+            ? "a header and section table"
+            : fmt::format("the {} that can be played", beginning.prefixes.front().size_bytes);
+    report(Error(ExitCode::bad_input,
+                 fmt::format("{}: {} bytes, expected at least {}, and no more came for {} s",
+                             path_.string(), beginning.size_bytes, expected, patience_s)));
+}
+
+void ProgressiveLoader::report(const Error& error) {
+    {
+        const std::scoped_lock lock(mutex_);
+        if (!started_) {
+            failure_ = error;
+        } else if (error.what() != last_error_) {  // said once, not at every look
+            error_ = error.what();
+        }
+    }
+    last_error_ = error.what();
+    changed_.notify_all();
+}
+
+}  // namespace paim::player

@@ -1,0 +1,87 @@
+// Reads a .paim that is still being written, on a thread of its own: a coarser animation as soon as
+// there is one, then one with more components whenever more of them are whole.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <filesystem>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "paim/base/error.h"
+#include "player/file_beginning.h"
+
+namespace paim::player {
+
+// How often a file is looked at, and how long it may stand still before it can be played.
+struct LoaderPace {
+    std::chrono::milliseconds interval{100};
+    std::chrono::milliseconds patience{30000};
+};
+
+class ProgressiveLoader {
+  public:
+    // Starts reading; the file need not be there yet.
+    explicit ProgressiveLoader(std::filesystem::path path, const LoaderPace& pace = LoaderPace());
+    // Waits until what is being read has been.
+    ~ProgressiveLoader() = default;
+    ProgressiveLoader(const ProgressiveLoader&) = delete;
+    ProgressiveLoader& operator=(const ProgressiveLoader&) = delete;
+
+    // The first model that can be played. Calls on_wait once if there are not enough bytes for it.
+    // Errors as read_paim()'s; bad input if no byte comes for as long as `patience`.
+    LoadedModel wait_for_first(const std::function<void()>& on_wait);
+
+    // The newest model since the last call, if there is one; never waits.
+    std::optional<LoadedModel> take();
+
+    // What went wrong since the last call, or empty. What was read before stays good, and what
+    // comes later is read all the same.
+    std::string take_error();
+
+    // Bytes as of the last look, components as of the last reading.
+    LoadProgress progress() const;
+
+  private:
+    using Clock = std::chrono::steady_clock;
+
+    void run(const std::stop_token& stop);
+    bool look();  // false: there is nothing more to read
+    bool read_more(const Beginning& beginning);
+    bool is_same_file(const Beginning& beginning) const;
+    void wait_for_start(const Beginning& beginning);
+    void report(const Error& error);
+
+    const std::filesystem::path path_;
+    const LoaderPace pace_;
+
+    // Of the reading thread.
+    std::vector<uint64_t> checksums_;  // of the file that was read last, or tried to
+    uint64_t tried_bytes_ = 0;         // of it; 0: none
+    uint64_t tried_inode_ = 0;         // of it
+    bool tried_in_vain_ = false;
+    std::optional<Bounds> bounds_;    // of it
+    uint32_t bounds_components_ = 0;  // of geometry, that they were made with
+    bool replaced_ = false;           // since the last model
+    uint64_t waiting_bytes_ = 0;      // before the first model
+    Clock::time_point waiting_since_{};
+    std::string last_error_;
+
+    // Of both threads.
+    mutable std::mutex mutex_;
+    std::condition_variable_any changed_;
+    std::optional<LoadedModel> newest_;
+    bool started_ = false;          // there has been a model
+    bool waiting_ = false;          // there are not enough bytes for one
+    std::optional<Error> failure_;  // there will be none
+    std::string error_;
+    LoadProgress progress_;
+
+    std::jthread thread_;  // last, for it uses all the others
+};
+
+}  // namespace paim::player

@@ -1,0 +1,88 @@
+// What there is of a file, byte by byte.
+#include "player/file_beginning.h"
+
+#include <gtest/gtest.h>
+
+#include "paim/base/error.h"
+#include "paim/codec/sequence_bounds.h"
+#include "tests/player/growing_file.h"
+#include "tests/player/test_model.h"
+#include "tests/temporary_directory.h"
+
+namespace paim::player {
+namespace {
+
+TEST(LoadProgress, IsSaidInWords) {
+    EXPECT_EQ(progress_text({744000, 1200000, 9, 23}), "62 % of 1.2 MB, 9 of 23 components");
+    EXPECT_EQ(progress_text({99999, 100000, 3, 4}), "99 % of 100 kB, 3 of 4 components");
+    EXPECT_EQ(progress_text({100000, 100000, 4, 4}), "100 % of 100 kB, 4 of 4 components");
+    EXPECT_EQ(progress_text({12000, 0, 0, 0}), "12 kB");
+}
+
+TEST(FileBeginning, GrowsFromNothingToAll) {
+    const TemporaryDirectory directory;
+    const auto path = directory / "a.paim";
+    TestModelOptions options;
+    options.num_rings = 3;
+    const Model model = make_test_model(options);
+    GrowingFile file(path, model);
+    const uint64_t num_bytes = file.bytes.size();
+    EXPECT_EQ(inspect_beginning(path).size_bytes, 0u);
+    size_t held = 0;  // prefixes
+    bool has_table = false;
+    for (uint64_t size = 1; size <= num_bytes; ++size) {
+        file.grow_to(size);
+        const Beginning beginning = inspect_beginning(path);
+        ASSERT_EQ(beginning.size_bytes, size);
+        ASSERT_TRUE(!has_table || !beginning.prefixes.empty()) << size;
+        has_table = !beginning.prefixes.empty();
+        if (held < file.prefixes.size() && file.prefixes[held].size_bytes == size) ++held;
+        ASSERT_EQ(beginning.playable_bytes(), held == 0 ? 0 : file.prefixes[held - 1].size_bytes);
+        if (has_table) {
+            ASSERT_EQ(beginning.progress(), (LoadProgress{size, num_bytes, 0, 8}));
+        }
+    }
+    EXPECT_EQ(held, file.prefixes.size());
+    EXPECT_TRUE(has_table);
+
+    const LoadedModel loaded = load_beginning(path);
+    EXPECT_TRUE(loaded.model.complete);
+    EXPECT_EQ(loaded.progress, (LoadProgress{num_bytes, num_bytes, 8, 8}));
+    EXPECT_EQ(loaded.bounds.lower, sequence_bounds(model).lower);
+    EXPECT_EQ(loaded.bounds.upper, sequence_bounds(model).upper);
+}
+
+TEST(FileBeginning, TellsDamageFromWhatIsMissing) {
+    const TemporaryDirectory directory;
+    const auto path = directory / "a.paim";
+    const auto expect_error = [&](const std::string& text) {
+        try {
+            inspect_beginning(path);
+            ADD_FAILURE() << "expected an error: " << text;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ExitCode::bad_input);
+            EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();
+        }
+    };
+    write_file(path, "hello");
+    expect_error("expected at least the 64 of a header");
+    write_file(path, std::string(100, 'x'));
+    expect_error("not a Paim file");
+    std::filesystem::remove(path);
+    std::filesystem::create_directory(path);
+    expect_error("expected a regular file");
+
+    GrowingFile header(directory / "b.paim", make_test_model({}));
+    header.bytes[12] ^= 1;  // of its kind
+    header.grow_to(64);
+    EXPECT_THROW(inspect_beginning(directory / "b.paim"), Error);
+    GrowingFile table(directory / "c.paim", make_test_model({}));
+    table.bytes[64] ^= 1;
+    table.grow_to(127);
+    EXPECT_TRUE(inspect_beginning(directory / "c.paim").prefixes.empty());
+    table.grow_to(table.prefixes[0].size_bytes);
+    EXPECT_THROW(inspect_beginning(directory / "c.paim"), Error);
+}
+
+}  // namespace
+}  // namespace paim::player

@@ -1,0 +1,40 @@
+// A file that is written in pieces.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <vector>
+
+#include "paim/base/file.h"
+#include "paim/codec/model.h"
+#include "paim/format/paim_file.h"
+#include "paim/format/prefixes.h"
+
+namespace paim::player {
+
+class GrowingFile {
+  public:
+    // Of the .paim that the model makes, no byte is at `path` yet. Needs `path`.whole, too.
+    GrowingFile(const std::filesystem::path& path, const Model& model) : path_(path) {
+        const std::filesystem::path whole = path.string() + ".whole";
+        write_paim(whole, model);
+        bytes = read_file(whole, uint64_t{1} << 30);
+        prefixes = read_prefixes(whole);
+    }
+
+    // Appends, so that there are so many bytes.
+    void grow_to(uint64_t size_bytes) {
+        std::ofstream file(path_, std::ios::binary | std::ios::app);
+        file.write(bytes.data() + written_, static_cast<std::streamsize>(size_bytes - written_));
+        written_ = size_bytes;
+    }
+
+    std::vector<char> bytes;  // that are written from now on
+    std::vector<Prefix> prefixes;
+
+  private:
+    std::filesystem::path path_;
+    uint64_t written_ = 0;
+};
+
+}  // namespace paim::player

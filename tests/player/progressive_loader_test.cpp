@@ -1,0 +1,191 @@
+// Files that grow, are replaced, are damaged.
+#include "player/progressive_loader.h"
+
+#include <gtest/gtest.h>
+
+#include "paim/codec/sequence_bounds.h"
+#include "tests/first_components.h"
+#include "tests/player/growing_file.h"
+#include "tests/player/test_model.h"
+#include "tests/temporary_directory.h"
+
+namespace paim::player {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto kTooLong = 60s;
+constexpr LoaderPace kPace{2ms, 1h};
+
+// What `next` gives, as soon as it gives anything.
+template <typename Next>
+auto wait_for(Next next) {
+    const auto end = std::chrono::steady_clock::now() + kTooLong;
+    auto got = next();
+    while (!got && std::chrono::steady_clock::now() < end) {
+        std::this_thread::sleep_for(1ms);
+        got = next();
+    }
+    return got;
+}
+
+std::optional<std::string> error_of(ProgressiveLoader& loader) {
+    std::string error = loader.take_error();
+    return error.empty() ? std::nullopt : std::optional(error);
+}
+
+// Waits until the loader has looked at a file of so many bytes, and read what it would of it.
+void wait_for_look(ProgressiveLoader& loader, uint64_t size_bytes) {
+    ASSERT_TRUE(wait_for([&] { return loader.progress().size_bytes == size_bytes; }));
+    std::this_thread::sleep_for(20ms);
+}
+
+class ProgressiveLoaderTest : public testing::Test {
+  protected:
+    static Model make_model(uint32_t num_poses) {
+        TestModelOptions options;
+        options.num_poses = num_poses;
+        options.num_rings = 4;
+        return make_test_model(options);
+    }
+
+    void expect_holds(const LoadedModel& loaded, const Prefix& prefix) const {
+        const Model& model = loaded.model;
+        EXPECT_EQ(model.geometry.num_components, prefix.geometry_components);
+        EXPECT_EQ(model.transfer.num_components, prefix.transfer_components);
+        EXPECT_EQ(model.complete, prefix == file_.prefixes.back());
+        EXPECT_EQ(loaded.progress,
+                  (LoadProgress{prefix.size_bytes, file_.bytes.size(),
+                                prefix.geometry_components + prefix.transfer_components, 8}));
+        const Bounds expected = sequence_bounds(
+            first_components(model_, prefix.geometry_components, prefix.transfer_components));
+        EXPECT_EQ(loaded.bounds.lower, expected.lower);
+        EXPECT_EQ(loaded.bounds.upper, expected.upper);
+        EXPECT_FALSE(loaded.replaced);
+    }
+
+    TemporaryDirectory directory_;
+    std::filesystem::path path_ = directory_ / "a.paim";
+    Model model_ = make_model(6);
+    GrowingFile file_{path_, model_};
+};
+
+TEST_F(ProgressiveLoaderTest, GrowsSectionBySection) {
+    const std::vector<Prefix>& prefixes = file_.prefixes;
+    file_.grow_to(prefixes[0].size_bytes);
+    ProgressiveLoader loader(path_, kPace);
+    bool waited = false;
+    expect_holds(loader.wait_for_first([&] { waited = true; }), prefixes[0]);
+    EXPECT_FALSE(waited);
+    ASSERT_EQ(prefixes.size(), 9u);
+    for (size_t i = 1; i < prefixes.size(); ++i) {
+        // Nothing is read for a component that lacks its last byte.
+        file_.grow_to(prefixes[i].size_bytes - 1);
+        wait_for_look(loader, prefixes[i].size_bytes - 1);
+        EXPECT_FALSE(loader.take());
+        file_.grow_to(prefixes[i].size_bytes);
+        const auto loaded = wait_for([&] { return loader.take(); });
+        ASSERT_TRUE(loaded);
+        expect_holds(*loaded, prefixes[i]);
+    }
+    EXPECT_EQ(loader.take_error(), "");
+}
+
+TEST_F(ProgressiveLoaderTest, WaitsForTheStart) {
+    ProgressiveLoader loader(path_, kPace);
+    int num_waits = 0;
+    std::jthread writer;
+    const LoadedModel first = loader.wait_for_first([&] {
+        ++num_waits;
+        writer = std::jthread([&] {
+            for (const uint64_t size :
+                 {uint64_t{10}, uint64_t{64}, uint64_t{1000}, file_.prefixes[0].size_bytes - 1}) {
+                file_.grow_to(size);
+                wait_for_look(loader, size);
+            }
+            file_.grow_to(file_.prefixes[2].size_bytes);
+        });
+    });
+    EXPECT_EQ(num_waits, 1);
+    expect_holds(first, file_.prefixes[2]);
+}
+
+TEST_F(ProgressiveLoaderTest, GivesUpOnAFileThatStandsStill) {
+    const auto expect_failure = [&](const std::string& text) {
+        ProgressiveLoader loader(path_, {2ms, 100ms});
+        try {
+            loader.wait_for_first([] {});
+            ADD_FAILURE() << "expected an error: " << text;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ExitCode::bad_input);
+            EXPECT_EQ(error.what(), path_.string() + text);
+        }
+    };
+    expect_failure(
+        ": 0 bytes, expected at least a header and section table, and no more came for 0.1 s");
+    file_.grow_to(100);
+    expect_failure(
+        ": 100 bytes, expected at least a header and section table, and no more came for 0.1 s");
+    const uint64_t playable = file_.prefixes[0].size_bytes;
+    file_.grow_to(playable - 1);
+    expect_failure(fmt::format(
+        ": {} bytes, expected at least the {} that can be played, and no more came for 0.1 s",
+        playable - 1, playable));
+}
+
+TEST_F(ProgressiveLoaderTest, RefusesAtOnceWhatIsNoAnimation) {
+    write_file(path_, "neither now nor with more bytes");
+    ProgressiveLoader loader(path_, kPace);
+    EXPECT_THROW(loader.wait_for_first([] {}), Error);
+}
+
+TEST_F(ProgressiveLoaderTest, SaysDamageOnceAndGoesOn) {
+    const std::vector<Prefix>& prefixes = file_.prefixes;
+    file_.grow_to(prefixes[3].size_bytes);
+    ProgressiveLoader loader(path_, kPace);
+    expect_holds(loader.wait_for_first([] {}), prefixes[3]);
+
+    const std::vector<char> good = file_.bytes;
+    file_.bytes[prefixes[4].size_bytes - 1] ^= 1;
+    file_.grow_to(prefixes[4].size_bytes);
+    const auto error = wait_for([&] { return error_of(loader); });
+    ASSERT_TRUE(error);
+    EXPECT_NE(error->find("checksum"), std::string::npos) << *error;
+    file_.grow_to(good.size());
+    wait_for_look(loader, good.size());
+    EXPECT_EQ(loader.take_error(), "");
+    EXPECT_FALSE(loader.take());
+
+    // Sent anew.
+    write_file(path_, std::string_view(good.data(), good.size()));
+    const auto loaded = wait_for([&] { return loader.take(); });
+    ASSERT_TRUE(loaded);
+    expect_holds(*loaded, prefixes.back());
+}
+
+TEST_F(ProgressiveLoaderTest, TakesAFileThatReplacesAnother) {
+    file_.grow_to(file_.prefixes[5].size_bytes);
+    ProgressiveLoader loader(path_, kPace);
+    expect_holds(loader.wait_for_first([] {}), file_.prefixes[5]);
+    std::filesystem::remove(path_);
+    wait_for_look(loader, 0);
+    EXPECT_FALSE(loader.take());
+
+    // Shorter and longer than what was there before.
+    GrowingFile other(path_, make_model(9));
+    other.grow_to(other.prefixes[1].size_bytes);
+    auto loaded = wait_for([&] { return loader.take(); });
+    ASSERT_TRUE(loaded);
+    EXPECT_TRUE(loaded->replaced);
+    EXPECT_EQ(loaded->model.num_poses(), 9u);
+    EXPECT_EQ(loaded->progress.components, 1u);
+    other.grow_to(other.bytes.size());
+    loaded = wait_for([&] { return loader.take(); });
+    ASSERT_TRUE(loaded);
+    EXPECT_FALSE(loaded->replaced);
+    EXPECT_TRUE(loaded->model.complete);
+    EXPECT_EQ(loader.take_error(), "");
+}
+
+}  // namespace
+}  // namespace paim::player

@@ -1,0 +1,157 @@
+// paim-play --progressive as a user runs it.
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "paim/base/file.h"
+#include "paim/image/exr.h"
+#include "tests/cli/run_tool.h"
+#include "tests/first_components.h"
+#include "tests/player/growing_file.h"
+#include "tests/player/test_model.h"
+#include "tests/player/window_keys.h"
+#include "tests/player/x_server.h"
+#include "tests/temporary_directory.h"
+
+namespace paim::player {
+namespace {
+
+class ProgressivePlayTest : public testing::Test {
+  protected:
+    ProgressivePlayTest() {
+        ::unsetenv("DISPLAY");
+        ::unsetenv("WAYLAND_DISPLAY");
+    }
+
+    static ToolResult snapshot(const std::filesystem::path& file, const std::string& picture,
+                               std::vector<std::string> more = {}) {
+        std::vector<std::string> arguments{PAIM_PLAY, file.string(), "--snapshot", picture,
+                                           "--size",  "90x60",       "--pose",     "2.5",
+                                           "--bands", "4",           "--json"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run_tool(arguments);
+    }
+
+    std::string out(const char* name) const { return (directory_ / name).string(); }
+
+    TemporaryDirectory directory_;
+    std::filesystem::path path_ = directory_ / "ball.paim";
+    Model model_ = make_test_model({});  // 5 bands, 3 + 5 components, 6 poses
+    GrowingFile file_{path_, model_};
+};
+
+TEST_F(ProgressivePlayTest, SnapshotOfABeginningIsThatOfAFileWithItsComponents) {
+    size_t num_limited = 0;
+    for (const Prefix& prefix : file_.prefixes) {
+        file_.grow_to(prefix.size_bytes);
+        const ToolResult result = snapshot(path_, out("a.exr"), {"--progressive"});
+        ASSERT_EQ(result.exit_code, 0) << result.err;
+        EXPECT_EQ(result.err, "");
+        const auto json = nlohmann::json::parse(result.out);
+        EXPECT_EQ(json["complete"], prefix == file_.prefixes.back());
+        EXPECT_EQ(json["bytes"], prefix.size_bytes);
+        EXPECT_EQ(json["whole_bytes"], file_.bytes.size());
+        EXPECT_EQ(json["components"], prefix.geometry_components + prefix.transfer_components);
+        EXPECT_EQ(json["whole_components"], 8);
+        EXPECT_EQ(json["transfer_components"], prefix.transfer_components);
+        const Image image = read_exr(out("a.exr"));
+
+        write_paim(out("cut.paim"), first_components(model_, prefix.geometry_components,
+                                                     prefix.transfer_components));
+        const ToolResult cut = snapshot(out("cut.paim"), out("b.exr"));
+        ASSERT_EQ(cut.exit_code, 0) << cut.err;
+        EXPECT_FALSE(nlohmann::json::parse(cut.out).contains("complete"));
+        EXPECT_EQ(image.pixels, read_exr(out("b.exr")).pixels);
+
+        // Of the whole file, which has another camera unless all geometry is in use.
+        if (prefix.geometry_components < model_.geometry.num_components) continue;
+        ++num_limited;
+        const ToolResult whole =
+            snapshot(path_.string() + ".whole", out("c.exr"),
+                     {"--transfer-components", std::to_string(prefix.transfer_components)});
+        ASSERT_EQ(whole.exit_code, 0) << whole.err;
+        EXPECT_EQ(image.pixels, read_exr(out("c.exr")).pixels);
+    }
+    EXPECT_GE(num_limited, 1u);
+}
+
+TEST_F(ProgressivePlayTest, TakesABeginningOnlyWhenAsked) {
+    file_.grow_to(file_.prefixes[3].size_bytes);
+    const ToolResult refused = snapshot(path_, out("a.png"));
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_NE(refused.err.find("the file is cut short"), std::string::npos) << refused.err;
+    EXPECT_FALSE(std::filesystem::exists(out("a.png")));
+
+    // More components may come, so that nothing is said of those that are not there.
+    const ToolResult limited =
+        snapshot(path_, out("a.png"), {"--progressive", "--transfer-components", "5"});
+    EXPECT_EQ(limited.exit_code, 0);
+    EXPECT_EQ(limited.err, "");
+
+    const ToolResult bench = run_tool(
+        {PAIM_PLAY, path_.string(), "--progressive", "--bench", "2", "--size", "40x30", "--json"});
+    ASSERT_EQ(bench.exit_code, 0) << bench.err;
+    EXPECT_EQ(nlohmann::json::parse(bench.out)["components"], 3);
+
+    std::filesystem::resize_file(path_, file_.prefixes[0].size_bytes - 1);
+    const ToolResult nothing = snapshot(path_, out("b.png"), {"--progressive"});
+    EXPECT_EQ(nothing.exit_code, 2);
+    EXPECT_NE(nothing.err.find("that can be played"), std::string::npos) << nothing.err;
+}
+
+// The window is opened on a file that is not there yet; then it grows to the end, and what the
+// window shows becomes the picture of the whole file, at the pose that it was stopped at.
+TEST_F(ProgressivePlayTest, WindowSharpensToTheWholeFilesPicture) {
+    const XServer server(PAIM_XVFB);
+    ToolResult result;
+    std::jthread player([&] {
+        result = run_tool({"/bin/sh", "-c",
+                           "cd '" + directory_.path().string() + "' && exec " + PAIM_PLAY +
+                               " ball.paim --progressive --size 120x80 --bands 4"});
+    });
+    file_.grow_to(file_.prefixes[0].size_bytes - 1);
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    file_.grow_to(file_.prefixes[0].size_bytes);
+    WindowKeys keys("ball.paim - paim-play");
+    keys.press("Home");  // pose 0, paused
+    int num_pictures = 0;
+    const auto save_view = [&] {
+        const std::string name = fmt::format("ball-{:03}.png", ++num_pictures);
+        keys.press("s");
+        for (int i = 0; i < 6000 && !std::filesystem::exists(directory_ / name); ++i) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+        return read_file(directory_ / name, 1 << 20);
+    };
+    const auto expected = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{PAIM_PLAY, path_.string(), "--snapshot", out("e.png"),
+                                           "--size",  "120x80",       "--bands",    "4"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const ToolResult snapshot = run_tool(arguments);
+        EXPECT_EQ(snapshot.exit_code, 0) << snapshot.err;
+        return read_file(out("e.png"), 1 << 20);
+    };
+    EXPECT_EQ(save_view(), expected({"--progressive"}));
+
+    // The camera stays where the first model put it until the animation is framed anew (F).
+    for (size_t i = 1; i < file_.prefixes.size(); ++i) file_.grow_to(file_.prefixes[i].size_bytes);
+    const std::vector<char> whole = expected({});
+    bool reached = false;
+    for (int i = 0; i < 200 && !reached; ++i) {
+        keys.press("f");
+        reached = save_view() == whole;
+    }
+    EXPECT_TRUE(reached);
+    keys.press("Escape");
+    player.join();
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.out, "");
+    EXPECT_EQ(result.err,
+              "paim-play: note: ball.paim: waiting for the beginning that can be played\n");
+}
+
+}  // namespace
+}  // namespace paim::player

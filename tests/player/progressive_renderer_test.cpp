@@ -1,0 +1,49 @@
+// A renderer that is given another model draws it like one that had it from the start.
+#include <gtest/gtest.h>
+
+#include "paim/codec/sequence_bounds.h"
+#include "paim/light/sky.h"
+#include "player/gl/headless_context.h"
+#include "player/render/scene_renderer.h"
+#include "tests/player/test_model.h"
+
+namespace paim::player {
+namespace {
+
+constexpr int kWidth = 60, kHeight = 40;
+
+Image draw(SceneRenderer& renderer, const Model& model) {
+    Frame frame;
+    frame.time = 1.25;
+    frame.env_rotation_rad = 0.7;
+    frame.bounds = sequence_bounds(model);
+    frame.camera = frame_bounds(frame.bounds, static_cast<float>(kWidth) / kHeight);
+    return renderer.render(frame, kWidth, kHeight, 1);
+}
+
+TEST(ProgressiveRenderer, DrawsAnotherModelAsIfItWereTheFirst) {
+    const auto context = gl::make_headless_context();
+    TestModelOptions options;
+    const Model whole = make_test_model(options);
+    options.geometry_components = 1;
+    options.transfer_components = 2;
+    const Model coarse = make_test_model(options);
+    options.bands = 3;  // projects the light anew
+    options.num_poses = 4;
+    const Model other = make_test_model(options);
+    const Image environment = make_sky();
+    SceneRenderer growing(other, environment, {});
+    Image last = draw(growing, other);
+    for (const Model* model : {&coarse, &whole, &other, &coarse}) {
+        growing.set_model(*model, {});
+        const Image image = draw(growing, *model);
+        EXPECT_NE(image.pixels, last.pixels);
+        SceneRenderer fresh(*model, environment, {});
+        EXPECT_EQ(image.pixels, draw(fresh, *model).pixels);
+        EXPECT_EQ(growing.texture_bytes(), fresh.texture_bytes());
+        last = image;
+    }
+}
+
+}  // namespace
+}  // namespace paim::player
