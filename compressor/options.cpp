@@ -154,8 +154,7 @@ void add_encode_options(CLI::App& app, CompressOptions& options, RawOptions& raw
 void add_common_options(CLI::App& app, CompressOptions& options, const std::string& output_help) {
     app.add_option("-o,--output", options.output, output_help)->required();
     app.add_option("--threads", options.num_threads,
-                   "Threads, 0 to 1024; 0 takes every core; more for --max-error and --max-size, "
-                   "which hold all that may be kept; the result is the same for any number")
+                   "Threads, 0 to 1024; 0 takes every core; the result is the same for any number")
         ->check(cli::in_range(0, 1024))
         ->capture_default_str();
     app.add_flag("--json", options.json, "Write one JSON object on stdout and nothing else");
@@ -213,6 +212,16 @@ void apply(const RawOptions& raw, CompressOptions& options) {
     }
     options.encode.noise = raw.noise == "keep" ? NoiseTreatment::keep : NoiseTreatment::shrink;
     options.target = parse_target(raw.target);
+    const RawOptions defaults;
+    const auto needs_no_target = [&](const char* option, const std::string& value,
+                                     const std::string& without) {
+        if (options.target && value != without) {
+            throw_usage("{}: does not go with --max-error and --max-size, which choose", option);
+        }
+    };
+    needs_no_target("--geometry-components", raw.geometry_components, defaults.geometry_components);
+    needs_no_target("--transfer-components", raw.transfer_components, defaults.transfer_components);
+    needs_no_target("--auto-transfer-error", raw.auto_transfer_error, defaults.auto_transfer_error);
     options.light_spectrum = raw.target.light_spectrum;
     options.encode.precision = raw.precision == "f16" ? Precision::f16 : Precision::f32;
     if (options.target && options.target->codec == CodecChoice::cpca && raw.precision != "auto") {

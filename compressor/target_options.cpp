@@ -21,12 +21,8 @@ double parse_share(const std::string& text, const char* option) {
 }  // namespace
 
 void add_target_options(CLI::App& app, RawTarget& raw) {
-    const char* counts[] = {"--geometry-components", "--transfer-components",
-                            "--auto-transfer-error"};
     const auto add = [&](const char* name, auto& value, const std::string& help) {
-        CLI::Option* option = app.add_option(name, value, help);
-        for (const char* count : counts) option->excludes(app.get_option(count));
-        return option;
+        return app.add_option(name, value, help);
     };
     add("--max-error", raw.max_error,
         "The error that the transfer may have, a fraction or percentage (0.02, 2%): of radiance, "
@@ -34,7 +30,7 @@ void add_target_options(CLI::App& app, RawTarget& raw) {
         "over lights, vertices and poses, against a bake without noise. Components, bands, steps "
         "of "
         "integers and codec are then chosen for the smallest file, which is measured before it is "
-        "written (docs/metrics.md)");
+        "written (docs/metrics.md). Takes the place of the options of components");
     add("--geometry-error", raw.geometry_error,
         fmt::format(
             "With --max-error or --max-size: the RMS distance that positions may be off, a "

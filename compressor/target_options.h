@@ -22,7 +22,6 @@ struct RawTarget {
     bool asked() const { return !max_error.empty() || !max_size.empty(); }
 };
 
-// The options that say how many components are kept must be there already: they exclude these.
 void add_target_options(CLI::App& app, RawTarget& raw);
 
 // Everything but the spectrum, which needs the bake. Throws Error(usage) for values out of range and for
