@@ -254,12 +254,19 @@ class TargetEncoder {
     std::optional<Result> meet(double transfer_error, std::string& reason) {
         const Targets targets = targets_of(material_, target_, transfer_error);
         const std::string bake = material_.bake.directory().string() + ": ";
-        const auto coding = encoder_.choose(targets, summary_.candidates, reason);
-        if (!coding) {
-            reason = bake + reason;
-            return std::nullopt;
+        // What is chosen by estimates may leave its integers too little room once it is measured:
+        // then something of a smaller error by estimate.
+        std::optional<Model> model;
+        for (const double margin : {1.0, 0.97, 0.93, 0.88}) {
+            const auto coding = encoder_.choose({margin * targets.transfer, targets.geometry},
+                                                summary_.candidates, reason);
+            if (!coding) {
+                reason = bake + reason;
+                return std::nullopt;
+            }
+            model = encoder_.refine(*coding, targets, summary_.error);
+            if (model) break;
         }
-        auto model = encoder_.refine(*coding, targets, summary_.error);
         if (!model) {
             reason = fmt::format(
                 "{}{:.3g} % of the transfer and an RMS distance of {:.3g} were not met by any step "

@@ -118,7 +118,7 @@ struct Need {
     }
     uint64_t basis_rows() const {
         if (!size.clusters) return 0;
-        return std::min(vertices(), clusters() * (kMostClusterComponents + 1));
+        return std::min(2 * vertices(), clusters() * (kMostClusterComponents + 1));
     }
     uint64_t basis_values() const {
         return basis_rows() * size.num_planes * (size.transfer_components + uint64_t{1});
