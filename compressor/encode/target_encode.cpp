@@ -44,8 +44,6 @@ struct Coding {
     Precision geometry_precision = Precision::i16;
     uint64_t geometry_bytes = 0;
     TransferCoding transfer;
-
-    uint64_t bytes() const { return geometry_bytes + transfer.candidate.bytes; }
 };
 
 class Encoder {
@@ -391,10 +389,7 @@ TargetSummary encode_to_target(const BakeReader& bake, const EncodeOptions& opti
         const Model& model = result->model;
         candidate.bands = model.layout.bands;
         candidate.components = model.transfer.num_components;
-        if (model.clusters.empty()) {
-            candidate.multiply_adds = static_cast<uint32_t>(
-                svd_transfer_cost(model.layout, candidate.components, true).per_vertex());
-        }
+        candidate.multiply_adds = static_cast<uint32_t>(multiply_adds(model));
     }
     return summary;
 }
