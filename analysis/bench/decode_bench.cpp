@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cstring>
+#include <functional>
 
 #include "analysis/bench/ratio.h"
 #include "paim/base/parallel.h"
 #include "paim/base/seed.h"
 #include "paim/codec/make_decoder.h"
+#include "paim/codec/pose_parts.h"
+#include "paim/shade/cluster_light.h"
 
 namespace paim::bench {
 
@@ -87,8 +90,9 @@ size_t bytes_read(const Model& model) {
     return bytes;
 }
 
-size_t bytes_written(const Model& model) {
-    return sizeof(float) * (size_t{3} + model.layout.num_planes()) * model.topology.num_vertices;
+// What decoding leaves: positions and `planes` values of a vertex.
+size_t bytes_written(const Model& model, uint32_t planes) {
+    return sizeof(float) * (size_t{3} + planes) * model.topology.num_vertices;
 }
 
 // One call of memcpy a thread.
@@ -116,12 +120,12 @@ class Copy {
 //   of_balanced_bandwidth   the same of a copy that moves as many bytes as the decoder: half as many
 //                           as it reads and writes together
 //   read_GB_s               what the decoder reads in a second
-void decode(benchmark::State& state, const Model& model, int num_threads) {
+void measure(benchmark::State& state, const Model& model, size_t num_bytes_written,
+             const std::function<void(double time)>& decode_frame) {
+    const auto num_threads = static_cast<int>(state.range(0));
     const ThreadLimit limit(num_threads);
-    const std::unique_ptr<Decoder> decoder = make_decoder(model);
     Copy copy(bytes_read(model));
-    Copy balanced_copy((bytes_read(model) + bytes_written(model)) / 2);
-    DecodedPose pose;
+    Copy balanced_copy((bytes_read(model) + num_bytes_written) / 2);
     double time = 0.0;
     std::vector<double> ratios, cpu_ratios, balanced_ratios, our_times;
     for (auto _ : state) {
@@ -129,8 +133,7 @@ void decode(benchmark::State& state, const Model& model, int num_threads) {
         const Times moved = timed([&] { balanced_copy.run(num_threads); });
         time = time < 48.0 ? time + 0.37 : 0.0;
         const Times ours = timed([&] {
-            decoder->decode(time, {}, pose);
-            benchmark::DoNotOptimize(pose.transfer.data());
+            decode_frame(time);
             benchmark::ClobberMemory();
         });
         state.SetIterationTime(ours.wall_s);
@@ -146,16 +149,43 @@ void decode(benchmark::State& state, const Model& model, int num_threads) {
     state.counters["per_vertex_ns"] = 1e9 * median(our_times) / model.topology.num_vertices;
 }
 
+// Positions and transfer of every vertex.
+void decode(benchmark::State& state, const Model& model) {
+    const std::unique_ptr<Decoder> decoder = make_decoder(model);
+    DecodedPose pose;
+    measure(state, model, bytes_written(model, model.layout.num_planes()), [&](double time) {
+        decoder->decode(time, {}, pose);
+        benchmark::DoNotOptimize(pose.transfer.data());
+    });
+}
+
 void decode_svd(benchmark::State& state, uint32_t num_vertices, uint32_t num_components,
                 Precision precision) {
-    const auto num_threads = static_cast<int>(state.range(0));
-    decode(state, svd_model(num_vertices, num_components, precision), num_threads);
+    decode(state, svd_model(num_vertices, num_components, precision));
 }
 
 void decode_clusters(benchmark::State& state, uint32_t num_vertices, uint32_t num_components,
                      Precision precision) {
-    const auto num_threads = static_cast<int>(state.range(0));
-    decode(state, clustered_model(num_vertices, num_components, precision), num_threads);
+    decode(state, clustered_model(num_vertices, num_components, precision));
+}
+
+// A frame as clustered transfer is played: positions, and the light before the weights, so that what
+// is left of the transfer is each vertex's radiance.
+void light_clusters(benchmark::State& state, uint32_t num_vertices, uint32_t num_components,
+                    Precision precision) {
+    const Model model = clustered_model(num_vertices, num_components, precision);
+    const LightCoefficients light{kBands, std::vector<Vec3f>(kBands * kBands, Vec3f(1, 2, 3))};
+    ClusterLight cluster_light(model);
+    DecodedPose pose;
+    std::vector<Vec3f> products, radiance;
+    measure(state, model, bytes_written(model, 3), [&](double time) {
+        decode_positions(model, time, {}, pose);
+        cluster_light.light_products(time, {}, light, products);
+        shade_clusters(model.clusters, products, model.clusters.num_components, model.albedo,
+                       radiance);
+        benchmark::DoNotOptimize(pose.positions.data());
+        benchmark::DoNotOptimize(radiance.data());
+    });
 }
 
 void frames(benchmark::internal::Benchmark* benchmark) {
@@ -171,6 +201,12 @@ BENCHMARK_CAPTURE(decode_clusters, small, 1000, 4, Precision::i8)->Apply(frames)
 BENCHMARK_CAPTURE(decode_clusters, f32, 100000, 16, Precision::f32)->Apply(frames);
 BENCHMARK_CAPTURE(decode_clusters, i16, 100000, 16, Precision::i16)->Apply(frames);
 BENCHMARK_CAPTURE(decode_clusters, i8, 100000, 16, Precision::i8)->Apply(frames);
+BENCHMARK_CAPTURE(decode_clusters, i8_vertices_800000, 800000, 16, Precision::i8)->Apply(frames);
+BENCHMARK_CAPTURE(light_clusters, small, 1000, 4, Precision::i8)->Apply(frames);
+BENCHMARK_CAPTURE(light_clusters, f32, 100000, 16, Precision::f32)->Apply(frames);
+BENCHMARK_CAPTURE(light_clusters, i16, 100000, 16, Precision::i16)->Apply(frames);
+BENCHMARK_CAPTURE(light_clusters, i8, 100000, 16, Precision::i8)->Apply(frames);
+BENCHMARK_CAPTURE(light_clusters, i8_vertices_800000, 800000, 16, Precision::i8)->Apply(frames);
 
 }  // namespace
 

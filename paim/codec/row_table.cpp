@@ -15,20 +15,19 @@ namespace paim {
 
 namespace {
 
-void combine_plain(const RowCombination& combination, size_t first, size_t count,
-                   std::span<float> out) {
+static_assert(RowTable::kNarrow == kNarrowTile);
+
+float combine_plain(const RowCombination& combination, size_t v, size_t plane) {
     const RowTable& table = combination.table;
-    for (uint32_t plane = 0; plane < table.num_planes; ++plane) {
-        for (size_t v = first; v < first + count; ++v) {
-            const size_t row = size_t{combination.cluster[v]} * combination.rows_per_cluster;
-            float value = table.values[row * table.padded_planes + plane];
-            for (size_t j = 0; j < combination.coefficients.size(); ++j) {
-                value += combination.coefficients[j][v] *
-                         table.values[(row + 1 + j) * table.padded_planes + plane];
-            }
-            out[plane * combination.cluster.size() + v] = value;
-        }
+    const float* row =
+        table.values.data() + plane +
+        size_t{combination.cluster[v]} * combination.rows_per_cluster * table.padded_planes;
+    float value = *row;
+    for (const StoredValues& coefficients : combination.coefficients) {
+        row += table.padded_planes;
+        value += coefficients[v] * *row;
     }
+    return value;
 }
 
 // out[i · stride + v] = sums[v][i] for the first num_planes of W planes
@@ -55,19 +54,19 @@ void store_planes(const float* sums, size_t count, size_t num_planes, size_t str
     }
 }
 
-// At most kVertices vertices, planes [plane, plane + W) as far as there are any.
+// sums[v − first] = planes [plane, plane + W) of at most kVertices vertices, as far as there are any.
 template <int W>
-void combine_tile(const RowCombination& combination, size_t first, size_t count, size_t plane,
-                  void (*add_rows)(const RowBlock&, float*), const VectorKernels& use, float* out) {
+void sum_tile(const RowCombination& combination, size_t first, size_t count, size_t plane,
+              void (*add_rows)(const RowBlock&, float*), const VectorKernels& use, float* sums) {
     const RowTable& table = combination.table;
     RowBlock block;
     block.count = count;
     block.stride = table.padded_planes;
-    std::array<float, kVertices * W> sums;
-    for (size_t v = 0; v < count; ++v) {
-        const size_t row = size_t{combination.cluster[first + v]} * combination.rows_per_cluster;
-        block.rows[v] = table.values.data() + row * block.stride + plane;
-    }
+    const float* const rows = table.values.data() + plane;
+    const uint32_t* const cluster = combination.cluster.data() + first;
+    const size_t floats_per_cluster = combination.rows_per_cluster * block.stride;
+    for (size_t b = 0; b < count * sizeof(*cluster); b += kLineBytes) fetch_ahead(cluster, b);
+    for (size_t v = 0; v < count; ++v) block.rows[v] = rows + cluster[v] * floats_per_cluster;
     const std::span<const StoredValues> coefficients = combination.coefficients;
     size_t j = 0;
     do {
@@ -77,11 +76,27 @@ void combine_tile(const RowCombination& combination, size_t first, size_t count,
             use.widen(type_of(coefficients[j]), values_from(coefficients[j], first),
                       block.coefficients[i].data(), count);
         }
-        add_rows(block, sums.data());
+        add_rows(block, sums);
     } while (j < coefficients.size());
+}
+
+template <int W>
+void combine_tile(const RowCombination& combination, size_t first, size_t count, size_t plane,
+                  void (*add_rows)(const RowBlock&, float*), const VectorKernels& use, float* out) {
+    std::array<float, kVertices * W> sums;
+    sum_tile<W>(combination, first, count, plane, add_rows, use, sums.data());
     const size_t num_vertices = combination.cluster.size();
-    store_planes<W>(sums.data(), count, std::min<size_t>(W, table.num_planes - plane), num_vertices,
-                    out + plane * num_vertices + first);
+    store_planes<W>(sums.data(), count, std::min<size_t>(W, combination.table.num_planes - plane),
+                    num_vertices, out + plane * num_vertices + first);
+}
+
+void check(const RowCombination& combination, size_t first, size_t count) {
+    const size_t num_vertices = combination.cluster.size();
+    PAIM_CHECK(first <= num_vertices && count <= num_vertices - first);
+    PAIM_CHECK(combination.coefficients.size() < combination.rows_per_cluster);
+    for (const StoredValues& coefficients : combination.coefficients) {
+        PAIM_CHECK_EQ(coefficients.size(), num_vertices);
+    }
 }
 
 }  // namespace
@@ -101,17 +116,30 @@ void RowTable::assign(std::span<const float> rows, std::span<const float> scales
     }
 }
 
+void RowTable::assign(std::span<const Vec3f> rows) {
+    num_planes = 3;
+    padded_planes = kNarrowTile;
+    values.resize(rows.size() * kNarrowTile);
+    for (size_t r = 0; r < rows.size(); ++r) {
+        float* to = values.data() + r * kNarrowTile;
+        for (Eigen::Index i = 0; i < 3; ++i) to[i] = rows[r][i];
+        to[3] = 0.0f;
+    }
+}
+
 void combine(const RowCombination& combination, size_t first, size_t count, std::span<float> out,
              VectorUnit unit) {
     const RowTable& table = combination.table;
-    const size_t num_vertices = combination.cluster.size();
-    PAIM_CHECK(first <= num_vertices && count <= num_vertices - first);
-    PAIM_CHECK_EQ(out.size(), table.num_planes * num_vertices);
-    PAIM_CHECK(combination.coefficients.size() < combination.rows_per_cluster);
-    for (const StoredValues& coefficients : combination.coefficients) {
-        PAIM_CHECK_EQ(coefficients.size(), num_vertices);
+    check(combination, first, count);
+    PAIM_CHECK_EQ(out.size(), table.num_planes * combination.cluster.size());
+    if (unit == VectorUnit::plain) {
+        for (size_t plane = 0; plane < table.num_planes; ++plane) {
+            for (size_t v = first; v < first + count; ++v) {
+                out[plane * combination.cluster.size() + v] = combine_plain(combination, v, plane);
+            }
+        }
+        return;
     }
-    if (unit == VectorUnit::plain) return combine_plain(combination, first, count, out);
     const VectorKernels& use = vector_kernels(unit);
     for (size_t v = first; v < first + count; v += kVertices) {
         const size_t some = std::min(kVertices, first + count - v);
@@ -127,6 +155,24 @@ void combine(const RowCombination& combination, size_t first, size_t count, std:
         if (plane < table.padded_planes) {
             combine_tile<kWideTile>(combination, v, some, plane, use.combine_wide, use, out.data());
         }
+    }
+}
+
+void combine_by_vertex(const RowCombination& combination, size_t first, size_t count,
+                       std::span<float> out, VectorUnit unit) {
+    check(combination, first, count);
+    PAIM_CHECK_EQ(combination.table.padded_planes, uint32_t{kNarrowTile});
+    PAIM_CHECK_EQ(out.size(), count * kNarrowTile);
+    if (unit == VectorUnit::plain) {
+        for (size_t j = 0; j < out.size(); ++j) {
+            out[j] = combine_plain(combination, first + j / kNarrowTile, j % kNarrowTile);
+        }
+        return;
+    }
+    const VectorKernels& use = vector_kernels(unit);
+    for (size_t v = 0; v < count; v += kVertices) {
+        sum_tile<kNarrowTile>(combination, first + v, std::min(kVertices, count - v), 0,
+                              use.combine_narrow, use, out.data() + v * kNarrowTile);
     }
 }
 

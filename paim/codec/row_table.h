@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "paim/base/vector.h"
 #include "paim/codec/stored_values.h"
 #include "paim/codec/vector_unit.h"
 
@@ -30,6 +31,8 @@ struct LineAllocator {
 
 // Bases of clusters as combine() wants them: rows of padded planes.
 struct RowTable {
+    static constexpr size_t kNarrow = 4;  // padded planes of a table of few
+
     uint32_t num_planes = 0;
     uint32_t padded_planes = 0;
     // [rows][padded planes], from a cache line's beginning: vectors that straddle two lines cost twice
@@ -39,6 +42,8 @@ struct RowTable {
     // rows    [planes][R]
     // scales  [R]
     void assign(std::span<const float> rows, std::span<const float> scales);
+    // Takes rows of three planes.
+    void assign(std::span<const Vec3f> rows);
 };
 
 // What every vertex of a cluster is made from.
@@ -54,5 +59,10 @@ struct RowCombination {
 // where row(v, j) is row cluster[v] · rows_per_cluster + j of the table.
 void combine(const RowCombination& combination, size_t first, size_t count, std::span<float> out,
              VectorUnit unit = best_vector_unit());
+
+// The same values, of a table of at most RowTable::kNarrow planes (checked), each vertex's together:
+// at out[(v − first) · kNarrow + plane], zero beyond the planes.
+void combine_by_vertex(const RowCombination& combination, size_t first, size_t count,
+                       std::span<float> out, VectorUnit unit = best_vector_unit());
 
 }  // namespace paim

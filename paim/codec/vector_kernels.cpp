@@ -5,9 +5,6 @@
 #include <immintrin.h>
 #endif
 
-#include <bit>
-#include <cstdint>
-
 #include "paim/base/check.h"
 
 namespace paim {
@@ -16,30 +13,29 @@ namespace {
 
 using Type = Columns::Type;
 
-constexpr size_t kLineBytes = 64;
-// How far ahead of the sums components are fetched: the processor's own prefetching takes a while to
-// see each of so many streams.
-constexpr size_t kAheadBytes = 1024;
-
 typedef float FourFloats __attribute__((vector_size(16)));
 
-struct FourLanes {
+// The least vector that divides a tile.
+struct OneFour {
     using TileVector = FourFloats;
+    static constexpr size_t kFours = 1;
+    __attribute__((always_inline)) static FourFloats load_fours(const float* const* rows,
+                                                                size_t offset) {
+        FourFloats values;
+        __builtin_memcpy(&values, rows[0] + offset, sizeof(values));
+        return values;
+    }
+    __attribute__((always_inline)) static FourFloats spread(const float* values) {
+        return FourFloats{values[0], values[0], values[0], values[0]};
+    }
 };
-
-// May point past the values: nothing is read from there.
-__attribute__((always_inline)) inline void fetch_ahead(const void* from, size_t offset_bytes) {
-    __builtin_prefetch(
-        reinterpret_cast<const void*>(std::bit_cast<uintptr_t>(from) + offset_bytes + kAheadBytes));
-}
 
 namespace portable {
 
 #define PAIM_TARGET
 #define PAIM_TARGET_INLINE __attribute__((always_inline)) inline
-struct Lanes {
+struct Lanes : OneFour {
     using Vector = float;
-    using TileVector = FourFloats;
     static constexpr size_t kLanes = 1;
     template <typename T>
     static float load(const T* values) {
@@ -71,6 +67,15 @@ struct Lanes {
         const __m128i narrow = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(values));
         return _mm256_cvtepi32_ps(_mm256_cvtepi8_epi32(narrow));
     }
+    static constexpr size_t kFours = 2;
+    PAIM_TARGET_INLINE static Vector load_fours(const float* const* rows, size_t offset) {
+        return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(rows[0] + offset)),
+                                    _mm_loadu_ps(rows[1] + offset), 1);
+    }
+    PAIM_TARGET_INLINE static Vector spread(const float* values) {
+        return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_broadcast_ss(values)),
+                                    _mm_broadcast_ss(values + 1), 1);
+    }
 };
 #include "paim/codec/vector_kernels.inc"
 #undef PAIM_TARGET
@@ -100,6 +105,18 @@ struct Lanes {
     PAIM_TARGET_INLINE static Vector load(const int8_t* values) {
         const __m128i narrow = _mm_loadu_si128(reinterpret_cast<const __m128i*>(values));
         return to_floats(_mm512_maskz_cvtepi8_epi32(kAll, narrow));
+    }
+    static constexpr size_t kFours = 4;
+    PAIM_TARGET_INLINE static Vector load_fours(const float* const* rows, size_t offset) {
+        Vector values = _mm512_castps128_ps512(_mm_loadu_ps(rows[0] + offset));
+        values = _mm512_maskz_insertf32x4(kAll, values, _mm_loadu_ps(rows[1] + offset), 1);
+        values = _mm512_maskz_insertf32x4(kAll, values, _mm_loadu_ps(rows[2] + offset), 2);
+        return _mm512_maskz_insertf32x4(kAll, values, _mm_loadu_ps(rows[3] + offset), 3);
+    }
+    PAIM_TARGET_INLINE static Vector spread(const float* values) {
+        const __m512i each_four = _mm512_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3);
+        return _mm512_maskz_permutevar_ps(
+            kAll, _mm512_maskz_broadcast_f32x4(kAll, _mm_loadu_ps(values)), each_four);
     }
 };
 #include "paim/codec/vector_kernels.inc"

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
+#include <cstdint>
 
 #include "paim/codec/stored_values.h"
 #include "paim/codec/vector_unit.h"
@@ -17,6 +19,17 @@ constexpr int kNarrowTile = 4;
 constexpr int kWideTile = 16;
 constexpr int kWidestTile = 32;
 constexpr size_t kVertices = 64;
+constexpr size_t kLineBytes = 64;
+
+// How far ahead of the sums values are fetched: the processor's own prefetching takes a while to see
+// each of so many streams.
+constexpr size_t kAheadBytes = 1024;
+
+// May point past the values: nothing is read from there.
+__attribute__((always_inline)) inline void fetch_ahead(const void* from, size_t offset_bytes) {
+    __builtin_prefetch(
+        reinterpret_cast<const void*>(std::bit_cast<uintptr_t>(from) + offset_bytes + kAheadBytes));
+}
 
 // Values of some components (or coefficients), of one type.
 struct Columns {

@@ -4,13 +4,50 @@
 #include "paim/shade/cluster_light.h"
 
 #include <algorithm>
+#include <array>
 
 #include "paim/base/check.h"
 #include "paim/base/parallel.h"
 #include "paim/codec/accumulate.h"
 #include "paim/codec/low_rank.h"
+#include "paim/codec/row_table.h"
 
 namespace paim {
+
+namespace {
+
+constexpr size_t kBlock = 512;  // rows whose planes and sums stay in the first cache
+using Plane = std::array<float, kBlock>;
+
+// What some rows show under a light, plane by plane.
+struct RowBlockLight {
+    const Model& model;
+    std::span<const float> weights;  // of the components in use
+    size_t first = 0;
+    size_t count = 0;
+    Plane plane = {};
+    std::array<Plane, 3> sums = {};
+
+    // Of grey transfer to all channels.
+    void add(uint32_t plane_index, uint32_t channel, const Vec3f& incident) {
+        const LowRankMatrix& matrix = model.transfer;
+        accumulate(matrix.mean, std::span(matrix.components).first(weights.size()), weights, 1.0f,
+                   size_t{plane_index} * matrix.num_points + first, std::span(plane).first(count));
+        const Vec3f light = matrix.step(plane_index) * incident;
+        if (model.layout.channels == 3) {
+            Plane& sum = sums[channel];
+            for (size_t j = 0; j < count; ++j) sum[j] += light[channel] * plane[j];
+            return;
+        }
+        for (size_t j = 0; j < count; ++j) {
+            sums[0][j] += light[0] * plane[j];
+            sums[1][j] += light[1] * plane[j];
+            sums[2][j] += light[2] * plane[j];
+        }
+    }
+};
+
+}  // namespace
 
 ClusterLight::ClusterLight(const Model& model) : model_(model) {
     PAIM_CHECK(!model.clusters.empty());
@@ -30,21 +67,20 @@ void ClusterLight::light_products(double time, const DecodeLimits& limits,
     const uint32_t num_components =
         std::min(limits.transfer_components, model_.transfer.num_components);
     interpolate_weights(model_.transfer, time, weights_);
+    const std::span<const float> weights = std::span(weights_).first(num_components);
     products.resize(clusters.num_rows());
-    for (size_t first = 0; first < products.size(); first += kBlock) {
-        const size_t count = std::min(kBlock, products.size() - first);
-        for (Plane& sum : sums_) sum.fill(0.0f);
+    parallel_for(products.size(), kBlock, [&](size_t begin, size_t end) {
+        RowBlockLight block{model_, weights, begin, end - begin};
         for (uint32_t channel = 0; channel < layout.channels; ++channel) {
             for (uint32_t i = 0; i < bands * bands; ++i) {
-                add_plane(layout.plane(channel, i), channel, light.values[i], first, count,
-                          num_components);
+                block.add(layout.plane(channel, i), channel, light.values[i]);
             }
         }
-        for (size_t j = 0; j < count; ++j) {
-            products[first + j] =
-                clusters.scales[first + j] * Vec3f(sums_[0][j], sums_[1][j], sums_[2][j]);
+        for (size_t j = 0; j < block.count; ++j) {
+            products[begin + j] = clusters.scales[begin + j] *
+                                  Vec3f(block.sums[0][j], block.sums[1][j], block.sums[2][j]);
         }
-    }
+    });
     if (limits.cluster_components >= clusters.num_components) return;
     const uint32_t stride = clusters.rows_per_cluster();
     for (size_t r = 0; r < products.size(); ++r) {
@@ -52,45 +88,28 @@ void ClusterLight::light_products(double time, const DecodeLimits& limits,
     }
 }
 
-// Rebuilds rows of a plane and adds what they show: of grey transfer to all channels.
-void ClusterLight::add_plane(uint32_t plane, uint32_t channel, const Vec3f& incident,
-                             size_t first_row, size_t num_rows, uint32_t num_components) {
-    const LowRankMatrix& matrix = model_.transfer;
-    const size_t first = size_t{plane} * matrix.num_points + first_row;
-    const std::span<float> values = std::span(plane_).first(num_rows);
-    accumulate(matrix.mean, std::span(matrix.components).first(num_components),
-               std::span(weights_).first(num_components), 1.0f, first, values);
-    const Vec3f light = matrix.step(plane) * incident;
-    if (model_.layout.channels == 3) {
-        Plane& sum = sums_[channel];
-        for (size_t j = 0; j < num_rows; ++j) sum[j] += light[channel] * plane_[j];
-        return;
-    }
-    for (size_t j = 0; j < num_rows; ++j) {
-        sums_[0][j] += light[0] * plane_[j];
-        sums_[1][j] += light[1] * plane_[j];
-        sums_[2][j] += light[2] * plane_[j];
-    }
-}
-
 void shade_clusters(const VertexClusters& clusters, std::span<const Vec3f> products,
                     uint32_t num_components, const Albedo& albedo, std::vector<Vec3f>& radiance) {
     PAIM_CHECK_EQ(products.size(), size_t{clusters.num_rows()});
-    constexpr size_t kGrain = 1024;  // vertices whose sums stay in the first cache
-    const uint32_t stride = clusters.rows_per_cluster();
     const uint32_t used = std::min(num_components, clusters.num_components);
+    RowTable table;
+    table.assign(products);
+    const RowCombination combination{table, clusters.cluster,
+                                     std::span(clusters.coefficients).first(used),
+                                     clusters.rows_per_cluster()};
     radiance.resize(clusters.cluster.size());
-    parallel_for(radiance.size(), kGrain, [&](size_t begin, size_t end) {
-        for (size_t v = begin; v < end; ++v) {
-            radiance[v] = products[size_t{clusters.cluster[v]} * stride];
-        }
-        for (uint32_t j = 0; j < used; ++j) {
-            clusters.coefficients[j].for_each(begin, end - begin, [&](size_t v, float coefficient) {
-                radiance[v] += coefficient * products[size_t{clusters.cluster[v]} * stride + 1 + j];
-            });
-        }
-        for (size_t v = begin; v < end; ++v) {
-            radiance[v] = radiance[v].cwiseProduct(albedo.at(static_cast<uint32_t>(v)));
+    constexpr size_t kVerticesATask = 4096;
+    parallel_for(radiance.size(), kVerticesATask, [&](size_t begin, size_t end) {
+        constexpr size_t kVerticesATime = 128;  // their sums stay in the first cache
+        std::array<float, kVerticesATime * RowTable::kNarrow> sums;
+        for (size_t first = begin; first < end; first += kVerticesATime) {
+            const size_t count = std::min(kVerticesATime, end - first);
+            combine_by_vertex(combination, first, count,
+                              std::span(sums).first(count * RowTable::kNarrow));
+            for (size_t j = 0; j < count; ++j) {
+                const Eigen::Map<const Vec3f> sum(sums.data() + j * RowTable::kNarrow);
+                radiance[first + j] = sum.cwiseProduct(albedo.at(static_cast<uint32_t>(first + j)));
+            }
         }
     });
 }

@@ -4,7 +4,6 @@
 //           Transfer, 2003
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
@@ -28,16 +27,8 @@ class ClusterLight {
                         std::vector<Vec3f>& products);
 
   private:
-    static constexpr size_t kBlock = 512;  // rows whose planes and sums stay in the first cache
-    using Plane = std::array<float, kBlock>;
-
-    void add_plane(uint32_t plane, uint32_t channel, const Vec3f& incident, size_t first_row,
-                   size_t num_rows, uint32_t num_components);
-
     const Model& model_;
     std::vector<float> weights_;
-    Plane plane_;
-    std::array<Plane, 3> sums_;  // of the block, a channel each
 };
 
 // radiance(v) = albedo(v) · (product(c, 0) + Σ_j coefficients[j][v] · product(c, 1 + j)), c being the
