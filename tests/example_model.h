@@ -112,10 +112,34 @@ inline Scenery make_example_scenery(const TransferLayout& layout) {
     scenery.topology = {4, {{0, 1, 2}, {1, 3, 2}}};
     scenery.albedo.values = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.5f, 0.5f, 0.5f}};
     const auto number = [&] { return static_cast<float>(2.0 * random.uniform() - 1.0); };
-    scenery.positions.resize(size_t{3} * 4);
-    scenery.transfer.resize(size_t{layout.num_planes()} * 4);
-    std::generate(scenery.positions.begin(), scenery.positions.end(), number);
-    std::generate(scenery.transfer.begin(), scenery.transfer.end(), number);
+    const auto planes = [&](size_t count) {
+        std::vector<float> values(4 * count);
+        std::generate(values.begin(), values.end(), number);
+        return values;
+    };
+    scenery.positions = planes(3);
+    scenery.transfer = planes(layout.num_planes());
+    return scenery;
+}
+
+// The same in integers: positions i16, transfer i8, a step a plane.
+inline Scenery make_quantised_scenery(const TransferLayout& layout) {
+    Scenery scenery = make_example_scenery(layout);
+    const auto quantise = [](StillPlanes& planes, auto largest) {
+        using Integer = decltype(largest);
+        const std::vector<float> values = planes.floats();
+        std::vector<Integer> integers;
+        for (const float value : values) {
+            integers.push_back(static_cast<Integer>(std::lround(value * largest)));
+        }
+        std::vector<float> steps;
+        for (size_t j = 0; 4 * j < values.size(); ++j) {
+            steps.push_back(static_cast<float>(1 + j) / static_cast<float>(largest));
+        }
+        planes = {integers, steps};
+    };
+    quantise(scenery.positions, int16_t{1000});
+    quantise(scenery.transfer, int8_t{100});
     return scenery;
 }
 

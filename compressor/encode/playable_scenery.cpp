@@ -12,13 +12,15 @@ Scenery playable_scenery(const BakeReader& bake, uint32_t bands) {
     PAIM_CHECK_LE(bands, layout.bands);
     Scenery scenery{baked.topology, baked.albedo, baked.pose.positions, {}};
     const size_t num_vertices = baked.topology.num_vertices;
+    std::vector<float> transfer;
     for (uint32_t channel = 0; channel < layout.channels; ++channel) {
         // A channel's kept planes come first.
         const auto first = baked.pose.transfer.begin() +
                            static_cast<ptrdiff_t>(layout.plane(channel, 0) * num_vertices);
-        scenery.transfer.insert(scenery.transfer.end(), first,
-                                first + static_cast<ptrdiff_t>(bands * bands * num_vertices));
+        transfer.insert(transfer.end(), first,
+                        first + static_cast<ptrdiff_t>(bands * bands * num_vertices));
     }
+    scenery.transfer = std::move(transfer);
     return scenery;
 }
 

@@ -169,7 +169,7 @@ class Encoder {
     // Triangles, colours, table: about.
     uint64_t frame_bytes() const {
         return 2 * material_.frame.topology.triangles.size() + 4096 +
-               material_.frame.scenery.transfer.size() * sizeof(float);
+               material_.frame.scenery.transfer.values.size_bytes();
     }
 
     Model build(const Coding& coding) const {

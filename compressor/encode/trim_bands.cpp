@@ -37,15 +37,28 @@ StoredValues keep_planes(const StoredValues& values, const std::vector<uint32_t>
         values.values());
 }
 
+std::vector<float> keep_steps(const std::vector<float>& steps,
+                              const std::vector<uint32_t>& planes) {
+    std::vector<float> kept;
+    if (steps.empty()) return kept;
+    for (const uint32_t plane : planes) kept.push_back(steps[plane]);
+    return kept;
+}
+
 }  // namespace
 
 void trim_bands(Model& model) {
     LowRankMatrix& matrix = model.transfer;
     TransferLayout trimmed = model.layout;
+    const size_t num_still = model.scenery.topology.num_vertices;
     const auto band_is_zero = [&](uint32_t band) {
         for (uint32_t channel = 0; channel < model.layout.channels; ++channel) {
             for (uint32_t i = band * band; i < (band + 1) * (band + 1); ++i) {
-                if (!plane_is_zero(matrix, model.layout.plane(channel, i))) return false;
+                const uint32_t plane = model.layout.plane(channel, i);
+                if (!plane_is_zero(matrix, plane) ||
+                    !all_zero(model.scenery.transfer.values, plane * num_still, num_still)) {
+                    return false;
+                }
             }
         }
         return true;
@@ -62,21 +75,12 @@ void trim_bands(Model& model) {
     for (StoredValues& component : matrix.components) {
         component = keep_planes(component, planes, matrix.num_points);
     }
-    if (!matrix.steps.empty()) {
-        std::vector<float> steps;
-        for (const uint32_t plane : planes) steps.push_back(matrix.steps[plane]);
-        matrix.steps = std::move(steps);
-    }
+    matrix.steps = keep_steps(matrix.steps, planes);
     matrix.num_planes = trimmed.num_planes();
     model.layout = trimmed;
-    std::vector<float> scenery;
-    const size_t num_still = model.scenery.topology.num_vertices;
-    for (const uint32_t plane : planes) {
-        const auto first =
-            model.scenery.transfer.begin() + static_cast<ptrdiff_t>(plane * num_still);
-        scenery.insert(scenery.end(), first, first + static_cast<ptrdiff_t>(num_still));
-    }
-    model.scenery.transfer = std::move(scenery);
+    StillPlanes& still = model.scenery.transfer;
+    still.values = keep_planes(still.values, planes, num_still);
+    still.steps = keep_steps(still.steps, planes);
 }
 
 }  // namespace paim

@@ -5,7 +5,8 @@
 
 namespace paim {
 
-// Removes the highest bands of the transfer as long as they are nothing but zeros; one is kept.
+// Removes the highest bands of the transfer, and of the scenery's, as long as they are nothing but
+// zeros; one is kept.
 void trim_bands(Model& model);
 
 }  // namespace paim

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "paim/codec/still_planes.h"
 #include "paim/codec/stored_values.h"
 #include "paim/mesh/topology.h"
 #include "paim/transfer/layout.h"
@@ -68,8 +69,8 @@ struct VertexClusters {
 struct Scenery {
     Topology topology;  // without vertices: there is no scenery
     Albedo albedo;
-    std::vector<float> positions;  // [3][S] scene units
-    std::vector<float> transfer;   // [planes][S], of the animation's layout
+    StillPlanes positions;  // [3][S] scene units
+    StillPlanes transfer;   // [planes][S], of the animation's layout
 
     bool empty() const { return topology.num_vertices == 0; }
 };

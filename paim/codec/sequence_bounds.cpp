@@ -49,7 +49,7 @@ Bounds positions_bounds(const Model& model, double time, uint32_t num_geometry_c
 Bounds pose_bounds(const Model& model, double time, uint32_t num_geometry_components) {
     constexpr double kSeenDiagonals = 500.0;
     return with_scenery(positions_bounds(model, time, num_geometry_components),
-                        model.scenery.positions, kSeenDiagonals);
+                        model.scenery.positions.floats(), kSeenDiagonals);
 }
 
 Bounds framed_bounds(const Bounds& poses, std::span<const float> scenery_positions) {
@@ -70,7 +70,7 @@ Bounds sequence_bounds(const Model& model) {
     };
     for (uint64_t p = 0; p < num_poses; p += step) extend_by(p);
     extend_by(num_poses - 1);
-    return framed_bounds(bounds, model.scenery.positions);
+    return framed_bounds(bounds, model.scenery.positions.floats());
 }
 
 }  // namespace paim

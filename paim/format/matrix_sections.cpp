@@ -1,4 +1,4 @@
-// A low-rank matrix and clusters from the sections of a .paim.
+// A low-rank matrix, clusters and still planes from the sections of a .paim.
 #include "paim/format/matrix_sections.h"
 
 #include <cmath>
@@ -210,6 +210,20 @@ void read_clusters(const ContainerReader& reader, const PlanePredictor& predicto
     for (const Section* section : sections) {
         clusters.coefficients.push_back(read_values(reader, *section, predictor, pool));
     }
+}
+
+StillPlanes read_still_planes(const ContainerReader& reader, Tag values, Tag steps,
+                              uint32_t num_planes, uint32_t num_points,
+                              const PlanePredictor& predictor) {
+    const Section& section = require(reader, values);
+    expect_shape(reader, section, num_planes, num_points);
+    ScratchPool pool;
+    StillPlanes planes;
+    if (is_integer(precision_of(section.spec.type))) {
+        planes.steps = read_steps(reader, steps, num_planes);
+    }
+    planes.values = read_values(reader, section, predictor, pool);
+    return planes;
 }
 
 }  // namespace paim

@@ -1,4 +1,4 @@
-// A low-rank matrix and clusters from the sections of a .paim.
+// A low-rank matrix, clusters and still planes from the sections of a .paim.
 #pragma once
 
 #include "paim/codec/model.h"
@@ -22,5 +22,10 @@ void read_matrix(const ContainerReader& reader, Part part, const PlanePredictor&
 // cluster has.
 void read_clusters(const ContainerReader& reader, const PlanePredictor& predictor,
                    uint32_t num_vertices, VertexClusters& clusters);
+
+// Planes of what does not move, with the steps that integers count. The same errors.
+StillPlanes read_still_planes(const ContainerReader& reader, Tag values, Tag steps,
+                              uint32_t num_planes, uint32_t num_points,
+                              const PlanePredictor& predictor);
 
 }  // namespace paim

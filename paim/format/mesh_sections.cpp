@@ -85,7 +85,11 @@ std::vector<float> read_planes(const ContainerReader& reader, Tag tag, uint32_t 
 }
 
 uint32_t count_vertices(const ContainerReader& reader, Tag tag) {
-    const uint32_t count = reader.require(tag, ScalarType::f32).spec.shape[2];
+    const Section* section = reader.find(tag);
+    if (section == nullptr) {
+        throw_bad_input("{}: section {} 0 is missing", reader.path(), tag.str());
+    }
+    const uint32_t count = section->spec.shape[2];
     constexpr uint32_t kMost = std::numeric_limits<int32_t>::max();
     if (count < 1 || count > kMost) {
         throw_bad_input("{}: section {}: {} vertices, expected 1 to {}", reader.path(), tag.str(),

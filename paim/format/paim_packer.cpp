@@ -115,21 +115,30 @@ void add_frame(std::vector<Task>& tasks, Part part, const LowRankMatrix& matrix,
     }
 }
 
-void add_scenery(std::vector<Task>& tasks, const Model& model) {
+void add_scenery(std::vector<Task>& tasks, const Model& model, const PlanePredictor& predictor,
+                 Effort effort) {
     const Scenery& scenery = model.scenery;
     if (scenery.empty()) return;
     const uint32_t num_vertices = scenery.topology.num_vertices;
-    const auto planes = [&](Tag tag, uint32_t count, const std::vector<float>& values) {
+    const auto planes = [&](Tag tag, Tag tag_of_steps, uint32_t count, const StillPlanes& still) {
+        if (still.values.holds_floats()) {
+            tasks.push_back(zstd_task({tag, ScalarType::f32, 0, {1, count, num_vertices}},
+                                      std::span(still.values.floats())));
+            return;
+        }
         tasks.push_back(
-            zstd_task({tag, ScalarType::f32, 0, {1, count, num_vertices}}, std::span(values)));
+            zstd_task(row_spec(tag_of_steps, ScalarType::f32, count), std::span(still.steps)));
+        tasks.push_back(values_task(tag, 0, count, num_vertices, still.values, Precision::f32,
+                                    predictor, effort));
     };
     tasks.push_back({triangles_spec(scenery.topology, section::kSceneryTriangles),
                      SectionCodec::indices,
                      [&scenery] { return encode_triangles(scenery.topology); }});
-    planes(section::kSceneryPositions, 3, scenery.positions);
+    planes(section::kSceneryPositions, section::kSceneryPositionSteps, 3, scenery.positions);
     tasks.push_back(zstd_task(albedo_spec(scenery.albedo, section::kSceneryAlbedo),
                               std::span(scenery.albedo.values)));
-    planes(section::kSceneryTransfer, model.layout.num_planes(), scenery.transfer);
+    planes(section::kSceneryTransfer, section::kSceneryTransferSteps, model.layout.num_planes(),
+           scenery.transfer);
 }
 
 }  // namespace
@@ -140,7 +149,9 @@ bool needs_packing(const Model& model) {
                std::any_of(matrix.components.begin(), matrix.components.end(),
                            [](const StoredValues& values) { return !values.holds_floats(); });
     };
-    return !model.clusters.empty() || integers(model.geometry) || integers(model.transfer);
+    return !model.clusters.empty() || integers(model.geometry) || integers(model.transfer) ||
+           !model.scenery.positions.values.holds_floats() ||
+           !model.scenery.transfer.values.holds_floats();
 }
 
 PackedFile::PackedFile(const Model& model, Effort effort) {
@@ -159,7 +170,8 @@ PackedFile::PackedFile(const Model& model, Effort effort) {
     tasks.push_back({triangles_spec(model.topology), SectionCodec::indices,
                      [&model] { return encode_triangles(model.topology); }});
     tasks.push_back(zstd_task(albedo_spec(model.albedo), std::span(model.albedo.values)));
-    add_scenery(tasks, model);
+    const PlanePredictor still_vertices(model.scenery.topology);
+    add_scenery(tasks, model, still_vertices, effort);
     StoredValues cluster_numbers;
     if (!clusters.empty()) {
         PAIM_CHECK_EQ(clusters.cluster.size(), size_t{num_vertices});

@@ -30,9 +30,12 @@ constexpr Tag kClusterCoefficients("CCOE");  // f32, i16 or i8 [V], index j
 
 // .paim: scenery, all four or none.
 constexpr Tag kSceneryTriangles("STRI");  // u32 [F][3]
-constexpr Tag kSceneryPositions("SPOS");  // f32 [3][S]
+constexpr Tag kSceneryPositions("SPOS");  // f32, i16 or i8 [3][S]
 constexpr Tag kSceneryAlbedo("SALB");     // f32 [1 or S][3]
-constexpr Tag kSceneryTransfer("STRN");   // f32 [planes][S]
+constexpr Tag kSceneryTransfer("STRN");   // f32, i16 or i8 [planes][S]
+// Of integers, f32 [planes].
+constexpr Tag kSceneryPositionSteps("SPST");
+constexpr Tag kSceneryTransferSteps("STST");
 
 // .bake poses and scenery.
 constexpr Tag kPositions("POSN");  // f32 [3][V]

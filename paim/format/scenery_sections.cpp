@@ -5,6 +5,7 @@
 #include <span>
 
 #include "paim/base/check.h"
+#include "paim/format/matrix_sections.h"
 #include "paim/format/mesh_sections.h"
 
 namespace paim {
@@ -23,10 +24,11 @@ std::vector<SectionSpec> scenery_specs(const Scenery& scenery, const TransferLay
 
 void append_scenery(ContainerWriter& writer, size_t first, const Scenery& scenery) {
     if (scenery.empty()) return;
-    PAIM_CHECK_EQ(scenery.positions.size(), size_t{3} * scenery.topology.num_vertices);
+    const std::vector<float>& positions = scenery.positions.values.floats();
+    PAIM_CHECK_EQ(positions.size(), size_t{3} * scenery.topology.num_vertices);
     append_mesh(writer, first, first + 2, scenery.topology, scenery.albedo);
-    writer.append(first + 1, std::span(scenery.positions));
-    writer.append(first + 3, std::span(scenery.transfer));
+    writer.append(first + 1, std::span(positions));
+    writer.append(first + 3, std::span(scenery.transfer.values.floats()));
 }
 
 Scenery read_scenery(const ContainerReader& reader, const TransferLayout& layout) {
@@ -38,11 +40,20 @@ Scenery read_scenery(const ContainerReader& reader, const TransferLayout& layout
         return scenery;
     }
     const uint32_t num_vertices = count_vertices(reader, section::kSceneryPositions);
-    scenery.positions = read_planes(reader, section::kSceneryPositions, 3, num_vertices);
     scenery.topology = read_triangles(reader, num_vertices, section::kSceneryTriangles);
+    const bool predicted = std::any_of(std::begin(tags), std::end(tags), [&](Tag tag) {
+        const Section* section = reader.find(tag);
+        return section != nullptr && section->codec == SectionCodec::planes;
+    });
+    const PlanePredictor predictor =
+        predicted ? PlanePredictor(scenery.topology) : PlanePredictor();
+    scenery.positions =
+        read_still_planes(reader, section::kSceneryPositions, section::kSceneryPositionSteps, 3,
+                          num_vertices, predictor);
     scenery.albedo = read_albedo(reader, num_vertices, section::kSceneryAlbedo);
     scenery.transfer =
-        read_planes(reader, section::kSceneryTransfer, layout.num_planes(), num_vertices);
+        read_still_planes(reader, section::kSceneryTransfer, section::kSceneryTransferSteps,
+                          layout.num_planes(), num_vertices, predictor);
     return scenery;
 }
 

@@ -9,7 +9,7 @@
 
 namespace paim {
 
-// Four sections, or none if the scenery is empty.
+// Sections of floats (checked once they are filled), or none if the scenery is empty.
 std::vector<SectionSpec> scenery_specs(const Scenery& scenery, const TransferLayout& layout);
 
 // Fills the sections of scenery_specs(), which begin with number `first`.

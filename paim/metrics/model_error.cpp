@@ -1,18 +1,16 @@
 // A compressed animation, whatever its codec, against the bake it was made from.
 #include "paim/metrics/model_error.h"
 
-#include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <numeric>
 
 #include "paim/base/error.h"
 #include "paim/base/parallel.h"
 #include "paim/codec/component_planes.h"
 #include "paim/codec/pose_parts.h"
 #include "paim/format/metadata.h"
-#include "paim/mesh/locality.h"
 #include "paim/metrics/pose_space.h"
+#include "paim/metrics/vertex_match.h"
 
 namespace paim {
 
@@ -21,48 +19,7 @@ using Eigen::MatrixXf;
 
 namespace {
 
-// The bake's vertices and triangles in the order of the model.
-LocalOrder vertex_order(const Model& model, const BakeReader& bake) {
-    if (model.vertex_order == VertexOrder::local) return local_order(bake.topology());
-    LocalOrder order{{}, bake.topology()};
-    order.old_vertex.resize(bake.identity().num_vertices);
-    std::iota(order.old_vertex.begin(), order.old_vertex.end(), 0u);
-    return order;
-}
-
-// In the same order, but each may be turned.
-bool same_triangles(const Topology& a, const Topology& b) {
-    const auto turned = [](Triangle t) {
-        std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-        return t;
-    };
-    return a.num_vertices == b.num_vertices &&
-           std::equal(a.triangles.begin(), a.triangles.end(), b.triangles.begin(),
-                      b.triangles.end(),
-                      [&](const Triangle& s, const Triangle& t) { return turned(s) == turned(t); });
-}
-
-// Planes of V values of the bake, in the order of a model.
-class Reordered {
-  public:
-    explicit Reordered(const std::vector<uint32_t>& old_vertex)
-        : old_vertex_(old_vertex), buffer_(old_vertex.size()) {}
-
-    // values [planes][V], in place
-    void apply(float* values, size_t num_planes) {
-        for (size_t j = 0; j < num_planes; ++j) {
-            float* const plane = values + j * old_vertex_.size();
-            std::copy_n(plane, buffer_.size(), buffer_.begin());
-            for (size_t v = 0; v < buffer_.size(); ++v) plane[v] = buffer_[old_vertex_[v]];
-        }
-    }
-
-  private:
-    const std::vector<uint32_t>& old_vertex_;
-    std::vector<float> buffer_;
-};
-
-LocalOrder check_same_animation(const Model& model, const BakeReader& bake) {
+std::vector<uint32_t> check_same_animation(const Model& model, const BakeReader& bake) {
     const BakeIdentity& identity = bake.identity();
     const auto expect = [&](const char* what, uint64_t expected, uint64_t got) {
         if (expected == got) return;
@@ -71,11 +28,11 @@ LocalOrder check_same_animation(const Model& model, const BakeReader& bake) {
     };
     expect("vertices", identity.num_vertices, model.topology.num_vertices);
     expect("poses", identity.num_poses(), model.num_poses());
-    const LocalOrder order = vertex_order(model, bake);
-    if (!same_triangles(model.topology, order.topology)) {
-        throw_bad_input("{}: expected a file made from this bake, got other triangles",
-                        bake.directory().string());
-    }
+    expect("vertices of scenery", bake.scenery() ? bake.scenery()->topology.num_vertices : 0,
+           model.scenery.topology.num_vertices);
+    std::vector<uint32_t> old_vertex =
+        match_vertices(model.topology, model.vertex_order, bake.topology(),
+                       bake.directory().string(), "triangles");
     if (model.layout.kind != identity.layout.kind || model.layout.bands > identity.layout.bands ||
         (model.layout.channels != 1 && model.layout.channels != identity.layout.channels)) {
         throw_bad_input(
@@ -84,7 +41,7 @@ LocalOrder check_same_animation(const Model& model, const BakeReader& bake) {
             bake.directory().string(), identity.layout.bands, identity.layout.channels,
             model.layout.bands, model.layout.channels);
     }
-    return order;
+    return old_vertex;
 }
 
 TransferError measure_transfer(const Model& model, const BakeReader& bake,
@@ -104,9 +61,8 @@ TransferError measure_transfer(const Model& model, const BakeReader& bake,
             const auto pose = static_cast<uint32_t>(p);
             bake.read_transfer_rows(pose, first, num_vertices, baked.col(column).data());
             bake.read_noise_rows(pose, first, num_vertices, noise.col(column).data());
-            Reordered reordered(old_vertex);
-            reordered.apply(baked.col(column).data(), 1);
-            reordered.apply(noise.col(column).data(), 1);
+            reorder_planes({baked.col(column).data(), num_vertices}, old_vertex);
+            reorder_planes({noise.col(column).data(), num_vertices}, old_vertex);
         });
         const uint32_t i = plane % layout.num_coefficients();
         const uint32_t channel = plane / layout.num_coefficients();
@@ -121,13 +77,12 @@ TransferError measure_transfer(const Model& model, const BakeReader& bake,
 
 GeometryError measure_geometry(const Model& model, const BakeReader& bake,
                                const std::vector<uint32_t>& old_vertex) {
-    Reordered reordered(old_vertex);
     GeometryError error;
     DecodedPose pose;
     std::vector<float> baked(size_t{3} * bake.identity().num_vertices);
     for (uint32_t p = 0; p < bake.num_poses(); ++p) {
         bake.read_position_rows(p, 0, baked.size(), baked.data());
-        reordered.apply(baked.data(), 3);
+        reorder_planes(baked, old_vertex);
         decode_positions(model, p, {}, pose);
         error.add(pose.positions, baked, p);
     }
@@ -138,26 +93,41 @@ GeometryError measure_geometry(const Model& model, const BakeReader& bake,
 
 ModelError measure_model(const Model& model, const BakeReader& bake,
                          const LightSpectrum& spectrum) {
-    const LocalOrder order = check_same_animation(model, bake);
-    return {measure_transfer(model, bake, spectrum, order.old_vertex),
-            measure_geometry(model, bake, order.old_vertex)};
+    const std::vector<uint32_t> old_vertex = check_same_animation(model, bake);
+    ModelError error{measure_transfer(model, bake, spectrum, old_vertex),
+                     measure_geometry(model, bake, old_vertex),
+                     {}};
+    if (bake.scenery()) error.scenery = measure_scenery(model, bake, spectrum);
+    return error;
 }
 
 std::vector<NamedError> named_errors(const ModelError& error) {
     const TransferError& transfer = error.transfer;
     const GeometryError& geometry = error.geometry;
-    return {{"transfer_error", transfer.error, true},
-            {"transfer_missing_bands", transfer.missing_bands, true},
-            {"transfer_total_error", transfer.total(), true},
-            {"transfer_deviation", transfer.deviation, true},
-            {"transfer_worst_vertex_deviation", transfer.worst_vertex_deviation, true},
-            {"transfer_worst_pose_deviation", transfer.worst_pose_deviation, true},
-            {"position_rms", geometry.rms(), false},
-            {"position_worst", geometry.worst(), false},
-            {"position_relative_rms", geometry.relative_rms(), false},
-            {"position_relative_worst", geometry.relative_worst(), false},
-            {"kg_error", geometry.kg_error(), false},
-            {"e_rms", geometry.e_rms(), false}};
+    std::vector<NamedError> errors{
+        {"transfer_error", transfer.error, true},
+        {"transfer_missing_bands", transfer.missing_bands, true},
+        {"transfer_total_error", transfer.total(), true},
+        {"transfer_deviation", transfer.deviation, true},
+        {"transfer_worst_vertex_deviation", transfer.worst_vertex_deviation, true},
+        {"transfer_worst_pose_deviation", transfer.worst_pose_deviation, true},
+        {"position_rms", geometry.rms(), false},
+        {"position_worst", geometry.worst(), false},
+        {"position_relative_rms", geometry.relative_rms(), false},
+        {"position_relative_worst", geometry.relative_worst(), false},
+        {"kg_error", geometry.kg_error(), false},
+        {"e_rms", geometry.e_rms(), false}};
+    if (!error.scenery) return errors;
+    const TransferError& still = error.scenery->transfer;
+    errors.insert(errors.end(),
+                  {{"scenery_transfer_error", still.error, true},
+                   {"scenery_transfer_missing_bands", still.missing_bands, true},
+                   {"scenery_transfer_total_error", still.total(), true},
+                   {"scenery_transfer_deviation", still.deviation, true},
+                   {"scenery_transfer_worst_vertex_deviation", still.worst_vertex_deviation, true},
+                   {"scenery_position_rms", error.scenery->geometry.rms(), false},
+                   {"scenery_position_worst", error.scenery->geometry.worst(), false}});
+    return errors;
 }
 
 std::string error_statement_json(const ModelError& error, const LightSpectrum& spectrum) {
@@ -178,7 +148,9 @@ ErrorStatement read_error_statement(const Model& model, const std::filesystem::p
     const Metadata measured(provenance.object_text(kMember), file.string());
     ErrorStatement statement;
     statement.light_spectrum = measured.text("light_spectrum");
-    for (NamedError& named : named_errors({})) {
+    ModelError with_all;
+    with_all.scenery.emplace();
+    for (NamedError& named : named_errors(with_all)) {
         if (!measured.root().contains(named.name)) continue;
         named.value = measured.number(named.name.c_str(), 0.0, std::numeric_limits<double>::max());
         statement.errors.push_back(std::move(named));

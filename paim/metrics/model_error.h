@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "paim/format/bake_directory.h"
 #include "paim/metrics/geometry_error.h"
 #include "paim/metrics/light_spectrum.h"
+#include "paim/metrics/scenery_error.h"
 #include "paim/metrics/transfer_error.h"
 
 namespace paim {
@@ -17,6 +19,7 @@ namespace paim {
 struct ModelError {
     TransferError transfer;
     GeometryError geometry;
+    std::optional<SceneryError> scenery;  // none: there is no scenery
 };
 
 // Decodes and measures everything that the model holds; a plane over all poses of bake, noise and
@@ -33,7 +36,8 @@ struct NamedError {
     bool of_light = false;  // depends on the light's spectrum
 };
 
-// All that a file states of its errors, in the order of reports.
+// All that a file states of its errors, in the order of reports. The scenery's are apart: it has a
+// target's errors of its own.
 std::vector<NamedError> named_errors(const ModelError& error);
 
 // What a file says of its errors: the member `measured` of its provenance.

@@ -16,12 +16,16 @@ Model scenery_model(const Model& model) {
     still.topology = scenery.topology;
     still.albedo = scenery.albedo;
     still.layout = model.layout;
-    const auto matrix = [&](uint32_t num_planes, const std::vector<float>& mean) {
+    const auto matrix = [&](uint32_t num_planes, const StillPlanes& planes) {
         LowRankMatrix part;
         part.num_points = scenery.topology.num_vertices;
         part.num_planes = num_planes;
         part.num_poses = model.num_poses();
-        part.mean = mean;
+        part.mean = planes.values;
+        part.steps = planes.steps;
+        if (!part.mean.holds_floats()) {
+            part.precision = part.mean.holds_i8() ? Precision::i8 : Precision::i16;
+        }
         return part;
     };
     still.geometry = matrix(3, scenery.positions);

@@ -181,9 +181,10 @@ TEST_F(Scenes, StaticFilesAreStoredOnceAndNamed) {
     const Model model = read_paim(path("x.paim"));
     const BakeReader reader(path("x.bake"));
     ASSERT_EQ(model.scenery.topology.num_vertices, 59u);
-    EXPECT_EQ(model.scenery.positions, reader.scenery()->pose.positions);
+    EXPECT_EQ(model.scenery.positions.floats(), reader.scenery()->pose.positions);
     const auto& baked = reader.scenery()->pose.transfer;  // of two bands, the first is kept
-    EXPECT_EQ(model.scenery.transfer, std::vector<float>(baked.begin(), baked.begin() + 59));
+    EXPECT_EQ(model.scenery.transfer.floats(),
+              std::vector<float>(baked.begin(), baked.begin() + 59));
     for (const std::string file : {"x.bake", "x.paim"}) {
         EXPECT_EQ(parse_object(info({path(file), "--json"}))["scenery_triangles"], 109);
     }

@@ -61,11 +61,11 @@ class Reference : public testing::Test {
         shade(pose.layout, pose.transfer, model_.albedo,
               turn_about_y(light.coefficients(Vec3f::Zero(), 5), turn_rad), radiance[0]);
         std::vector<Vec3f> beside;
-        shade(model_.layout, model_.scenery.transfer, model_.scenery.albedo,
+        shade(model_.layout, model_.scenery.transfer.floats(), model_.scenery.albedo,
               turn_about_y(light.coefficients(Vec3f::Zero(), 5), turn_rad), beside);
         radiance[0].insert(radiance[0].end(), beside.begin(), beside.end());
         std::vector<Vec3f> positions = from_planes(pose.positions);
-        const std::vector<Vec3f> stands = from_planes(model_.scenery.positions);
+        const std::vector<Vec3f> stands = from_planes(model_.scenery.positions.floats());
         positions.insert(positions.end(), stands.begin(), stands.end());
         Topology topology = model_.topology;
         topology.append(model_.scenery.topology);

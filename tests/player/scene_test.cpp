@@ -122,9 +122,24 @@ TEST_P(SceneTest, LightTurnsWithTheBackground) {
     }
 }
 
+// Rounded to steps, of another size in every plane.
+template <typename Integer>
+StillPlanes in_steps(const std::vector<float>& values, size_t num_planes, float step) {
+    std::vector<float> steps;
+    for (size_t j = 0; j < num_planes; ++j) {
+        steps.push_back(step * (1.0f + 0.5f * static_cast<float>(j % 3)));
+    }
+    std::vector<Integer> integers(values.size());
+    for (size_t j = 0; j < values.size(); ++j) {
+        integers[j] =
+            static_cast<Integer>(std::lround(values[j] / steps[j / (values.size() / num_planes)]));
+    }
+    return {integers, steps};
+}
+
 // Model and scenery as one mesh, decoded, shaded and ray-cast on the CPU.
 TEST_P(SceneTest, SceneryStandsBesideTheModel) {
-    for (const uint32_t channels : {1u, 3u}) {
+    for (const auto& [channels, integers] : {std::pair(1u, false), {3u, false}, {3u, true}}) {
         TestModelOptions options;
         options.channels = channels;
         Model model = make_test_model(options);
@@ -132,9 +147,14 @@ TEST_P(SceneTest, SceneryStandsBesideTheModel) {
         options.geometry_components = options.transfer_components = 0;
         options.albedo_per_vertex = true;
         const Model still = make_test_model(options);
-        model.scenery = {still.topology, still.albedo, still.geometry.mean.floats(),
-                         still.transfer.mean.floats()};
-        for (size_t v = 0; v < still.topology.num_vertices; ++v) model.scenery.positions[v] += 1.2f;
+        std::vector<float> moved = still.geometry.mean.floats();
+        for (size_t v = 0; v < still.topology.num_vertices; ++v) moved[v] += 1.2f;
+        model.scenery = {still.topology, still.albedo, moved, still.transfer.mean.floats()};
+        if (integers) {
+            model.scenery.positions = in_steps<int16_t>(moved, 3, 1e-4f);
+            model.scenery.transfer =
+                in_steps<int8_t>(still.transfer.mean.floats(), model.layout.num_planes(), 0.02f);
+        }
 
         const EnvironmentLight environment(make_environment());
         SceneRenderer renderer(model, environment.image(), {});
@@ -152,8 +172,8 @@ TEST_P(SceneTest, SceneryStandsBesideTheModel) {
         std::vector<Vec3f> positions = from_planes(pose.positions);
         std::vector<Vec3f> radiance = vertex_radiance(model, frame.time, frame.limits, light);
         std::vector<Vec3f> beside;
-        shade(model.layout, model.scenery.transfer, model.scenery.albedo, light, beside);
-        const std::vector<Vec3f> stands = from_planes(model.scenery.positions);
+        shade(model.layout, model.scenery.transfer.floats(), model.scenery.albedo, light, beside);
+        const std::vector<Vec3f> stands = from_planes(model.scenery.positions.floats());
         positions.insert(positions.end(), stands.begin(), stands.end());
         radiance.insert(radiance.end(), beside.begin(), beside.end());
         Topology topology = model.topology;

@@ -62,7 +62,7 @@ TEST(SequenceBounds, HoldSceneryNearBy) {
     Model model = moving_points(1);  // from the origin to (1, 2, 3), diagonal √14
     const auto scenery = [&](float x) {
         model.scenery.topology.num_vertices = 1;
-        model.scenery.positions = {x, 1, 1};
+        model.scenery.positions = std::vector<float>{x, 1, 1};
     };
     const float reach = std::sqrt(14.0f);
     scenery(-2);
@@ -74,7 +74,7 @@ TEST(SequenceBounds, HoldSceneryNearBy) {
     EXPECT_FLOAT_EQ(pose_bounds(model, 0.0, 2).upper.x(), 1 + 500 * reach);
     scenery(400);
     EXPECT_EQ(pose_bounds(model, 0.0, 2).upper, Vec3f(400, 2, 3));
-    EXPECT_EQ(framed_bounds(Bounds(), model.scenery.positions).upper, Vec3f(400, 1, 1));
+    EXPECT_EQ(framed_bounds(Bounds(), model.scenery.positions.floats()).upper, Vec3f(400, 1, 1));
 }
 
 TEST(SequenceBounds, OfNothingAreEmpty) {

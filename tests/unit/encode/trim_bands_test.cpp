@@ -30,6 +30,7 @@ void clear_band(Model& model, uint32_t band) {
     };
     clear(model.transfer.mean);
     for (StoredValues& component : model.transfer.components) clear(component);
+    clear(model.scenery.transfer.values);
 }
 
 void expect_first_bands(const Model& trimmed, const Model& whole, uint32_t bands) {
@@ -44,12 +45,19 @@ void expect_first_bands(const Model& trimmed, const Model& whole, uint32_t bands
             EXPECT_EQ(decode_plane(trimmed, Part::transfer, to),
                       decode_plane(whole, Part::transfer, from));
             for (size_t v = 0; v < 4; ++v) {
-                EXPECT_EQ(trimmed.scenery.transfer[to * 4 + v],
-                          whole.scenery.transfer[from * 4 + v]);
+                EXPECT_EQ(trimmed.scenery.transfer.values[to * 4 + v],
+                          whole.scenery.transfer.values[from * 4 + v]);
             }
         }
     }
-    EXPECT_EQ(trimmed.scenery.transfer.size(), size_t{4} * trimmed.layout.num_planes());
+    EXPECT_EQ(trimmed.scenery.transfer.values.size(), size_t{4} * trimmed.layout.num_planes());
+    const std::vector<float> steps = whole.scenery.transfer.steps;
+    ASSERT_EQ(trimmed.scenery.transfer.steps.empty(), steps.empty());
+    if (steps.empty()) return;
+    for (uint32_t i = 0; i < bands * bands; ++i) {
+        EXPECT_EQ(trimmed.scenery.transfer.steps[trimmed.layout.plane(2, i)],
+                  steps[whole.layout.plane(2, i)]);
+    }
 }
 
 class TrimBands : public testing::TestWithParam<bool> {
@@ -57,7 +65,8 @@ class TrimBands : public testing::TestWithParam<bool> {
     Model example() const {
         Model model = make_example_model(4, 3);
         if (GetParam()) model = quantise_example(model);
-        model.scenery = make_example_scenery(model.layout);
+        model.scenery =
+            GetParam() ? make_quantised_scenery(model.layout) : make_example_scenery(model.layout);
         return model;
     }
 };
@@ -102,6 +111,17 @@ TEST_P(TrimBands, SeesASingleValue) {
         all);
     trim_bands(model);
     EXPECT_EQ(model.layout.bands, 4u);
+}
+
+// What the animation has nothing of, the scenery beside it may show.
+TEST_P(TrimBands, KeepsWhatTheSceneryHas) {
+    Model model = example();
+    const StillPlanes shown = model.scenery.transfer;
+    clear_band(model, 3);
+    model.scenery.transfer = shown;
+    const Model whole = model;
+    trim_bands(model);
+    expect_first_bands(model, whole, 4);
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, TrimBands, testing::Bool(),

@@ -65,7 +65,8 @@ TEST(PaimFile, RoundTripsIntegersAndClusters) {
     const TemporaryDirectory directory;
     for (const bool clustered : {false, true}) {
         Model model = packed_example(clustered);
-        model.scenery = make_example_scenery(model.layout);
+        model.scenery =
+            clustered ? make_quantised_scenery(model.layout) : make_example_scenery(model.layout);
         write_paim(directory / "x.paim", model);
         const Model read = read_paim(directory / "x.paim");
         EXPECT_EQ(std::filesystem::file_size(directory / "x.paim"), paim_size_bytes(model));
@@ -99,6 +100,7 @@ TEST(PaimFile, RoundTripsIntegersAndClusters) {
         EXPECT_EQ(read.clusters.scales, model.clusters.scales);
         EXPECT_EQ(read.vertex_order, VertexOrder::local);
         EXPECT_EQ(read.scenery.positions, model.scenery.positions);
+        EXPECT_EQ(read.scenery.transfer, model.scenery.transfer);
         EXPECT_EQ(read.scenery.topology.triangles.size(), 2u);
     }
 }
@@ -199,6 +201,22 @@ TEST(PaimFile, RefusesClaimsOfFarMoreValuesThanBytes) {
         EXPECT_NE(std::string(error.what()).find("sections claim more than"), std::string::npos)
             << error.what();
     }
+}
+
+// Scenery alone is reason enough to pack a file; its values are integers times a step a plane.
+TEST(PaimFile, KeepsSceneryOfIntegers) {
+    const TemporaryDirectory directory;
+    Model model = make_example_model(3, 3);
+    model.scenery = make_quantised_scenery(model.layout);
+    write_paim(directory / "x.paim", model);
+    const Scenery read = read_paim(directory / "x.paim").scenery;
+    EXPECT_EQ(read.positions, model.scenery.positions);
+    EXPECT_EQ(read.transfer, model.scenery.transfer);
+    EXPECT_TRUE(read.transfer.values.holds_i8());
+    const std::vector<float> floats = read.transfer.floats();
+    ASSERT_EQ(floats.size(), size_t{4} * model.layout.num_planes());
+    // Value 2 of plane 5: so many steps of 6 hundredths.
+    EXPECT_EQ(floats[4 * 5 + 2], (6.0f / 100.0f) * read.transfer.values[4 * 5 + 2]);
 }
 
 TEST(PaimFile, KeepsScenery) {
@@ -380,11 +398,21 @@ TEST(PaimFile, RefusesContentsThatCannotBePlayed) {
     model.scenery.topology.triangles[1][0] = 4;
     EXPECT_NE(complaint(model).find("triangle 1: vertex 4, expected 0 to 3"), std::string::npos);
     model = with_scenery();
-    model.scenery.positions[7] = std::nanf("");
+    std::vector<float> positions = model.scenery.positions.floats();
+    positions[7] = std::nanf("");
+    model.scenery.positions = positions;
     EXPECT_NE(complaint(model).find("section SPOS: value 7 is nan"), std::string::npos);
     model = with_scenery();
-    model.scenery.transfer[3] = std::numeric_limits<float>::infinity();
+    std::vector<float> transfer = model.scenery.transfer.floats();
+    transfer[3] = std::numeric_limits<float>::infinity();
+    model.scenery.transfer = transfer;
     EXPECT_NE(complaint(model).find("section STRN: value 3 is inf"), std::string::npos);
+    model = with_scenery();
+    model.scenery = make_quantised_scenery(model.layout);
+    model.scenery.transfer.steps[1] = -1.0f;
+    EXPECT_NE(complaint(model).find("steps: expected finite numbers from 0 up, got -1"),
+              std::string::npos)
+        << complaint(model);
     model = with_scenery();
     model.scenery.albedo.values.resize(3);
     EXPECT_NE(complaint(model).find("expected 1 or 4 colours"), std::string::npos);

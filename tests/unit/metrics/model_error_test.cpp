@@ -8,6 +8,7 @@
 
 #include "paim/base/error.h"
 #include "paim/codec/make_decoder.h"
+#include "paim/mesh/locality.h"
 #include "tests/example_model.h"
 #include "tests/temporary_directory.h"
 
@@ -19,6 +20,7 @@ constexpr uint32_t kVertices = 4;
 class ModelErrorTest : public testing::Test {
   protected:
     // A bake of random numbers for the model's mesh.
+    // Scenery where the model has some.
     BakeReader write_bake(const Model& model, const TransferLayout& layout, uint32_t num_poses) {
         BakeIdentity identity;
         identity.layout = layout;
@@ -32,6 +34,7 @@ class ModelErrorTest : public testing::Test {
         for (uint32_t p = 0; p < num_poses; ++p) identity.poses.push_back({"pose", p});
         const auto directory = directory_ / "x.bake";
         std::filesystem::remove_all(directory);
+        if (!model.scenery.empty()) identity.scenery.push_back({"still", 0});
         const BakeWriter writer(directory, identity, model.topology, model.albedo);
         RandomStream random(5);
         const auto fill = [&](size_t count, double size) {
@@ -41,7 +44,7 @@ class ModelErrorTest : public testing::Test {
             }
             return values;
         };
-        for (uint32_t p = 0; p < num_poses; ++p) {
+        const auto random_pose = [&] {
             BakedPose pose;
             pose.positions = fill(3 * kVertices, 2.0);
             pose.normals = fill(3 * kVertices, 1.0);
@@ -49,7 +52,11 @@ class ModelErrorTest : public testing::Test {
             pose.noise = fill(layout.num_planes() * kVertices, 0.1);
             pose.statistics.transfer_rms.assign(layout.bands, 1.0);
             pose.statistics.noise_rms.assign(layout.bands, 0.1);
-            writer.write_pose(p, pose);
+            return pose;
+        };
+        for (uint32_t p = 0; p < num_poses; ++p) writer.write_pose(p, random_pose());
+        if (!model.scenery.empty()) {
+            writer.write_scenery({model.scenery.topology, model.scenery.albedo, random_pose()});
         }
         return BakeReader(directory);
     }
@@ -141,6 +148,81 @@ TEST_F(ModelErrorTest, RefusesAnotherAnimation) {
     Model turned = model;
     std::swap(turned.topology.triangles[0], turned.topology.triangles[1]);
     expect_failure(turned, bake, "other triangles");
+}
+
+// Integers of the scenery against its bake: Σ (t̂ − y)² / Σ y² of its own values, and distances.
+TEST_F(ModelErrorTest, MeasuresTheScenery) {
+    for (const uint32_t bands : {2u, 3u}) {
+        Model model = make_example_model(bands, 3);
+        model.scenery = make_quantised_scenery(model.layout);
+        const BakeReader bake = write_bake(model, {TransferKind::diffuse, 3, 3}, 5);
+        const BakedPose& baked = bake.scenery()->pose;
+        const std::vector<float> positions = model.scenery.positions.floats();
+        const std::vector<float> transfer = model.scenery.transfer.floats();
+        double deviation = 0.0, energy = 0.0, distances = 0.0;
+        for (uint32_t channel = 0; channel < 3; ++channel) {
+            for (uint32_t i = 0; i < 9; ++i) {
+                for (uint32_t v = 0; v < 4; ++v) {
+                    const double y = baked.transfer[(channel * 9 + i) * 4 + v];
+                    const double t =
+                        i < bands * bands ? transfer[model.layout.plane(channel, i) * 4 + v] : 0.0f;
+                    deviation += (t - y) * (t - y);
+                    energy += y * y;
+                }
+            }
+        }
+        for (size_t j = 0; j < positions.size(); ++j) {
+            const double d = static_cast<double>(positions[j]) - baked.positions[j];
+            distances += d * d;
+        }
+        const ModelError error = measure_model(model, bake, LightSpectrum::flat(3));
+        ASSERT_TRUE(error.scenery.has_value());
+        EXPECT_NEAR(error.scenery->transfer.deviation, std::sqrt(deviation / energy), 1e-12);
+        EXPECT_NEAR(error.scenery->geometry.rms(), std::sqrt(distances / 4.0), 1e-12);
+        const std::vector<NamedError> named = named_errors(error);
+        EXPECT_EQ(named.back().name, "scenery_position_worst");
+        EXPECT_EQ(named.back().value, error.scenery->geometry.worst());
+    }
+}
+
+// Vertices in the order that files of integers have are those of the bake.
+TEST_F(ModelErrorTest, FindsTheSceneryInLocalOrder) {
+    Model model = make_example_model(2, 1);
+    model.scenery = make_example_scenery(model.layout);
+    // Vertex 3 belongs to no triangle and would come last.
+    model.scenery.topology.triangles = {{3, 1, 2}};
+    const BakeReader bake = write_bake(model, model.layout, 5);
+    const LocalOrder still = local_order(model.scenery.topology);
+    ASSERT_NE(still.old_vertex, (std::vector<uint32_t>{0, 1, 2, 3}));
+    model.vertex_order = VertexOrder::local;
+    model.topology = local_order(model.topology).topology;
+    model.scenery.topology = still.topology;
+    std::vector<float> positions(12), transfer(16);
+    for (size_t v = 0; v < 4; ++v) {
+        const size_t old = still.old_vertex[v];
+        for (size_t j = 0; j < 3; ++j) {
+            positions[4 * j + v] = bake.scenery()->pose.positions[4 * j + old];
+        }
+        for (size_t j = 0; j < 4; ++j) {
+            transfer[4 * j + v] = bake.scenery()->pose.transfer[4 * j + old];
+        }
+    }
+    model.scenery.positions = positions;
+    model.scenery.transfer = transfer;
+    const ModelError error = measure_model(model, bake, LightSpectrum::natural());
+    EXPECT_EQ(error.scenery->geometry.worst(), 0.0);
+    EXPECT_EQ(error.scenery->transfer.deviation, 0.0);
+    EXPECT_NEAR(error.scenery->transfer.error, error.scenery->transfer.bake_noise, 1e-12);
+}
+
+TEST_F(ModelErrorTest, RefusesOtherScenery) {
+    Model model = make_example_model(2, 1);
+    const BakeReader without = write_bake(model, model.layout, 5);
+    model.scenery = make_example_scenery(model.layout);
+    expect_failure(model, without, "0 vertices of scenery, got 4");
+    const BakeReader bake = write_bake(model, model.layout, 5);
+    std::swap(model.scenery.topology.triangles[0], model.scenery.topology.triangles[1]);
+    expect_failure(model, bake, "other triangles of the scenery");
 }
 
 // Every figure by its own name.

@@ -1,0 +1,58 @@
+// Which vertex of a bake each vertex of a file is.
+#include "paim/metrics/vertex_match.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "paim/base/check.h"
+#include "paim/base/error.h"
+#include "paim/mesh/locality.h"
+
+namespace paim {
+
+namespace {
+
+LocalOrder vertex_order(VertexOrder order, const Topology& of_bake) {
+    if (order == VertexOrder::local) return local_order(of_bake);
+    LocalOrder as_baked{{}, of_bake};
+    as_baked.old_vertex.resize(of_bake.num_vertices);
+    std::iota(as_baked.old_vertex.begin(), as_baked.old_vertex.end(), 0u);
+    return as_baked;
+}
+
+// In the same order, but each may be turned.
+bool same_triangles(const Topology& a, const Topology& b) {
+    const auto turned = [](Triangle t) {
+        std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+        return t;
+    };
+    return a.num_vertices == b.num_vertices &&
+           std::equal(a.triangles.begin(), a.triangles.end(), b.triangles.begin(),
+                      b.triangles.end(),
+                      [&](const Triangle& s, const Triangle& t) { return turned(s) == turned(t); });
+}
+
+}  // namespace
+
+std::vector<uint32_t> match_vertices(const Topology& of_file, VertexOrder order,
+                                     const Topology& of_bake, const std::string& bake,
+                                     const char* what) {
+    LocalOrder expected = vertex_order(order, of_bake);
+    if (!same_triangles(of_file, expected.topology)) {
+        throw_bad_input("{}: expected a file made from this bake, got other {}", bake, what);
+    }
+    return std::move(expected.old_vertex);
+}
+
+void reorder_planes(std::span<float> planes, std::span<const uint32_t> old_vertex) {
+    if (old_vertex.empty()) return;
+    PAIM_CHECK_EQ(planes.size() % old_vertex.size(), 0u);
+    std::vector<float> old(old_vertex.size());
+    for (size_t first = 0; first < planes.size(); first += old.size()) {
+        const std::span<float> plane = planes.subspan(first, old.size());
+        std::copy(plane.begin(), plane.end(), old.begin());
+        for (size_t v = 0; v < old.size(); ++v) plane[v] = old[old_vertex[v]];
+    }
+}
+
+}  // namespace paim
