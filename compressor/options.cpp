@@ -135,9 +135,10 @@ void add_encode_options(CLI::App& app, CompressOptions& options, RawOptions& raw
         ->capture_default_str();
     add_target_options(app, raw.target);
     app.add_flag(
-        "--measure", options.measure,
+        "--measure", options.encode.measure,
         "Measure the file when it is written, and state its errors in it, as is always done "
-        "with --max-error and --max-size; takes memory for the whole of it");
+        "with --max-error and --max-size; takes memory for three times the whole of it and six "
+        "coefficients of all poses, which is checked before anything is written");
     app.add_option(
            "--memory", raw.memory,
            "Memory that encoding stays below, bytes or with K, M, G or T for powers of 1000; "

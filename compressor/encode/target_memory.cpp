@@ -172,13 +172,19 @@ uint64_t target_memory_bytes(const TargetSize& size) {
 void check_target_memory(const TargetSize& size, uint64_t limit_bytes, const std::string& what) {
     const uint64_t least = target_memory_bytes(size);
     if (least <= limit_bytes) return;
+    TargetSize svd = size;
+    svd.clusters = false;
+    const uint64_t least_of_svd = target_memory_bytes(svd);
+    const std::string instead =
+        size.clusters && least_of_svd <= limit_bytes
+            ? fmt::format(" (--codec svd alone takes {})", memory_text(least_of_svd))
+            : "";
     throw_unsupported(
         "{}: {} poses of {} vertices in {} bands, with {} and {} components in memory, need {} to "
-        "be "
-        "encoded to a target, but --memory allows {}",
+        "be encoded to a target, but --memory allows {}{}",
         what, size.streamed.num_poses, size.streamed.num_vertices, size.streamed.bands,
         size.geometry_components, size.transfer_components, memory_text(least),
-        memory_text(limit_bytes - 1));
+        memory_text(limit_bytes - 1), instead);
 }
 
 uint32_t choose_target_in_flight(const TargetSize& size, uint64_t limit_bytes) {
