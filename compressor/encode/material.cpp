@@ -65,6 +65,7 @@ Material read_material(const BakeReader& bake, const EncodeOptions& options,
                       {},
                       {},
                       0.0,
+                      0,
                       0};
     material.layout.bands = std::min(options.bands, identity.layout.bands);
     LocalOrder order = local_order(bake.topology());
@@ -116,6 +117,7 @@ Material read_material(const BakeReader& bake, const EncodeOptions& options,
     size.clusters = target.codec != CodecChoice::svd && is_integer(options.precision);
     check_target_memory(size, options.memory_bytes, bake.directory().string());
     material.spare_bytes = options.memory_bytes - target_held_bytes(size);
+    material.unneeded_bytes = options.memory_bytes - target_memory_bytes(size);
     in_flight = choose_target_in_flight(size, options.memory_bytes);
     material.geometry = read_scores(geometry_rows, geometry, size.geometry_components, nullptr,
                                     order.old_vertex, in_flight);
