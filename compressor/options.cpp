@@ -1,9 +1,12 @@
 // The command line of paim-compress.
 #include "compressor/options.h"
 
+#include <algorithm>
 #include <charconv>
 #include <limits>
+#include <vector>
 
+#include "paim/base/check.h"
 #include "paim/base/error.h"
 #include "paim/cli/parse.h"
 
@@ -27,11 +30,28 @@ struct RawOptions {
     std::string auto_transfer_error = "1%";
     std::string memory = "1G";
     std::string transfer_error;
-    std::string sampler = "cosine";
-    std::string streams = "per-pose";
+    std::string sampler = sampler_name(BakeOptions().sampler);
+    std::string streams = streams_name(BakeOptions().streams);
     std::optional<uint32_t> rays;
     uint32_t encode_bands = 0;
 };
+
+// What options call the values of an enum.
+template <typename Kind, size_t N>
+std::vector<std::string> names_of(const Kind (&kinds)[N], const char* (*name)(Kind)) {
+    std::vector<std::string> names;
+    for (const Kind kind : kinds) names.emplace_back(name(kind));
+    return names;
+}
+
+// The value of a name, which is one of them (CLI::IsMember).
+template <typename Kind, size_t N>
+Kind kind_of(const std::string& text, const Kind (&kinds)[N], const char* (*name)(Kind)) {
+    const auto found =
+        std::find_if(kinds, kinds + N, [&](Kind kind) { return text == name(kind); });
+    PAIM_CHECK(found != kinds + N);
+    return *found;
+}
 
 // The default of --rays where the rays are those a vertex may take at most.
 constexpr uint32_t kMostRays = 16384;
@@ -64,13 +84,13 @@ void add_bake_options(CLI::App& app, CompressOptions& options, RawOptions& raw) 
     app.add_option("--sampler", raw.sampler,
                    "Directions of the rays: 'cosine' (low-discrepancy, best), or as references "
                    "'uniform' (random over the sphere), 'uniform-sobol'")
-        ->check(CLI::IsMember({"cosine", "uniform", "uniform-sobol"}))
+        ->check(CLI::IsMember(names_of(kSamplerKinds, &sampler_name)))
         ->capture_default_str();
     app.add_option(
            "--streams", raw.streams,
            "Random numbers: independent 'per-pose', 'shared' by all poses, or 'mixed' (half "
            "of the rays each)")
-        ->check(CLI::IsMember({"per-pose", "shared", "mixed"}))
+        ->check(CLI::IsMember(names_of(kStreams, &streams_name)))
         ->capture_default_str();
     app.add_option("--albedo", raw.albedo,
                    "Diffuse reflectance of the poses R,G,B (or one number), linear, 0 to 1; "
@@ -135,9 +155,10 @@ void add_encode_options(CLI::App& app, CompressOptions& options, RawOptions& raw
         ->capture_default_str();
     add_target_options(app, raw.target);
     app.add_flag(
-        "--measure", options.measure,
+        "--measure", options.encode.measure,
         "Measure the file when it is written, and state its errors in it, as is always done "
-        "with --max-error and --max-size; takes memory for the whole of it");
+        "with --max-error and --max-size; takes memory for three times the whole of it and six "
+        "coefficients of all poses, which is checked before anything is written");
     app.add_option(
            "--memory", raw.memory,
            "Memory that encoding stays below, bytes or with K, M, G or T for powers of 1000; "
@@ -191,13 +212,8 @@ void apply(const RawOptions& raw, CompressOptions& options) {
         options.bake.rays = kMostRays;
     }
     if (raw.rays) options.bake.rays = *raw.rays;
-    for (const SamplerKind kind :
-         {SamplerKind::cosine, SamplerKind::uniform, SamplerKind::uniform_sobol}) {
-        if (raw.sampler == sampler_name(kind)) options.bake.sampler = kind;
-    }
-    for (const Streams streams : {Streams::per_pose, Streams::shared, Streams::mixed}) {
-        if (raw.streams == streams_name(streams)) options.bake.streams = streams;
-    }
+    options.bake.sampler = kind_of(raw.sampler, kSamplerKinds, &sampler_name);
+    options.bake.streams = kind_of(raw.streams, kStreams, &streams_name);
     if (options.bake.rays % 2 != 0) {
         throw_usage("--rays: expected an even number (two independent halves), got {}",
                     options.bake.rays);

@@ -33,7 +33,6 @@ struct CompressOptions {
     EncodeOptions encode;
     std::optional<EncodeTarget> target;  // without its spectrum
     std::string light_spectrum;          // flat, natural or a file
-    bool measure = false;                // state errors without a target, too
 
     std::filesystem::path output;
     int num_threads = 0;

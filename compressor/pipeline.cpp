@@ -10,6 +10,7 @@
 #include <span>
 
 #include "compressor/bake/bake_sequence.h"
+#include "compressor/encode/memory_plan.h"
 #include "compressor/encode/state_errors.h"
 #include "compressor/encode_report.h"
 #include "compressor/io/obj_files.h"
@@ -52,6 +53,27 @@ void check_paim_output(const std::filesystem::path& output) {
 
 void print_warnings(const std::vector<std::string>& warnings) {
     for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
+}
+
+// Before a long bake, what would be refused after it.
+void check_encoding_memory(const CompressOptions& options, const PoseSource& poses,
+                           const StaticMesh& scenery, const TransferLayout& layout) {
+    EncodeSize size;
+    size.num_triangles = poses.topology().triangles.size();
+    size.num_colours = poses.albedo().values.size();
+    size.num_poses = poses.num_poses();
+    size.num_threads = static_cast<uint64_t>(max_parallelism());
+    size.num_vertices = poses.topology().num_vertices;
+    size.bands = layout.bands;
+    const uint64_t num_still_values = 6 + 2 * uint64_t{layout.num_planes()};
+    size.scenery_bytes = num_still_values * scenery.topology.num_vertices * sizeof(float) +
+                         scenery.topology.triangles.size() * sizeof(Triangle) +
+                         scenery.albedo.values.size() * sizeof(Vec3f);
+    const std::string what = options.output.string();
+    choose_num_in_flight(encode_size(size, options.encode), options.encode.memory_bytes, what);
+    if (options.encode.measure && !options.target) {
+        check_measuring_memory(size, layout, options.encode, what);
+    }
 }
 
 ordered_json bake(const CompressOptions& options, const std::filesystem::path& directory) {
@@ -98,6 +120,9 @@ ordered_json bake(const CompressOptions& options, const std::filesystem::path& d
     const PoseSource& poses = on_floor ? static_cast<const PoseSource&>(*on_floor) : sequence;
     const TransferLayout baked_layout =
         TransferBaker::bake_layout(options.bake, poses.albedo(), surroundings.scenery);
+    if (options.command == CompressOptions::Command::bake_and_encode) {
+        check_encoding_memory(options, poses, surroundings.scenery, baked_layout);
+    }
     const uint32_t num_vertices = poses.topology().num_vertices;
     cli::Progress baking("baking", "poses", last - first + 1, quiet);
     const BakeSummary summary = bake_sequence(
@@ -224,7 +249,7 @@ ordered_json encode_to(const CompressOptions& options, const std::filesystem::pa
                                          [&](uint64_t rows) { encoding.advance(rows); });
     encoding.finish();
     std::optional<ModelError> error;
-    if (options.measure) {
+    if (options.encode.measure) {
         error = state_errors(options.output, reader,
                              LightSpectrum::flat(reader.identity().layout.bands),
                              encode_options.memory_bytes);

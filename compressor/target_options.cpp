@@ -39,7 +39,8 @@ void add_target_options(CLI::App& app, RawTarget& raw) {
             1.0 / kGeometryPerTransferError));
     add("--max-size", raw.max_size,
         "The size that the file may have, bytes or with K, M, G for powers of 1000: the smallest "
-        "error that fits, at most 50 %, is found; with --max-error, both must be met");
+        "error that fits, at most 50 %, is found to 2 % of itself; with --max-error, both must be "
+        "met");
     add("--max-decode-cost", raw.max_decode_cost,
         "Multiply-adds that a vertex may take a frame for lit transfer: K + 4 for each coefficient "
         "with svd, 3 (K + 1) in all with cpca");

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "analysis/bench/made_up_identity.h"
 #include "paim/base/parallel.h"
 #include "paim/base/seed.h"
 #include "paim/format/bake_directory.h"
@@ -23,18 +24,12 @@ struct SyntheticBake {
     void write(const std::filesystem::path& directory) const {
         const Topology topology = strip();
         const Albedo albedo;
-        BakeIdentity identity;
-        identity.layout = {TransferKind::diffuse, bands, 1};
-        identity.rays = 2;
-        identity.sampler = "cosine";
-        identity.streams = "per-pose";
-        identity.normals = "faces";
-        identity.num_vertices = num_vertices;
-        identity.num_triangles = static_cast<uint32_t>(topology.triangles.size());
-        identity.mesh_xxh3 = mesh_checksum(topology, albedo);
+        std::vector<BakeIdentity::Source> poses;
         for (uint32_t p = 0; p < num_poses; ++p) {
-            identity.poses.push_back({std::to_string(p) + ".obj", p});
+            poses.push_back({std::to_string(p) + ".obj", p});
         }
+        const BakeIdentity identity =
+            made_up_identity(topology, albedo, {TransferKind::diffuse, bands, 1}, std::move(poses));
         const BakeWriter writer(directory, identity, topology, albedo);
         parallel_for(num_poses, 1, [&](size_t p, size_t) {
             BakedPose pose;

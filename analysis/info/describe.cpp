@@ -19,8 +19,8 @@ ordered_json describe_part(const LowRankMatrix& matrix) {
     ordered_json json;
     json["components"] = matrix.num_components;
     json["precision"] = precision_name(matrix.precision);
-    json["theory_error"] = theory_error(matrix.singular_values, matrix.num_components);
-    json["energy_error"] = energy_error(matrix.singular_values, matrix.num_components);
+    json["theory_error"] = theory_error(matrix);
+    json["energy_error"] = energy_error(matrix);
     const size_t shown = std::min<size_t>(matrix.singular_values.size(), 10);
     json["largest_singular_values"] =
         std::vector<double>(matrix.singular_values.begin(),

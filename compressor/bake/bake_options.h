@@ -17,6 +17,8 @@ enum class Streams : uint32_t {
 // What options and manifests call it: "per-pose", "shared" or "mixed".
 const char* streams_name(Streams streams);
 
+constexpr Streams kStreams[] = {Streams::per_pose, Streams::shared, Streams::mixed};
+
 struct BakeOptions {
     uint32_t bands = 5;   // 1 … sh::kMaxBands
     uint32_t rays = 512;  // per vertex, even, 2 … 2^24; with a transfer_error, the most

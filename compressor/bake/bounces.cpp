@@ -70,6 +70,41 @@ void outgoing(const BounceScene& scene, const std::vector<float>& own,
     }
 }
 
+// Σ weight · values over the hits of a row. values [V + S][C], sums [C]
+void sum_hits(const HitRow& row, const float* values, std::vector<double>& sums) {
+    std::fill(sums.begin(), sums.end(), 0.0);
+    for (const HitWeight& hit : row) {
+        const float* of_hit = values + hit.vertex * sums.size();
+        const auto weight = static_cast<double>(hit.weight);
+        for (size_t i = 0; i < sums.size(); ++i) {
+            sums[i] += weight * static_cast<double>(of_hit[i]);
+        }
+    }
+}
+
+// What comes to all vertices of what goes out.
+// source  [channels][V + S][C]
+// use     (channel, v, i, value), from several threads, each of its own vertices
+template <typename Use>
+void gather(const BounceScene& scene, const RowCache& rows, size_t half,
+            const std::vector<float>& source, const Use& use) {
+    const size_t num_coefficients = scene.layout.num_coefficients();
+    const size_t of_channel = (scene.num_vertices + scene.num_scenery_vertices) * num_coefficients;
+    parallel_for(scene.num_vertices, kVerticesPerPiece, [&](size_t begin, size_t end) {
+        HitRow scratch;
+        std::vector<double> sums(num_coefficients);
+        for (size_t v = begin; v < end; ++v) {
+            const HitRow& row = rows.row(v, half, scratch);
+            for (size_t channel = 0; channel < scene.layout.channels; ++channel) {
+                sum_hits(row, source.data() + channel * of_channel, sums);
+                for (size_t i = 0; i < num_coefficients; ++i) {
+                    use(channel, v, i, static_cast<float>(sums[i]));
+                }
+            }
+        }
+    });
+}
+
 }  // namespace
 
 BounceTerms add_bounces(const BounceScene& scene, uint32_t num_bounces,
@@ -111,29 +146,9 @@ BounceTerms add_bounces(const BounceScene& scene, uint32_t num_bounces,
             const bool has_scenery = scene.num_scenery_vertices > 0;
             outgoing(scene, term[half],
                      has_scenery ? &(*scene.scenery_terms)[b - 1][half] : nullptr, source);
-            parallel_for(num_vertices, kVerticesPerPiece, [&](size_t begin, size_t end) {
-                HitRow scratch;
-                std::vector<double> sums(num_coefficients);
-                for (size_t v = begin; v < end; ++v) {
-                    const HitRow& row = rows.row(v, half, scratch);
-                    for (size_t channel = 0; channel < num_channels; ++channel) {
-                        std::fill(sums.begin(), sums.end(), 0.0);
-                        const float* from = source.data() + channel * num_all * num_coefficients;
-                        for (const HitWeight& hit : row) {
-                            const float* values = from + hit.vertex * num_coefficients;
-                            const auto weight = static_cast<double>(hit.weight);
-                            for (size_t i = 0; i < num_coefficients; ++i) {
-                                sums[i] += weight * static_cast<double>(values[i]);
-                            }
-                        }
-                        for (size_t i = 0; i < num_coefficients; ++i) {
-                            const auto value = static_cast<float>(sums[i]);
-                            term[half][(channel * num_vertices + v) * num_coefficients + i] = value;
-                            halves[half][(channel * num_coefficients + i) * num_vertices + v] +=
-                                value;
-                        }
-                    }
-                }
+            gather(scene, rows, half, source, [&](size_t channel, size_t v, size_t i, float value) {
+                term[half][(channel * num_vertices + v) * num_coefficients + i] = value;
+                halves[half][(channel * num_coefficients + i) * num_vertices + v] += value;
             });
         }
     }

@@ -114,6 +114,10 @@ const char* sampler_name(SamplerKind kind) {
     return "unknown";
 }
 
+double error_power(SamplerKind kind) {
+    return kind == SamplerKind::uniform ? 1.0 : 1.5;
+}
+
 std::unique_ptr<DirectionSampler> make_sampler(SamplerKind kind, uint32_t first, uint32_t count) {
     switch (kind) {
         case SamplerKind::cosine:

@@ -17,7 +17,7 @@ namespace paim {
 // a power of the rays, which does not depend on the rays.
 // noise_energy  [V] squared error as estimated
 // num_rays      [V] that it is of; 0: nothing is known of this one
-// power         with which squared errors fall: 1.5 for low-discrepancy points, 1 for random ones
+// power         with which squared errors fall (direction_sampler.h: error_power)
 // candidates    vertices to decide on, ascending
 // returns       those that have not met the target, ascending
 std::vector<uint32_t> above_noise_target(const Topology& topology,

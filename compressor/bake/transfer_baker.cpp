@@ -172,7 +172,7 @@ class TransferBaker::PoseBake {
 
     void bake_part_to_target(size_t begin, size_t end) {
         const double target = options_.transfer_error * open_transfer_norm(options_.bands);
-        const double power = options_.sampler == SamplerKind::uniform ? 1.0 : 1.5;
+        const double power = error_power(options_.sampler);
         std::vector<uint32_t> active;
         for (size_t v = begin; v < end; ++v) {
             if (has_normal(v)) active.push_back(static_cast<uint32_t>(v));

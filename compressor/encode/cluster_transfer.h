@@ -42,6 +42,11 @@ struct ClusteredScores {
     Scores bases;
     Eigen::MatrixXd norms;   // [clusters][components] of the rows, weighted, not times that root
     double truncated = 0.0;  // weighted squares that clusters and components leave, over all poses
+
+    uint64_t size_bytes() const {
+        return (bases.components.size() + 1) * bases.mean.size() * sizeof(float) +
+               static_cast<uint64_t>(norms.size()) * sizeof(double);
+    }
 };
 
 ClusteredScores cluster_bases(const Scores& scores, const std::vector<double>& plane_weight,

@@ -60,8 +60,7 @@ class Measurement {
 
     uint64_t num_vertices() const { return transfer_.num_rows() / layout_.num_planes(); }
     Index band_of_row(uint64_t row) const {
-        const auto i = static_cast<int>(row / num_vertices() % layout_.num_coefficients());
-        return sh::band_of(i);
+        return layout_.band_of_plane(static_cast<uint32_t>(row / num_vertices()));
     }
 
   private:

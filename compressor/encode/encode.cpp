@@ -13,6 +13,7 @@
 #include "compressor/encode/principal_components.h"
 #include "compressor/encode/provenance.h"
 #include "compressor/encode/shrinkage.h"
+#include "compressor/encode/state_errors.h"
 #include "paim/base/file.h"
 #include "paim/format/paim_file.h"
 #include "paim/metrics/spectrum.h"
@@ -147,6 +148,10 @@ EncodeSummary encode(const BakeReader& bake, const EncodeOptions& options,
     model.transfer =
         start_matrix(bake, transfer_rows, transfer, summary.transfer_components, options);
 
+    if (options.measure) {
+        check_measuring_memory(paim_size_bytes(model), model.topology.num_vertices,
+                               model.num_poses(), options.memory_bytes, output.string());
+    }
     PaimWriter writer(output, model);
     stream(writer, Part::geometry, geometry_rows, geometry, summary.geometry_components, nullptr,
            in_flight);

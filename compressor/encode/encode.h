@@ -34,6 +34,8 @@ struct EncodeOptions {
     Precision precision = Precision::f32;
     uint64_t memory_bytes =
         1'000'000'000;  // that the process stays below; the bytes do not depend on it
+    // The file will be measured (state_errors.h): it is not written if memory does not suffice for that.
+    bool measure = false;
     float frames_per_second = 24.0f;
     std::string name;
 };
@@ -71,7 +73,7 @@ void check_memory(const BakeReader& bake, const EncodeOptions& options);
 // with V · P.
 // bake     verified (BakeReader::verify_all)
 // on_rows  called with a number of rows whenever they have been read, from any thread
-// Errors: unsupported as check_memory(); bad input for a bake that changes meanwhile; output failed.
+// Errors: unsupported as check_memory(), or as check_measuring_memory() where that is asked for; bad input for a bake that changes meanwhile; output failed.
 EncodeSummary encode(const BakeReader& bake, const EncodeOptions& options,
                      const std::filesystem::path& output,
                      const std::function<void(uint64_t)>& on_rows = {});

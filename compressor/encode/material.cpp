@@ -65,6 +65,7 @@ Material read_material(const BakeReader& bake, const EncodeOptions& options,
                       {},
                       {},
                       0.0,
+                      0,
                       0};
     material.layout.bands = std::min(options.bands, identity.layout.bands);
     LocalOrder order = local_order(bake.topology());
@@ -78,12 +79,10 @@ Material read_material(const BakeReader& bake, const EncodeOptions& options,
     frame.name = options.name;
     frame.scenery = playable_scenery(bake, material.layout.bands);
     material.predictor = PlanePredictor(frame.topology);
-    for (uint32_t channel = 0; channel < material.layout.channels; ++channel) {
-        for (uint32_t i = 0; i < material.layout.num_coefficients(); ++i) {
-            const auto band = static_cast<uint32_t>(sh::band_of(static_cast<int>(i)));
-            // Light has some of every band, if little: no band may err without bounds.
-            material.plane_weight.push_back(std::max(1e-6, target.spectrum.weight(band)));
-        }
+    for (uint32_t plane = 0; plane < material.layout.num_planes(); ++plane) {
+        const double weight = target.spectrum.weight(material.layout.band_of_plane(plane));
+        // Light has some of every band, if little: no band may err without bounds.
+        material.plane_weight.push_back(std::max(1e-6, weight));
     }
 
     const double asked = target.transfer_error.value_or(0.001);
@@ -116,6 +115,7 @@ Material read_material(const BakeReader& bake, const EncodeOptions& options,
     size.clusters = target.codec != CodecChoice::svd && is_integer(options.precision);
     check_target_memory(size, options.memory_bytes, bake.directory().string());
     material.spare_bytes = options.memory_bytes - target_held_bytes(size);
+    material.unneeded_bytes = options.memory_bytes - target_memory_bytes(size);
     in_flight = choose_target_in_flight(size, options.memory_bytes);
     material.geometry = read_scores(geometry_rows, geometry, size.geometry_components, nullptr,
                                     order.old_vertex, in_flight);

@@ -24,6 +24,7 @@ struct Material {
     ModelError floor;                  // of these components, not quantised: the best there is
     double transfer_energy = 0.0;      // weighted ‖y‖² of the whole bake
     uint64_t spare_bytes = 0;          // of options.memory_bytes, beside what is held throughout
+    uint64_t unneeded_bytes = 0;       // of these, beside all that can be needed
 
     ModelError measure(const Model& model) const { return measure_model(model, bake, spectrum); }
 };

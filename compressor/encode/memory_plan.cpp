@@ -62,11 +62,7 @@ std::string memory_text(uint64_t bytes) {
                                    : fmt::format("{} MB", bytes / 1'000'000 + 1);
 }
 
-EncodeSize encode_size(const BakeReader& bake, const EncodeOptions& options) {
-    const auto components = [&](const ComponentChoice& choice) {
-        const bool counted = choice.kind == ComponentChoice::Kind::number;
-        return counted ? std::min(choice.number, bake.num_poses()) : bake.num_poses();
-    };
+EncodeSize bake_size(const BakeReader& bake) {
     uint64_t scenery_bytes = 0;
     if (bake.scenery()) {
         const BakedPose& still = bake.scenery()->pose;
@@ -75,14 +71,29 @@ EncodeSize encode_size(const BakeReader& bake, const EncodeOptions& options) {
         scenery_bytes += sizeof(Triangle) * bake.scenery()->topology.triangles.size() +
                          sizeof(Vec3f) * bake.scenery()->albedo.values.size();
     }
+    const TransferLayout& layout = bake.identity().layout;
     return {bake.topology().triangles.size(),
             bake.albedo().values.size(),
             bake.num_poses(),
-            std::max(components(options.geometry), components(options.transfer)),
+            bake.num_poses(),
             static_cast<uint64_t>(max_parallelism()),
             bake.identity().num_vertices,
-            std::min(options.bands, bake.identity().layout.bands),
+            layout.bands,
             scenery_bytes};
+}
+
+EncodeSize encode_size(EncodeSize bake, const EncodeOptions& options) {
+    const auto components = [&](const ComponentChoice& choice) {
+        const bool counted = choice.kind == ComponentChoice::Kind::number;
+        return counted ? std::min<uint64_t>(choice.number, bake.num_poses) : bake.num_poses;
+    };
+    bake.num_components = std::max(components(options.geometry), components(options.transfer));
+    bake.bands = std::min<uint64_t>(options.bands, bake.bands);
+    return bake;
+}
+
+EncodeSize encode_size(const BakeReader& bake, const EncodeOptions& options) {
+    return encode_size(bake_size(bake), options);
 }
 
 uint64_t encode_memory_bytes(const EncodeSize& size, uint32_t num_in_flight) {

@@ -20,6 +20,11 @@ struct EncodeSize {
     uint64_t scenery_bytes = 0;  // of the scenery as it was baked
 };
 
+// Of a bake: all of its poses as components.
+EncodeSize bake_size(const BakeReader& bake);
+
+// What encoding makes of it.
+EncodeSize encode_size(EncodeSize bake, const EncodeOptions& options);
 EncodeSize encode_size(const BakeReader& bake, const EncodeOptions& options);
 
 // Measured: code, libraries and threads are 18 MB before any data.

@@ -161,6 +161,7 @@ LowRankMatrix quantise(const Scores& scores, const Quantiser& quantiser) {
         const double step = std::max(alike, largest / 32767.0);
         matrix.components.push_back(
             store(scores, quantiser, scores.components[static_cast<size_t>(k)], &round_component));
+        matrix.singular_indices.push_back(static_cast<uint32_t>(k));
         if (!matrix.components.back().holds_i8()) matrix.precision = Precision::i16;
         matrix.weight_steps.push_back(static_cast<float>(step));
         for (Index p = 0; p < weights.cols(); ++p) {
@@ -170,6 +171,10 @@ LowRankMatrix quantise(const Scores& scores, const Quantiser& quantiser) {
         }
     }
     matrix.num_components = static_cast<uint32_t>(matrix.components.size());
+    // The first ones need no names.
+    if (matrix.num_components == 0 || matrix.singular_indices.back() + 1 == matrix.num_components) {
+        matrix.singular_indices.clear();
+    }
     return matrix;
 }
 

@@ -24,7 +24,7 @@ struct Quantiser {
 // to zero than 0.6 steps become zero (others round to nearest), since a zero is cheap and its error
 // small. Afterwards weights are fitted anew to the integers by least squares and quantised so that
 // one of their steps costs as much error as one of a component's. Components whose values or weights
-// are nothing but zero are dropped.
+// are nothing but zero are dropped, the others say which singular value they have.
 // Error (unsupported) if a step is so small that values do not fit in 16 bits.
 LowRankMatrix quantise(const Scores& scores, const Quantiser& quantiser);
 

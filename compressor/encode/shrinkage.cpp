@@ -55,8 +55,7 @@ void Shrinkage::apply(uint64_t first, std::vector<std::vector<float>>& component
         std::vector<float>& rows = components[k];
         for (size_t r = 0; r < rows.size();) {
             const uint64_t plane = (first + r) / num_vertices_;
-            const auto i = static_cast<int>(plane % layout_.num_coefficients());
-            const auto band = static_cast<uint32_t>(sh::band_of(i));
+            const uint32_t band = layout_.band_of_plane(static_cast<uint32_t>(plane));
             const size_t end = std::min(rows.size(), (plane + 1) * num_vertices_ - first);
             for (; r < end; ++r) {
                 const size_t v = (first + r) % num_vertices_;
@@ -91,7 +90,7 @@ double Shrinkage::risk(uint32_t band, size_t v, Index num_components) const {
         const double n = all_noise * noise_share_(l, k);
         const double energy = all_signal * share + n;
         if (energy <= 0.0) continue;
-        const double w = all_signal * share / energy;
+        const double w = factor(band, v, static_cast<uint32_t>(k));
         sum += w * n + 4.0 / values * n * n * share / energy +
                4.0 / draws * share * (all_signal + all_noise) * n * n / (energy * energy);
     }

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "compressor/encode/clustered_pca.h"
+#include "compressor/encode/search_limits.h"
 #include "compressor/encode/tsqr.h"
 #include "paim/base/error.h"
 
@@ -14,14 +15,6 @@ namespace {
 constexpr uint64_t kFloat = sizeof(float), kDouble = sizeof(double);
 // Values of a quantised matrix, at most.
 constexpr uint64_t kInteger = sizeof(int16_t);
-
-// How far transfer_search.cpp goes.
-constexpr uint32_t kLeastPerCluster = 8;
-constexpr uint32_t kMostClusters = 1024;
-constexpr uint32_t kMostClusterComponents = 32;
-constexpr uint32_t kMostAssumedComponents = 16;
-// Clusterings that are kept: six numbers of clusters, each with two numbers of components assumed.
-constexpr uint32_t kNumClusterings = 12;
 
 // Points of scores, as dimensions alone.
 class Dimensions : public PointSource {
@@ -113,8 +106,7 @@ struct Need {
     }
 
     uint64_t clusters() const {
-        return std::min<uint64_t>(kMostClusters,
-                                  std::max<uint64_t>(1, vertices() / kLeastPerCluster));
+        return std::min<uint64_t>(kClusterCounts.back(), most_clusters(vertices()));
     }
     uint64_t basis_rows() const {
         if (!size.clusters) return 0;
@@ -129,7 +121,7 @@ struct Need {
         if (!size.clusters) return 0;
         const uint64_t of_vertices = vertices() * (kMostClusterComponents + 3) * kFloat;
         const uint64_t of_clusters = clusters() * (kMostClusterComponents + 3) * kDouble;
-        return kNumClusterings * (of_vertices + of_clusters);
+        return kMostClusterings * (of_vertices + of_clusters);
     }
 
     uint64_t clustering() const {
@@ -172,13 +164,19 @@ uint64_t target_memory_bytes(const TargetSize& size) {
 void check_target_memory(const TargetSize& size, uint64_t limit_bytes, const std::string& what) {
     const uint64_t least = target_memory_bytes(size);
     if (least <= limit_bytes) return;
+    TargetSize svd = size;
+    svd.clusters = false;
+    const uint64_t least_of_svd = target_memory_bytes(svd);
+    const std::string instead =
+        size.clusters && least_of_svd <= limit_bytes
+            ? fmt::format(" (--codec svd alone takes {})", memory_text(least_of_svd))
+            : "";
     throw_unsupported(
         "{}: {} poses of {} vertices in {} bands, with {} and {} components in memory, need {} to "
-        "be "
-        "encoded to a target, but --memory allows {}",
+        "be encoded to a target, but --memory allows {}{}",
         what, size.streamed.num_poses, size.streamed.num_vertices, size.streamed.bands,
         size.geometry_components, size.transfer_components, memory_text(least),
-        memory_text(limit_bytes - 1));
+        memory_text(limit_bytes - 1), instead);
 }
 
 uint32_t choose_target_in_flight(const TargetSize& size, uint64_t limit_bytes) {

@@ -24,7 +24,8 @@ uint64_t target_held_bytes(const TargetSize& size);
 // Peak memory of the process, an upper bound for this many threads: the least there must be.
 uint64_t target_memory_bytes(const TargetSize& size);
 
-// Error (unsupported) naming `what` and the memory that is needed, if it is more than limit_bytes.
+// Error (unsupported) naming `what` and the memory that is needed, if it is more than limit_bytes; and
+// what codec svd alone needs, where that is not.
 void check_target_memory(const TargetSize& size, uint64_t limit_bytes, const std::string& what);
 
 // The most runs of rows in flight, a power of two, while scores are read; the limit has been checked.

@@ -2,7 +2,6 @@
 #include "compressor/encode/transfer_search.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -10,22 +9,12 @@
 #include "compressor/encode/float_part.h"
 #include "compressor/encode/matrix_cost.h"
 #include "compressor/encode/part_search.h"
-#include "paim/metrics/rates.h"
+#include "compressor/encode/search_limits.h"
+#include "compressor/encode/transfer_cost.h"
 
 namespace paim {
 
 namespace {
-
-constexpr uint32_t kMostClusterComponents = 32;
-
-uint32_t svd_cost(const TransferLayout& layout, uint32_t num_components) {
-    return static_cast<uint32_t>(svd_transfer_cost(layout, num_components, true).per_vertex());
-}
-
-uint32_t cpca_cost(const TransferLayout& layout, uint32_t num_clusters, uint32_t num_components) {
-    return static_cast<uint32_t>(
-        clustered_transfer_cost(layout, num_clusters, num_components, 0, true).per_vertex());
-}
 
 // Bytes of numbers and coefficients of clusters.
 uint64_t stored_bytes(const VertexClusters& clusters, const PlanePredictor& vertices) {
@@ -38,15 +27,18 @@ uint64_t stored_bytes(const VertexClusters& clusters, const PlanePredictor& vert
 
 }  // namespace
 
+std::shared_ptr<const ClusteredScores> TransferCoding::make_bases(const Material& material) const {
+    return std::make_shared<const ClusteredScores>(cluster_bases(
+        material.transfer, material.plane_weight, *clusters, candidate.cluster_components));
+}
+
 void TransferCoding::apply(const Material& material, Model& model) const {
     model.clusters = {};
     if (!is_integer(precision)) {
         model.transfer = float_part(material.transfer, quantiser.num_components, precision);
     } else if (clusters) {
         ClusteredMatrix quantised =
-            quantise_clusters(cluster_bases(material.transfer, material.plane_weight, *clusters,
-                                            candidate.cluster_components),
-                              quantiser);
+            quantise_clusters(bases ? *bases : *make_bases(material), quantiser);
         model.transfer = std::move(quantised.matrix);
         model.clusters = std::move(quantised.clusters);
     } else {
@@ -90,19 +82,35 @@ void TransferSearch::add_svd(double most_error, std::vector<TransferCoding>& cod
     }
 }
 
-const TransferSearch::Clusters& TransferSearch::clusters(uint32_t num_clusters,
-                                                         uint32_t assumed_components) {
-    Clusters& found = clusters_[{num_clusters, assumed_components}];
-    if (found.pca) return found;
+std::shared_ptr<const ClusteredPca> TransferSearch::clusters(uint32_t num_clusters,
+                                                             uint32_t assumed_components) {
+    std::shared_ptr<const ClusteredPca>& found = clusters_[{num_clusters, assumed_components}];
+    if (found) return found;
     ClusteringOptions clustering;
     clustering.num_clusters = num_clusters;
     clustering.assumed_components = assumed_components;
     clustering.max_components = kMostClusterComponents;
-    clustering.memory_bytes = material_.spare_bytes;
+    clustering.memory_bytes = material_.spare_bytes - kept_bytes_;
     const ScorePoints points(material_.transfer, material_.plane_weight);
-    found.pca = std::make_shared<const ClusteredPca>(
+    found = std::make_shared<const ClusteredPca>(
         clustered_pca(points, clustering, nullptr, material_.bake.directory().string()));
     return found;
+}
+
+// Bases may be larger than the scores, so that only one candidate's are kept: most often the chosen
+// one's. Nothing but time depends on it.
+void TransferSearch::keep_bases_of_best(std::vector<TransferCoding>& codings) {
+    const TransferCoding* best = best_coding(codings, target_.preference, {});
+    kept_bytes_ = 0;
+    for (TransferCoding& coding : codings) {
+        if (!coding.bases) continue;
+        const uint64_t bytes = coding.bases->size_bytes();
+        if (&coding == best && bytes <= material_.unneeded_bytes) {
+            kept_bytes_ = bytes;
+        } else {
+            coding.bases.reset();
+        }
+    }
 }
 
 void TransferSearch::add_clusters(uint32_t num_clusters, double most_error,
@@ -116,54 +124,52 @@ void TransferSearch::add_clusters(uint32_t num_clusters, double most_error,
         return k;
     };
     // Points are assigned to subspaces of about as many components as will be kept.
-    constexpr uint32_t kFirstGuess = 8;
     constexpr double kUsualShare = 0.6;
-    uint32_t assumed = kFirstGuess;
-    const uint32_t needed = fewest(*clusters(num_clusters, assumed).pca, kUsualShare);
+    uint32_t assumed = kFirstAssumedComponents;
+    const uint32_t needed = fewest(*clusters(num_clusters, assumed), kUsualShare);
     if (needed > kMostClusterComponents) return;
-    if (needed > kFirstGuess + kFirstGuess / 2) assumed = 2 * kFirstGuess;
-    if (needed < kFirstGuess / 2 + 1) assumed = kFirstGuess / 2;
-    const Clusters& chosen = clusters_[{num_clusters, (clusters(num_clusters, assumed), assumed)}];
+    if (needed > assumed + assumed / 2) {
+        assumed = kMostAssumedComponents;
+    } else if (needed <= assumed / 2) {
+        assumed /= 2;
+    }
+    const std::shared_ptr<const ClusteredPca> pca = clusters(num_clusters, assumed);
 
     std::set<uint32_t> counts;
-    for (const double share : {0.9, kUsualShare, 0.3}) counts.insert(fewest(*chosen.pca, share));
+    for (const double share : {0.9, kUsualShare, 0.3}) counts.insert(fewest(*pca, share));
     for (const uint32_t count : counts) {
         if (count > kMostClusterComponents) continue;
         // With many more rows of bases than vertices, which cost less as they are, it is slow to find out
         // that nothing is gained; up to twice as many may still play faster.
-        if (uint64_t{chosen.pca->num_clusters} * (count + 1) >
+        if (uint64_t{pca->num_clusters} * (count + 1) >
             2 * uint64_t{material_.transfer.num_points}) {
             continue;
         }
-        const uint32_t cost = cpca_cost(material_.layout, chosen.pca->num_clusters, count);
+        const uint32_t cost = cpca_cost(material_.layout, pca->num_clusters, count);
         if (!cheap_enough(cost)) continue;
-        // Made again whenever they are needed: they may be larger than the scores.
-        const ClusteredScores clustered =
-            cluster_bases(material_.transfer, material_.plane_weight, *chosen.pca, count);
         TransferCoding coding;
-        coding.clusters = chosen.pca;
+        coding.clusters = pca;
+        coding.candidate.cluster_components = count;
+        coding.bases = coding.make_bases(material_);
         coding.quantiser = {1.0, material_.transfer.num_components(), material_.plane_weight};
-        coding.quantiser.step = largest_step(clustered, coding.quantiser, most_error);
+        coding.quantiser.step = largest_step(*coding.bases, coding.quantiser, most_error);
         if (coding.quantiser.step == 0.0) continue;
-        const ClusteredMatrix quantised = quantise_clusters(clustered, coding.quantiser);
+        const ClusteredMatrix quantised = quantise_clusters(*coding.bases, coding.quantiser);
         coding.candidate.codec = "cpca";
         coding.candidate.components = quantised.matrix.num_components;
-        coding.candidate.clusters = chosen.pca->num_clusters;
-        coding.candidate.cluster_components = count;
+        coding.candidate.clusters = pca->num_clusters;
         coding.candidate.multiply_adds = cost;
         coding.candidate.bytes = stored_bytes(quantised.matrix, PlanePredictor(), Effort::fast) +
                                  stored_bytes(quantised.clusters, material_.predictor);
         codings.push_back(std::move(coding));
+        keep_bases_of_best(codings);
     }
 }
 
 void TransferSearch::add_all_clusters(double most_error, std::vector<TransferCoding>& codings) {
-    // Fewer than some vertices a cluster and the bases are as large as what they stand for.
-    constexpr uint32_t kLeastPerCluster = 8;
-    constexpr std::array<uint32_t, 6> kCounts{32, 64, 128, 256, 512, 1024};
     // Once more clusters have made files this much larger, they go on doing so.
     constexpr double kPastTheSmallest = 1.3;
-    const uint32_t most = std::max(1u, material_.transfer.num_points / kLeastPerCluster);
+    const auto most = static_cast<uint32_t>(most_clusters(material_.transfer.num_points));
     const auto fewest_bytes = [&](size_t first) {
         uint64_t fewest = std::numeric_limits<uint64_t>::max();
         for (size_t j = first; j < codings.size(); ++j) {
@@ -173,7 +179,7 @@ void TransferSearch::add_all_clusters(double most_error, std::vector<TransferCod
     };
     const size_t first = codings.size();
     uint32_t tried = 0;
-    for (const uint32_t count : kCounts) {
+    for (const uint32_t count : kClusterCounts) {
         if (std::min(count, most) == tried) break;
         tried = std::min(count, most);
         const size_t before = codings.size();
@@ -187,6 +193,7 @@ void TransferSearch::add_all_clusters(double most_error, std::vector<TransferCod
 
 std::vector<TransferCoding> TransferSearch::codings(double most_error) {
     std::vector<TransferCoding> codings;
+    kept_bytes_ = 0;
     if (!is_integer(options_.precision)) {
         add_floats(most_error, codings);
         return codings;

@@ -19,7 +19,12 @@ struct TransferCoding {
     Candidate candidate;
     Quantiser quantiser;
     std::shared_ptr<const ClusteredPca> clusters;  // of cpca
-    Precision precision = Precision::i16;          // or floats, which have no step
+    // Of these clusters, or none: then apply() makes them.
+    std::shared_ptr<const ClusteredScores> bases;
+    Precision precision = Precision::i16;  // or floats, which have no step
+
+    // Of cpca.
+    std::shared_ptr<const ClusteredScores> make_bases(const Material& material) const;
 
     // Sets the transfer and the clusters of a model.
     void apply(const Material& material, Model& model) const;
@@ -30,21 +35,21 @@ class TransferSearch {
     TransferSearch(const Material& material, const EncodeOptions& options,
                    const EncodeTarget& target);
 
-    // All that were tried and meet the error and the decode cost; none if nothing does.
+    // All that were tried and meet the error and the decode cost; none if nothing does. Bases are those
+    // of the best by the target's preference, if there is memory for them, until the next call: whoever
+    // has codings of an earlier one drops their bases first.
     // most_error  weighted squares over rows and poses, against the scores
     std::vector<TransferCoding> codings(double most_error);
 
   private:
-    struct Clusters {
-        std::shared_ptr<const ClusteredPca> pca;
-    };
-
     void add_floats(double most_error, std::vector<TransferCoding>& codings) const;
     void add_svd(double most_error, std::vector<TransferCoding>& codings) const;
     void add_all_clusters(double most_error, std::vector<TransferCoding>& codings);
     void add_clusters(uint32_t num_clusters, double most_error,
                       std::vector<TransferCoding>& codings);
-    const Clusters& clusters(uint32_t num_clusters, uint32_t assumed_components);
+    std::shared_ptr<const ClusteredPca> clusters(uint32_t num_clusters,
+                                                 uint32_t assumed_components);
+    void keep_bases_of_best(std::vector<TransferCoding>& codings);
     bool cheap_enough(uint64_t multiply_adds) const {
         return !target_.decode_cost || multiply_adds <= *target_.decode_cost;
     }
@@ -52,7 +57,9 @@ class TransferSearch {
     const Material& material_;
     const EncodeOptions& options_;
     const EncodeTarget& target_;
-    std::map<std::pair<uint32_t, uint32_t>, Clusters> clusters_;  // clusters, components assumed
+    // By number of clusters and of components assumed.
+    std::map<std::pair<uint32_t, uint32_t>, std::shared_ptr<const ClusteredPca>> clusters_;
+    uint64_t kept_bytes_ = 0;  // of bases
 };
 
 // The best by preference: fewest bytes, or within 1 % of that fewer multiply-adds; or fewest

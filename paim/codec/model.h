@@ -39,7 +39,13 @@ struct LowRankMatrix {
     // [K] integers times which the weights of a component are, or none: floats as they are.
     std::vector<float> weight_steps;
     std::vector<double> singular_values;  // [rank of the full matrix], descending, unshrunk
+    // [K] which singular value each component has, ascending; none: component k has the k-th. Others
+    // are left out where quantisation made one of them nothing but zero.
+    std::vector<uint32_t> singular_indices;
 
+    uint32_t singular_index(uint32_t k) const {
+        return singular_indices.empty() ? k : singular_indices[k];
+    }
     size_t num_rows() const { return size_t{num_planes} * num_points; }
     float step(uint32_t plane) const { return steps.empty() ? 1.0f : steps[plane]; }
 };

@@ -94,18 +94,6 @@ class StoredValues {
             values_);
     }
 
-    // out[j] += weight · value first + j, in steps.
-    void add_to(float weight, size_t first, std::span<float> out) const {
-        std::visit(
-            [&](const auto& values) {
-                const auto* from = values.data() + first;
-                float* to = out.data();
-                for (size_t j = 0; j < out.size(); ++j)
-                    to[j] += weight * static_cast<float>(from[j]);
-            },
-            values_);
-    }
-
     const Values& values() const { return values_; }
 
     bool operator==(const StoredValues&) const = default;

@@ -29,6 +29,7 @@ class Metadata {
     Vec3d point(const char* key) const;     // of three numbers up to ±4e38; zero if absent
     std::string object_text(const char* key) const;  // "{}" if absent
     const nlohmann::json& root() const { return json_; }
+    const std::string& file() const { return file_; }
 
   private:
     Metadata() = default;

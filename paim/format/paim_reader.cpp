@@ -11,6 +11,7 @@
 #include "paim/format/mesh_sections.h"
 #include "paim/format/metadata.h"
 #include "paim/format/paim_file.h"
+#include "paim/format/paim_metadata.h"
 #include "paim/format/paim_sections.h"
 #include "paim/format/prefixes.h"
 #include "paim/format/scenery_sections.h"
@@ -108,6 +109,16 @@ Model read_paim(const std::filesystem::path& path, const ReadOptions& options) {
     if (clustered) read_clusters(reader, predictor, num_vertices, model.clusters);
     read_matrix(reader, Part::transfer, clustered ? PlanePredictor() : predictor,
                 prefix.transfer_components, model.transfer);
+    const auto index = [&](Part part, uint32_t num_components, LowRankMatrix& matrix) {
+        matrix.singular_indices =
+            read_singular_indices(metadata, part, num_components, matrix.singular_values.size());
+        // Those that are there.
+        if (!matrix.singular_indices.empty()) {
+            matrix.singular_indices.resize(matrix.num_components);
+        }
+    };
+    index(Part::geometry, geometry_components, model.geometry);
+    index(Part::transfer, transfer_components, model.transfer);
     model.complete = model.geometry.num_components == geometry_components &&
                      model.transfer.num_components == transfer_components;
     model.scenery = read_scenery(reader, model.layout);

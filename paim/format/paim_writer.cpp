@@ -35,7 +35,8 @@ std::vector<ComponentId> component_order(const Model& model) {
         double energy = 0.0;  // relative to the largest value, which may be too big to square
         for (const double s : matrix.singular_values) energy += (s / largest) * (s / largest);
         for (uint32_t k = 0; k < matrix.num_components; ++k) {
-            const double ratio = largest > 0.0 ? matrix.singular_values[k] / largest : 0.0;
+            const double ratio =
+                largest > 0.0 ? matrix.singular_values[matrix.singular_index(k)] / largest : 0.0;
             ranked.push_back({{part, k}, largest > 0.0 ? ratio * ratio / energy : 0.0});
         }
     }

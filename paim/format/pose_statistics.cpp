@@ -41,13 +41,10 @@ std::vector<double> rms_by_band(const TransferLayout& layout, std::span<const fl
     const size_t num_vertices = planes.size() / layout.num_planes();
     PAIM_CHECK_EQ(planes.size(), num_vertices * layout.num_planes());
     std::vector<double> energy(layout.bands, 0.0);
-    for (uint32_t channel = 0; channel < layout.channels; ++channel) {
-        for (uint32_t i = 0; i < layout.num_coefficients(); ++i) {
-            double& sum = energy[static_cast<size_t>(sh::band_of(static_cast<int>(i)))];
-            for (const float value :
-                 planes.subspan(layout.plane(channel, i) * num_vertices, num_vertices)) {
-                sum += static_cast<double>(value) * static_cast<double>(value);
-            }
+    for (uint32_t plane = 0; plane < layout.num_planes(); ++plane) {
+        double& sum = energy[layout.band_of_plane(plane)];
+        for (const float value : planes.subspan(plane * num_vertices, num_vertices)) {
+            sum += static_cast<double>(value) * static_cast<double>(value);
         }
     }
     for (size_t l = 0; l < energy.size(); ++l) {

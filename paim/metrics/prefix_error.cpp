@@ -136,8 +136,7 @@ PrefixErrors prefix_errors(const Model& model, const std::optional<ErrorStatemen
         parse_light_spectrum(named ? whole.light_spectrum : "flat", layout.bands);
     std::vector<double> weights(layout.num_planes());
     for (uint32_t plane = 0; plane < layout.num_planes(); ++plane) {
-        const uint32_t i = plane % layout.num_coefficients();
-        weights[plane] = spectrum.weight(static_cast<uint32_t>(sh::band_of(static_cast<int>(i))));
+        weights[plane] = spectrum.weight(layout.band_of_plane(plane));
     }
     const ComponentEnergy transfer = component_energy(model, Part::transfer, weights);
     // The bake's norm: what was decoded of it and what was not are orthogonal.

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <span>
 
+#include "paim/codec/model.h"
+
 namespace paim {
 
 // E5, the paper's theoretical error of keeping K components: Σ_{k≥K} s_k / Σ_k s_k, 0 … 1. 0 where
@@ -15,5 +17,9 @@ double theory_error(std::span<const double> singular_values, size_t num_componen
 // The energy error √(Σ_{k≥K} s_k² / Σ_k s_k²), 0 … 1: exactly the relative Frobenius error of the
 // centred matrix.
 double energy_error(std::span<const double> singular_values, size_t num_components);
+
+// The same of the components that a matrix has, which may not be the first ones.
+double theory_error(const LowRankMatrix& matrix);
+double energy_error(const LowRankMatrix& matrix);
 
 }  // namespace paim

@@ -133,8 +133,7 @@ void TransferErrorMeter::add(uint32_t plane, const Plane& baked, const Plane& no
         PAIM_CHECK_EQ(values->cols(), num_poses_);
     }
     added_[plane] = true;
-    const auto i = static_cast<int>(plane % layout_.num_coefficients());
-    const auto band = static_cast<uint32_t>(sh::band_of(i));
+    const uint32_t band = layout_.band_of_plane(plane);
     const double weight = spectrum_.weight(band);
     const Index num_blocks = (num_vertices_ + kRowsAtOnce - 1) / kRowsAtOnce;
     for (Index round = 0; round < num_blocks; round += kBlocksAtOnce) {

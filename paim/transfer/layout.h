@@ -21,6 +21,9 @@ struct TransferLayout {
     uint32_t num_coefficients() const { return bands * bands; }
     uint32_t num_planes() const { return channels * bands * bands; }
     uint32_t plane(uint32_t channel, uint32_t i) const { return channel * bands * bands + i; }
+    uint32_t band_of_plane(uint32_t plane) const {
+        return static_cast<uint32_t>(sh::band_of(static_cast<int>(plane % num_coefficients())));
+    }
 
     bool operator==(const TransferLayout&) const = default;
 };

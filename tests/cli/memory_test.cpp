@@ -65,5 +65,44 @@ TEST_F(Memory, TooManyPosesAreRefusedBeforeAnyWork) {
         compress({"encode", path("long.bake"), "-o", path("x.paim"), "--memory", "200M"}));
 }
 
+// Three files of 4000 · 60 · 28 floats, 81 MB, and six planes of 4000 · 60 beside them, 6 MB.
+TEST_F(Memory, ThatMeasuringTakesIsAskedForBeforeAnythingIsWritten) {
+    bench::SyntheticBake{4000, 60, 5}.write(directory_ / "x.bake");
+    const auto command = [&](const std::string& memory) -> Arguments {
+        return {"encode", path("x.bake"),          "-o",  path("x.paim"), "--geometry-components",
+                "all",    "--transfer-components", "all", "--measure",    "--memory",
+                memory};
+    };
+    expect_failure(compress(command("64M")), 3,
+                   {"x.paim: 8", "MB are needed to measure it", "--memory allows 64 MB"});
+    EXPECT_FALSE(std::filesystem::exists(path("x.paim")));
+    Arguments enough = command("90M");
+    enough.insert(enough.begin(), PAIM_COMPRESS);
+    BackgroundTool tool(enough);
+    rusage usage{};
+    EXPECT_EQ(tool.wait(&usage), 0);
+    EXPECT_LT(usage.ru_maxrss * 1024, 90'000'000);
+    EXPECT_TRUE(std::filesystem::exists(path("x.paim")));
+}
+
+// Three times 6000 · 28 · 40 floats are 81 MB.
+TEST_F(Memory, ThatEncodingTakesIsAskedForBeforeABake) {
+    const std::string poses = make_poses("octopus", 40, 6000);
+    const Arguments command{poses,
+                            "-o",
+                            path("late.paim"),
+                            "--rays",
+                            "2",
+                            "--memory",
+                            "64M",
+                            "--measure",
+                            "--geometry-components",
+                            "all",
+                            "--transfer-components",
+                            "all"};
+    expect_failure(compress(command), 3, {"late.paim: ", "needed to measure it"});
+    EXPECT_FALSE(std::filesystem::exists(path("late.bake")));
+}
+
 }  // namespace
 }  // namespace paim

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "analysis/bench/made_up_identity.h"
 #include "paim/base/seed.h"
 #include "paim/base/vector.h"
 #include "paim/format/bake_directory.h"
@@ -41,16 +42,9 @@ inline BakeReader write_target_bake(const std::filesystem::path& directory,
         }
     }
     const Albedo albedo;
-    BakeIdentity identity;
-    identity.layout = bake.layout;
-    identity.rays = 2;
-    identity.sampler = "cosine";
-    identity.streams = "per-pose";
-    identity.normals = "faces";
-    identity.num_vertices = num_vertices;
-    identity.num_triangles = static_cast<uint32_t>(topology.triangles.size());
-    identity.mesh_xxh3 = mesh_checksum(topology, albedo);
-    for (uint32_t p = 0; p < bake.num_poses; ++p) identity.poses.push_back({"pose", p});
+    std::vector<BakeIdentity::Source> poses;
+    for (uint32_t p = 0; p < bake.num_poses; ++p) poses.push_back({"pose", p});
+    const BakeIdentity identity = made_up_identity(topology, albedo, bake.layout, std::move(poses));
     const BakeWriter writer(directory, identity, topology, albedo);
 
     RandomStream random(5);

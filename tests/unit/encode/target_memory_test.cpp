@@ -57,6 +57,9 @@ TEST(TargetMemory, DoesNotOverflow) {
 
 TEST(TargetMemory, RefusesAndSaysWhatItNeeds) {
     const uint64_t least = target_memory_bytes(kOctopus);
+    TargetSize svd = kOctopus;
+    svd.clusters = false;
+    const uint64_t of_svd = target_memory_bytes(svd);
     EXPECT_NO_THROW(check_target_memory(kOctopus, least, "x.bake"));
     try {
         check_target_memory(kOctopus, least - 1, "x.bake");
@@ -68,8 +71,28 @@ TEST(TargetMemory, RefusesAndSaysWhatItNeeds) {
             "x.bake: 48 poses of 10000 vertices in 5 bands, with 12 and 20 components in memory, "
             "need " +
                 memory_text(least) + " to be encoded to a target, but --memory allows " +
-                memory_text(least - 2));
+                memory_text(least - 2) + " (--codec svd alone takes " + memory_text(of_svd) + ")");
     }
+}
+
+TEST(TargetMemory, NamesSvdWhereThatWouldFit) {
+    TargetSize svd = kOctopus;
+    svd.clusters = false;
+    const uint64_t least = target_memory_bytes(svd);
+    ASSERT_LT(least, target_memory_bytes(kOctopus));
+    const auto refusal = [](const TargetSize& size, uint64_t limit) {
+        try {
+            check_target_memory(size, limit, "x.bake");
+        } catch (const Error& error) {
+            return std::string(error.what());
+        }
+        return std::string("not refused");
+    };
+    const std::string instead = "(--codec svd alone takes " + memory_text(least) + ")";
+    EXPECT_NE(refusal(kOctopus, least).find(instead), std::string::npos);
+    EXPECT_EQ(refusal(kOctopus, least - 1).find("--codec svd"), std::string::npos);
+    EXPECT_EQ(refusal(svd, least - 1).find("--codec svd"), std::string::npos);
+    EXPECT_EQ(refusal(svd, least), "not refused");
 }
 
 TEST(TargetMemory, ReadsAsMuchAtOnceAsFits) {

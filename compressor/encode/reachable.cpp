@@ -1,0 +1,35 @@
+// What no file of a bake can meet.
+#include "compressor/encode/reachable.h"
+
+#include <fmt/format.h>
+
+#include "paim/base/error.h"
+
+namespace paim {
+
+void throw_missed(const std::string& message) {
+    throw Error(ExitCode::threshold_exceeded, message);
+}
+
+void check_reachable(const Material& material, double transfer_error) {
+    const TransferError& floor = material.floor.transfer;
+    if (floor.total() < transfer_error) return;
+    const std::string asked =
+        fmt::format("{}: a transfer error of {:.3g} % is asked for, but ",
+                    material.bake.directory().string(), 100.0 * transfer_error);
+    const uint32_t baked = material.bake.identity().layout.bands;
+    if (floor.missing_bands > floor.error) {
+        throw_missed(fmt::format(
+            "{}its {} bands leave out {:.3g} % of what light of this spectrum shows: the best is "
+            "{:.3g} %; bake with more --bands",
+            asked, baked, 100.0 * floor.missing_bands, 100.0 * floor.total()));
+    }
+    if (material.layout.bands < baked) {
+        throw_missed(fmt::format("{}{} of its {} bands leave {:.3g} % at best: keep more --bands",
+                                 asked, material.layout.bands, baked, 100.0 * floor.total()));
+    }
+    throw_missed(fmt::format("{}the bake's noise leaves {:.3g} % at best: bake with more --rays",
+                             asked, 100.0 * floor.total()));
+}
+
+}  // namespace paim

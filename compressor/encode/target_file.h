@@ -1,0 +1,61 @@
+// Files that meet a target, ready to be written.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compressor/encode/refine.h"
+#include "paim/format/paim_packer.h"
+
+namespace paim {
+
+struct TargetFile {
+    PackedFile file;
+    ModelError error;  // measured
+    Targets targets;   // that were met
+    std::vector<Candidate> candidates;
+    uint32_t geometry_components = 0;
+    Coding coding;  // with the steps that it was made with
+};
+
+class TargetFiles {
+  public:
+    TargetFiles(const Material& material, const EncodeOptions& options, const EncodeTarget& target)
+        : material_(material),
+          noise_(options.noise),
+          target_(target),
+          search_(material, options, target) {}
+
+    Targets targets(double transfer_error) const {
+        return targets_of(material_, target_, transfer_error);
+    }
+
+    // Of a file, beside geometry and transfer.
+    uint64_t frame_bytes() const;
+
+    // A coding that should do for an error, and how large that makes geometry and transfer, about.
+    struct Draft {
+        Coding coding;
+        std::vector<Candidate> candidates;
+        uint64_t estimated_bytes = 0;  // without the frame
+    };
+    std::optional<Draft> draft(double transfer_error, std::string& reason);
+
+    // The file of this error. Nothing, with the reason, if there is none.
+    // draft  of this error or one near by, with steps that should meet it
+    std::optional<TargetFile> meet(double transfer_error, std::string& reason);
+    std::optional<TargetFile> meet(double transfer_error, Draft draft, std::string& reason);
+
+  private:
+    std::optional<TargetFile> pack(const Targets& targets, std::vector<Candidate> candidates,
+                                   RefinedModel refined, std::string& reason) const;
+    std::string bake_name() const { return material_.bake.directory().string(); }
+
+    const Material& material_;
+    NoiseTreatment noise_;
+    const EncodeTarget& target_;
+    CodingSearch search_;
+};
+
+}  // namespace paim
