@@ -11,6 +11,7 @@
 #include "compressor/encode/memory_plan.h"
 #include "compressor/encode/playable_scenery.h"
 #include "compressor/encode/target_memory.h"
+#include "paim/metrics/vertex_match.h"
 
 namespace paim {
 
@@ -34,6 +35,20 @@ Albedo in_order(const Albedo& albedo, const std::vector<uint32_t>& old_vertex) {
     ordered.values.clear();
     for (const uint32_t old : old_vertex) ordered.values.push_back(albedo.values[old]);
     return ordered;
+}
+
+Scenery in_local_order(Scenery scenery) {
+    LocalOrder order = local_order(scenery.topology);
+    const auto reorder = [&](StillPlanes& planes) {
+        std::vector<float> values = planes.floats();
+        reorder_planes(values, order.old_vertex);
+        planes = std::move(values);
+    };
+    reorder(scenery.positions);
+    reorder(scenery.transfer);
+    scenery.albedo = in_order(scenery.albedo, order.old_vertex);
+    scenery.topology = std::move(order.topology);
+    return scenery;
 }
 
 // Largest diagonal of a pose's bounding box.
@@ -77,7 +92,7 @@ Material read_material(const BakeReader& bake, const EncodeOptions& options,
     frame.origin = identity.origin;
     frame.frames_per_second = options.frames_per_second;
     frame.name = options.name;
-    frame.scenery = playable_scenery(bake, material.layout.bands);
+    frame.scenery = in_local_order(playable_scenery(bake, material.layout.bands));
     material.predictor = PlanePredictor(frame.topology);
     for (uint32_t plane = 0; plane < material.layout.num_planes(); ++plane) {
         const double weight = target.spectrum.weight(material.layout.band_of_plane(plane));

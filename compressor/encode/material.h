@@ -1,6 +1,7 @@
 // Everything about a bake that ways to code it are compared on.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "compressor/encode/encode.h"
@@ -27,6 +28,12 @@ struct Material {
     uint64_t unneeded_bytes = 0;       // of these, beside all that can be needed
 
     ModelError measure(const Model& model) const { return measure_model(model, bake, spectrum); }
+
+    // What noise and bands of the bake leave of the transfer error at best, scenery included.
+    double least_error() const {
+        const double still = floor.scenery ? floor.scenery->transfer.total() : 0.0;
+        return std::max(floor.transfer.total(), still);
+    }
 };
 
 // Errors: unsupported, saying what is needed, if options.memory_bytes do not suffice for all that

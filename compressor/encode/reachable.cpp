@@ -11,12 +11,15 @@ void throw_missed(const std::string& message) {
     throw Error(ExitCode::threshold_exceeded, message);
 }
 
-void check_reachable(const Material& material, double transfer_error) {
-    const TransferError& floor = material.floor.transfer;
+namespace {
+
+// whose  of the bake's parts has this floor
+void check_floor(const Material& material, const TransferError& floor, const char* whose,
+                 double transfer_error) {
     if (floor.total() < transfer_error) return;
     const std::string asked =
-        fmt::format("{}: a transfer error of {:.3g} % is asked for, but ",
-                    material.bake.directory().string(), 100.0 * transfer_error);
+        fmt::format("{}: a transfer error of {:.3g} % is asked for, but {}",
+                    material.bake.directory().string(), 100.0 * transfer_error, whose);
     const uint32_t baked = material.bake.identity().layout.bands;
     if (floor.missing_bands > floor.error) {
         throw_missed(fmt::format(
@@ -30,6 +33,14 @@ void check_reachable(const Material& material, double transfer_error) {
     }
     throw_missed(fmt::format("{}the bake's noise leaves {:.3g} % at best: bake with more --rays",
                              asked, 100.0 * floor.total()));
+}
+
+}  // namespace
+
+void check_reachable(const Material& material, double transfer_error) {
+    check_floor(material, material.floor.transfer, "", transfer_error);
+    if (!material.floor.scenery) return;
+    check_floor(material, material.floor.scenery->transfer, "of the scenery ", transfer_error);
 }
 
 }  // namespace paim

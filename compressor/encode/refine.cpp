@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "compressor/encode/float_part.h"
+#include "compressor/encode/quantise_scenery.h"
 #include "compressor/encode/trim_bands.h"
 #include "paim/base/error.h"
 
@@ -12,8 +13,9 @@ namespace paim {
 
 namespace {
 
-Model build(const Material& material, const Coding& coding) {
+Model build(const Material& material, const Scenery& scenery, const Coding& coding) {
     Model model = material.frame;
+    model.scenery = scenery;
     model.geometry = is_integer(coding.geometry_precision)
                          ? quantise(material.geometry, coding.geometry)
                          : float_part(material.geometry, coding.geometry.num_components,
@@ -50,11 +52,14 @@ std::optional<RefinedModel> refine(const Material& material, Coding coding,
     constexpr int kMostRounds = 8;
     constexpr double kRoom = 0.985;  // below this share of a target a coarser step is tried
     const double floor = material.floor.transfer.total();
+    const Scenery scenery = is_integer(coding.geometry_precision)
+                                ? quantise_scenery(material, targets.transfer, targets.geometry)
+                                : material.frame.scenery;
     std::optional<RefinedModel> best;
     for (int round = 0; round < kMostRounds; ++round) {
         Model model;
         try {
-            model = build(material, coding);
+            model = build(material, scenery, coding);
         } catch (const Error& error_of_step) {
             // Finer than values of 16 bits can be: what there is, is the best there is.
             if (error_of_step.code() != ExitCode::unsupported) throw;

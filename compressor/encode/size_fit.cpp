@@ -53,8 +53,7 @@ class SizeFit {
           most_bytes_(most_bytes),
           most_(log_of(most_bytes)),
           high_(std::log(kLargestError)),
-          low_(std::min(high_, std::log(1.02 * std::max(1e-4, material.floor.transfer.total())))),
-          frame_bytes_(files.frame_bytes()),
+          low_(std::min(high_, std::log(1.02 * std::max(1e-4, material.least_error())))),
           say_(say) {}
 
     TargetFile run() {
@@ -88,7 +87,7 @@ class SizeFit {
         for (int round = 0; round < kMostEstimates; ++round) {
             say("comparing ways to code", x);
             if (choose(x)) {
-                curve_.add(x, log_of(frame_bytes_ + draft_->estimated_bytes));
+                curve_.add(x, log_of(files_.frame_bytes(std::exp(x)) + draft_->estimated_bytes));
                 const double next = inside(curve_.error_of(most_));
                 if (std::abs(next - x) <= kNear) return next;
                 x = next;
@@ -166,7 +165,6 @@ class SizeFit {
     const double most_;
     double high_,
         low_;  // files of errors up to low_ do not fit, those from high_ on do, once tried
-    const uint64_t frame_bytes_;
     bool low_tried_ = false;
     bool tried_ = false;  // a file, so that the curve is of sizes and not of estimates
     SizeCurve curve_;

@@ -7,12 +7,15 @@
 #include <utility>
 
 #include "compressor/encode/provenance.h"
+#include "compressor/encode/quantise_scenery.h"
 #include "compressor/encode/transfer_cost.h"
 
 namespace paim {
 
-uint64_t TargetFiles::frame_bytes() const {
+uint64_t TargetFiles::frame_bytes(double transfer_error) const {
     Model frame = material_.frame;
+    const Targets errors = targets(transfer_error);
+    frame.scenery = quantise_scenery(material_, errors.transfer, errors.geometry);
     const auto fill = [&](uint32_t num_planes, LowRankMatrix& matrix) {
         matrix.num_points = frame.topology.num_vertices;
         matrix.num_planes = num_planes;

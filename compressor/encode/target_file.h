@@ -31,8 +31,8 @@ class TargetFiles {
         return targets_of(material_, target_, transfer_error);
     }
 
-    // Of a file, beside geometry and transfer.
-    uint64_t frame_bytes() const;
+    // Of a file of this error, beside geometry and transfer.
+    uint64_t frame_bytes(double transfer_error) const;
 
     // A coding that should do for an error, and how large that makes geometry and transfer, about.
     struct Draft {
