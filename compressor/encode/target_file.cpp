@@ -14,8 +14,10 @@ namespace paim {
 
 uint64_t TargetFiles::frame_bytes(double transfer_error) const {
     Model frame = material_.frame;
-    const Targets errors = targets(transfer_error);
-    frame.scenery = quantise_scenery(material_, errors.transfer, errors.geometry);
+    if (is_integer(options_.precision)) {
+        const Targets errors = targets(transfer_error);
+        frame.scenery = quantise_scenery(material_, errors.transfer, errors.geometry);
+    }
     const auto fill = [&](uint32_t num_planes, LowRankMatrix& matrix) {
         matrix.num_points = frame.topology.num_vertices;
         matrix.num_planes = num_planes;
@@ -93,7 +95,7 @@ std::optional<TargetFile> TargetFiles::pack(const Targets& targets,
     }
     nlohmann::ordered_json provenance = nlohmann::ordered_json::parse(
         bake_provenance(material_.bake.identity(), material_.statistics));
-    provenance["noise"] = noise_ == NoiseTreatment::shrink ? "shrink" : "keep";
+    provenance["noise"] = options_.noise == NoiseTreatment::shrink ? "shrink" : "keep";
     provenance["measured"] =
         nlohmann::ordered_json::parse(error_statement_json(refined.error, target_.spectrum));
     model.provenance_json = provenance.dump();

@@ -23,7 +23,7 @@ class TargetFiles {
   public:
     TargetFiles(const Material& material, const EncodeOptions& options, const EncodeTarget& target)
         : material_(material),
-          noise_(options.noise),
+          options_(options),
           target_(target),
           search_(material, options, target) {}
 
@@ -53,7 +53,7 @@ class TargetFiles {
     std::string bake_name() const { return material_.bake.directory().string(); }
 
     const Material& material_;
-    NoiseTreatment noise_;
+    const EncodeOptions& options_;
     const EncodeTarget& target_;
     CodingSearch search_;
 };

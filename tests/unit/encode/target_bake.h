@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <optional>
 
 #include "analysis/bench/made_up_identity.h"
 #include "paim/base/seed.h"
@@ -20,6 +21,8 @@ struct TargetBake {
     uint32_t still_from = 99;  // bands that are zero from here on
     double movement = 1.0;     // 0: all poses are alike but for noise
     double scale = 1.0;        // of the transfer
+    // There is scenery, too: the sheet at another time, of this noise, twice as large.
+    std::optional<double> scenery_noise = {};
 };
 
 // Waves travel over a sheet, and its transfer follows them.
@@ -44,7 +47,8 @@ inline BakeReader write_target_bake(const std::filesystem::path& directory,
     const Albedo albedo;
     std::vector<BakeIdentity::Source> poses;
     for (uint32_t p = 0; p < bake.num_poses; ++p) poses.push_back({"pose", p});
-    const BakeIdentity identity = made_up_identity(topology, albedo, bake.layout, std::move(poses));
+    BakeIdentity identity = made_up_identity(topology, albedo, bake.layout, std::move(poses));
+    if (bake.scenery_noise) identity.scenery.push_back({"still", 0});
     const BakeWriter writer(directory, identity, topology, albedo);
 
     RandomStream random(5);
@@ -53,8 +57,7 @@ inline BakeReader write_target_bake(const std::filesystem::path& directory,
                std::cos(2.0 * kPi * random.uniform());
     };
     const size_t num_values = size_t{bake.layout.num_planes()} * num_vertices;
-    for (uint32_t p = 0; p < bake.num_poses; ++p) {
-        const double time = bake.movement * 2.0 * kPi * p / bake.num_poses;
+    const auto make_pose = [&](double time, double relative_noise, double extent) {
         BakedPose pose;
         pose.positions.resize(size_t{3} * num_vertices);
         pose.normals.resize(size_t{3} * num_vertices);
@@ -67,16 +70,18 @@ inline BakeReader write_target_bake(const std::filesystem::path& directory,
                 const double wave = std::sin(6.0 * u + time) +
                                     0.4 * std::sin(9.0 * w - 2.0 * time) +
                                     0.1 * std::sin(20.0 * u * w + 3.0 * time);
-                pose.positions[v] = static_cast<float>(u);
-                pose.positions[num_vertices + v] = static_cast<float>(0.2 * wave);
-                pose.positions[2 * num_vertices + v] = static_cast<float>(w);
+                // Scenery is no lattice, whose few coordinates would be rounded by luck.
+                const double sway = (extent - 1.0) * 0.1 * wave;
+                pose.positions[v] = static_cast<float>(extent * u + sway);
+                pose.positions[num_vertices + v] = static_cast<float>(extent * 0.2 * wave);
+                pose.positions[2 * num_vertices + v] = static_cast<float>(extent * w - sway);
                 pose.normals[num_vertices + v] = 1.0f;
                 for (uint32_t j = 0; j < bake.layout.num_planes(); ++j) {
                     const auto i = static_cast<int>(j % bake.layout.num_coefficients());
                     const auto band = static_cast<uint32_t>(sh::band_of(i));
                     if (band >= bake.still_from) continue;
                     const double size = bake.scale * std::pow(band + 1.0, -bake.band_decay);
-                    const double noise = bake.scale * bake.noise;
+                    const double noise = bake.scale * relative_noise;
                     const double value =
                         size * (std::cos(j + 2.0 * u) +
                                 0.5 * std::sin(wave + 0.7 * j + 3.0 * w) * std::sin(j + 5.0 * u));
@@ -88,7 +93,14 @@ inline BakeReader write_target_bake(const std::filesystem::path& directory,
         }
         pose.statistics.transfer_rms = rms_by_band(bake.layout, pose.transfer);
         pose.statistics.noise_rms = rms_by_band(bake.layout, pose.noise);
-        writer.write_pose(p, pose);
+        return pose;
+    };
+    for (uint32_t p = 0; p < bake.num_poses; ++p) {
+        writer.write_pose(
+            p, make_pose(bake.movement * 2.0 * kPi * p / bake.num_poses, bake.noise, 1.0));
+    }
+    if (bake.scenery_noise) {
+        writer.write_scenery({topology, albedo, make_pose(0.5, *bake.scenery_noise, 2.0)});
     }
     return BakeReader(directory);
 }
