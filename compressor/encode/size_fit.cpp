@@ -67,6 +67,7 @@ class SizeFit {
             if (best_ && (high_ - low_ <= kResolution || is_close())) break;
             x = inside(curve_.error_of(most_ - kMargin));
         }
+        if (!best_) try_error(high_);  // or nothing does
         return std::move(*best_);
     }
 
