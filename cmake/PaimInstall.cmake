@@ -24,7 +24,7 @@ set(private_headers
     format/plane_packing.h
     format/plane_predictor.h
     format/plane_undo.h
-    format/scratch_pool.h
+    format/workspace.h
     format/zstd_codec.h
     image/exr_header.h
     sh/recurrence.h)

@@ -1,8 +1,10 @@
 // A low-rank matrix, clusters and still planes from the sections of a .paim.
 #include "paim/format/matrix_sections.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "paim/base/error.h"
 #include "paim/base/parallel.h"
@@ -22,41 +24,91 @@ const Section& require(const ContainerReader& reader, Tag tag, uint32_t index = 
     return *section;
 }
 
+// out [sections]: integers of sections of the same type and shape, undone side by side.
 template <typename Integer>
-StoredValues read_integers(const ContainerReader& reader, const Section& section,
-                           const PlanePredictor& predictor, ScratchPool& pool) {
-    const size_t num_planes = section.spec.shape[1];
-    std::vector<Integer> values(section.spec.num_values());
-    if (section.codec != SectionCodec::planes) {
-        throw_unsupported("{}: codec {} for integers", reader.label(section),
-                          static_cast<int>(section.codec));
+void read_integers(const ContainerReader& reader, std::span<const Section* const> sections,
+                   const PlanePredictor& predictor, WorkspacePool& pool, StoredValues* out) {
+    std::vector<std::vector<uint8_t>> stored;
+    std::vector<std::vector<Integer>> values;
+    std::vector<StoredPlanes<Integer>> planes;
+    for (const Section* section : sections) {
+        if (section->codec != SectionCodec::planes) {
+            throw_unsupported("{}: codec {} for integers", reader.label(*section),
+                              static_cast<int>(section->codec));
+        }
+        stored.push_back(reader.read_stored(*section));
+        values.emplace_back(section->spec.num_values());
+        planes.push_back({stored.back(), section->spec.shape[1], values.back()});
     }
-    const std::vector<uint8_t> stored = reader.read_stored(section);
-    if (num_planes == 0 || !decode_planes(stored, num_planes, predictor, pool, std::span(values))) {
-        throw_bad_input("{}: holds no {} planes of {} integers", reader.label(section), num_planes,
-                        section.spec.shape[2]);
+    WorkspacePool::Lease workspace(pool);
+    const auto good = [&](std::span<const StoredPlanes<Integer>> some) {
+        return some[0].num_planes > 0 && decode_planes(some, predictor, *workspace);
+    };
+    if (!good(planes)) {
+        const auto bad = std::find_if(planes.begin(), planes.end(), [&](const auto& section) {
+            return !good(std::span(&section, 1));
+        });
+        const Section& section = *sections[static_cast<size_t>(bad - planes.begin())];
+        throw_bad_input("{}: holds no {} planes of {} integers", reader.label(section),
+                        section.spec.shape[1], section.spec.shape[2]);
     }
+    std::move(values.begin(), values.end(), out);
+}
+
+// out [sections]: integers, or finite floats. Sections have the same type and shape.
+void read_alike(const ContainerReader& reader, std::span<const Section* const> sections,
+                const PlanePredictor& predictor, WorkspacePool& pool, StoredValues* out) {
+    switch (sections[0]->spec.type) {
+        case ScalarType::i8:
+            return read_integers<int8_t>(reader, sections, predictor, pool, out);
+        case ScalarType::i16:
+            return read_integers<int16_t>(reader, sections, predictor, pool, out);
+        case ScalarType::f16:
+        case ScalarType::f32:
+            for (const Section* section : sections) {
+                std::vector<float> values = reader.read_f32(*section);
+                check_finite(reader, section->spec.tag, values);
+                *out++ = std::move(values);
+            }
+            return;
+        default:
+            throw_unsupported("{}: values of {}", reader.label(*sections[0]),
+                              scalar_name(sections[0]->spec.type));
+    }
+}
+
+// How many planes of this type are best undone at once.
+size_t planes_at_once(ScalarType type) {
+    return type == ScalarType::i8    ? kPlanesAtOnce<int8_t>
+           : type == ScalarType::i16 ? kPlanesAtOnce<int16_t>
+                                     : 1;
+}
+
+// Sections of the same shape.
+std::vector<StoredValues> read_values(const ContainerReader& reader,
+                                      std::span<const Section* const> sections,
+                                      const PlanePredictor& predictor, WorkspacePool& pool) {
+    std::vector<size_t> ends{0};  // of those that are read at once
+    for (size_t j = 1; j < sections.size(); ++j) {
+        const SectionSpec& spec = sections[j]->spec;
+        const size_t num_planes = (j + 1 - ends.back()) * spec.shape[1];
+        if (spec.type != sections[j - 1]->spec.type || num_planes > planes_at_once(spec.type)) {
+            ends.push_back(j);
+        }
+    }
+    if (!sections.empty()) ends.push_back(sections.size());
+    std::vector<StoredValues> values(sections.size());
+    parallel_for(ends.size() - 1, 1, [&](size_t j, size_t) {
+        const auto some = sections.subspan(ends[j], ends[j + 1] - ends[j]);
+        read_alike(reader, some, predictor, pool, &values[ends[j]]);
+    });
     return values;
 }
 
-// Integers, or finite floats.
 StoredValues read_values(const ContainerReader& reader, const Section& section,
-                         const PlanePredictor& predictor, ScratchPool& pool) {
-    switch (section.spec.type) {
-        case ScalarType::i8:
-            return read_integers<int8_t>(reader, section, predictor, pool);
-        case ScalarType::i16:
-            return read_integers<int16_t>(reader, section, predictor, pool);
-        case ScalarType::f16:
-        case ScalarType::f32: {
-            std::vector<float> values = reader.read_f32(section);
-            check_finite(reader, section.spec.tag, values);
-            return values;
-        }
-        default:
-            throw_unsupported("{}: values of {}", reader.label(section),
-                              scalar_name(section.spec.type));
-    }
+                         const PlanePredictor& predictor, WorkspacePool& pool) {
+    const Section* const one = &section;
+    return std::move(read_values(reader, std::span(&one, 1), predictor, pool)[0]);
 }
 
 Precision precision_of(ScalarType type) {
@@ -86,7 +138,7 @@ std::vector<float> read_steps(const ContainerReader& reader, Tag tag, uint32_t c
     return steps;
 }
 
-void read_weights(const ContainerReader& reader, size_t i, ScratchPool& pool,
+void read_weights(const ContainerReader& reader, size_t i, WorkspacePool& pool,
                   LowRankMatrix& matrix) {
     const Section& section = require(reader, section::kWeights[i]);
     expect_shape(reader, section, matrix.num_components, matrix.num_poses);
@@ -150,7 +202,7 @@ void expect_shape(const ContainerReader& reader, const Section& section, uint32_
 void read_matrix(const ContainerReader& reader, Part part, const PlanePredictor& predictor,
                  uint32_t num_there, LowRankMatrix& matrix) {
     const auto i = static_cast<size_t>(part);
-    ScratchPool pool;
+    WorkspacePool pool;
     read_weights(reader, i, pool, matrix);
     read_spectrum(reader, i, matrix);
 
@@ -175,10 +227,8 @@ void read_matrix(const ContainerReader& reader, Part part, const PlanePredictor&
         precision_of(sections.size() > 1 ? sections[1]->spec.type : sections[0]->spec.type);
     if (integers) matrix.steps = read_steps(reader, section::kSteps[i], matrix.num_planes);
     if (num_there < matrix.num_components) keep_components(num_there, matrix);
-    std::vector<StoredValues> values(1 + matrix.num_components);
-    parallel_for(values.size(), 1, [&](size_t j, size_t) {
-        values[j] = read_values(reader, *sections[j], predictor, pool);
-    });
+    sections.resize(1 + matrix.num_components);
+    std::vector<StoredValues> values = read_values(reader, sections, predictor, pool);
     matrix.mean = std::move(values[0]);
     matrix.components.assign(std::make_move_iterator(values.begin() + 1),
                              std::make_move_iterator(values.end()));
@@ -186,7 +236,7 @@ void read_matrix(const ContainerReader& reader, Part part, const PlanePredictor&
 
 void read_clusters(const ContainerReader& reader, const PlanePredictor& predictor,
                    uint32_t num_vertices, VertexClusters& clusters) {
-    ScratchPool pool;
+    WorkspacePool pool;
     const Section& numbers = reader.require(section::kClusters, ScalarType::i16);
     expect_shape(reader, numbers, 1, num_vertices);
     const StoredValues cluster = read_values(reader, numbers, predictor, pool);
@@ -207,9 +257,7 @@ void read_clusters(const ContainerReader& reader, const PlanePredictor& predicto
         sections.push_back(&require(reader, section::kClusterCoefficients, j));
         expect_shape(reader, *sections.back(), 1, num_vertices);
     }
-    for (const Section* section : sections) {
-        clusters.coefficients.push_back(read_values(reader, *section, predictor, pool));
-    }
+    clusters.coefficients = read_values(reader, sections, predictor, pool);
 }
 
 StillPlanes read_still_planes(const ContainerReader& reader, Tag values, Tag steps,

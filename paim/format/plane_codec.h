@@ -7,7 +7,7 @@
 
 #include "paim/codec/stored_values.h"
 #include "paim/format/plane_predictor.h"
-#include "paim/format/scratch_pool.h"
+#include "paim/format/workspace.h"
 #include "paim/format/zstd_codec.h"
 
 namespace paim {
@@ -19,18 +19,31 @@ namespace paim {
 std::vector<uint8_t> encode_planes(const StoredValues& values, size_t num_planes,
                                    const PlanePredictor& predictor, Effort effort = Effort::small);
 
-// Fills out [planes][N]; false for bytes that are not such planes, or whose values do not fit.
-// bytes  the stored section; whatever they are, memory grows with out.size() alone
-// pool   to work in, shared by whoever decodes at the same time
+// Planes in a file, and where they go.
 template <typename Integer>
-bool decode_planes(std::span<const uint8_t> bytes, size_t num_planes,
-                   const PlanePredictor& predictor, ScratchPool& pool, std::span<Integer> out);
+struct StoredPlanes {
+    std::span<const uint8_t> bytes;  // the stored section, whatever it is
+    size_t num_planes = 0;           // at least 1
+    std::span<Integer> out;          // [planes][N]
+};
 
+// Fills every `out`; false for bytes that are not such planes, or whose values are not in the
+// symmetrical range of the integers. Planes are undone side by side, kPlanesAtOnce of them best.
+// Memory grows with the sizes of `out` alone.
+template <typename Integer>
+bool decode_planes(std::span<const StoredPlanes<Integer>> sections, const PlanePredictor& predictor,
+                   Workspace& workspace);
+
+template <typename Integer>
+constexpr size_t kPlanesAtOnce = 64 / sizeof(Integer);
+
+// One section.
 template <typename Integer>
 bool decode_planes(std::span<const uint8_t> bytes, size_t num_planes,
                    const PlanePredictor& predictor, std::span<Integer> out) {
-    ScratchPool pool;
-    return decode_planes(bytes, num_planes, predictor, pool, out);
+    Workspace workspace;
+    const StoredPlanes<Integer> planes{bytes, num_planes, out};
+    return decode_planes(std::span(&planes, 1), predictor, workspace);
 }
 
 }  // namespace paim

@@ -2,8 +2,9 @@
 #include "paim/format/plane_packing.h"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
+
+#include "paim/base/check.h"
 
 namespace paim {
 
@@ -13,127 +14,123 @@ constexpr uint32_t zigzag(int32_t value) {
     return (static_cast<uint32_t>(value) << 1) ^ static_cast<uint32_t>(value >> 31);
 }
 
-// Of 16 bits at most.
-constexpr int16_t unzigzag(uint16_t code) {
-    return static_cast<int16_t>((code >> 1) ^ (0 - (code & 1)));
-}
-
-// Digits of a base that fit into a byte.
-constexpr uint32_t digits_per_byte(uint32_t base) {
-    uint32_t digits = 0;
-    for (uint32_t range = base; range <= 256; range *= base) ++digits;
-    return digits;
-}
-
 constexpr uint32_t base_of(uint32_t magnitude) {
     return 2 * magnitude + 1;
 }
 
-// What each byte stands for, so many digits that one copy of a power of two of bytes takes them.
-template <uint32_t kMagnitude>
+// Digits that fit into a byte.
+constexpr uint32_t digits_per_byte(uint32_t magnitude) {
+    uint32_t digits = 0;
+    for (uint32_t range = base_of(magnitude); range <= 256; range *= base_of(magnitude)) ++digits;
+    return digits;
+}
+
+// What each byte stands for, so many digits that one copy of a power of two of values takes them.
+template <typename Integer, uint32_t kMagnitude>
 struct DigitTable {
-    static constexpr uint32_t kDigits = digits_per_byte(base_of(kMagnitude));
+    static constexpr uint32_t kDigits = digits_per_byte(kMagnitude);
     static constexpr uint32_t kCopied = kDigits > 4 ? 8 : kDigits > 2 ? 4 : 2;
     static_assert(kTileValues % kDigits == 0 && kCopied <= kTilePadding);
-    std::array<std::array<int16_t, kCopied>, 256> values{};
+    std::array<std::array<Integer, kCopied>, 256> values{};
 
     constexpr DigitTable() {
         for (uint32_t byte = 0; byte < 256; ++byte) {
             uint32_t rest = byte;
             for (uint32_t j = kDigits; j-- > 0; rest /= base_of(kMagnitude)) {
-                values[byte][j] = static_cast<int16_t>(
+                values[byte][j] = static_cast<Integer>(
                     static_cast<int32_t>(rest % base_of(kMagnitude)) - int32_t{kMagnitude});
             }
         }
     }
 };
 
-template <uint32_t kMagnitude>
-constexpr DigitTable<kMagnitude> kDigitTable;
+template <typename Integer, uint32_t kMagnitude>
+constexpr DigitTable<Integer, kMagnitude> kDigitTable;
 
-template <uint32_t kMagnitude>
-void unpack_digits(const uint8_t* source, size_t first, size_t count, int16_t* out) {
-    constexpr const auto& kTable = kDigitTable<kMagnitude>;
+template <typename Integer, uint32_t kMagnitude>
+void unpack(const uint8_t* source, size_t first, size_t count, Integer* out) {
+    constexpr const auto& kTable = kDigitTable<Integer, kMagnitude>;
     source += first / kTable.kDigits;
     for (size_t j = 0; j < count; j += kTable.kDigits) {
-        std::memcpy(out + j, kTable.values[*source++].data(), kTable.kCopied * sizeof(int16_t));
-    }
-}
-
-void pack_digits(std::span<const int32_t> residuals, uint8_t magnitude, uint8_t* out) {
-    const uint32_t base = base_of(magnitude);
-    const uint32_t digits = digits_per_byte(base);
-    for (size_t first = 0; first < residuals.size(); first += digits) {
-        uint32_t byte = 0;
-        for (size_t j = first; j < first + digits; ++j) {
-            const int32_t residual = j < residuals.size() ? residuals[j] : 0;
-            byte = byte * base + static_cast<uint32_t>(residual + magnitude);
-        }
-        *out++ = static_cast<uint8_t>(byte);
+        std::memcpy(out + j, kTable.values[*source++].data(), kTable.kCopied * sizeof(Integer));
     }
 }
 
 }  // namespace
 
-size_t packed_size(const PlaneHeader& header, size_t count) {
-    switch (header.packing) {
-        case Packing::nothing:
-            return 0;
-        case Packing::packed: {
-            const uint32_t digits = digits_per_byte(base_of(header.magnitude));
-            return (count + digits - 1) / digits;
+size_t digit_bytes(uint8_t magnitude, size_t count) {
+    if (magnitude == 0) return 0;
+    if (magnitude == kByteDigits) return count;
+    const uint32_t digits = digits_per_byte(magnitude);
+    return (count + digits - 1) / digits;
+}
+
+template <typename Integer>
+PackedPlane pack(Prediction prediction, uint8_t magnitude, std::span<const Integer> residuals) {
+    PackedPlane plane{{prediction, false, magnitude, 0}, {}, {}, {}, {}};
+    const auto most = int32_t{magnitude};
+    const uint32_t per_byte =
+        magnitude == 0 || magnitude == kByteDigits ? 1 : digits_per_byte(magnitude);
+    plane.digits.reserve(digit_bytes(magnitude, residuals.size()));
+    uint32_t byte = 0, num_digits = 0;
+    size_t gap = 0;
+    const auto add_exception = [&](size_t passed_over, uint32_t code) {
+        plane.gaps.push_back(static_cast<uint8_t>(passed_over));
+        plane.lows.push_back(static_cast<uint8_t>(code));
+        plane.highs.push_back(static_cast<uint8_t>(code >> 8));
+        plane.header.wide = plane.header.wide || (code >> 8) != 0;
+    };
+    for (size_t n = 0; n < residuals.size(); ++n, ++gap) {
+        const int32_t digit = std::clamp<int32_t>(residuals[n], -most, most);
+        if (digit != residuals[n]) {
+            for (; gap > 255; gap -= 256) add_exception(255, 0);
+            add_exception(gap, zigzag(residuals[n] - digit));
+            gap = static_cast<size_t>(-1);
         }
-        case Packing::bytes:
-            return count;
-        case Packing::words:
-            return 2 * count;
-    }
-    return 0;
-}
-
-void pack(const PlaneHeader& header, std::span<const int32_t> residuals, uint8_t* out) {
-    switch (header.packing) {
-        case Packing::nothing:
-            return;
-        case Packing::packed:
-            return pack_digits(residuals, header.magnitude, out);
-        case Packing::bytes:
-            for (const int32_t r : residuals) *out++ = static_cast<uint8_t>(zigzag(r));
-            return;
-        case Packing::words:
-            for (size_t j = 0; j < residuals.size(); ++j) {
-                const uint32_t code = zigzag(residuals[j]);
-                out[j] = static_cast<uint8_t>(code);
-                out[residuals.size() + j] = static_cast<uint8_t>(code >> 8);
+        if (magnitude == kByteDigits) {
+            plane.digits.push_back(static_cast<uint8_t>(zigzag(digit)));
+        } else if (magnitude != 0) {
+            byte = byte * base_of(magnitude) + static_cast<uint32_t>(digit + most);
+            if (++num_digits == per_byte) {
+                plane.digits.push_back(static_cast<uint8_t>(byte));
+                byte = num_digits = 0;
             }
-            return;
+        }
     }
+    if (num_digits > 0) {
+        for (; num_digits < per_byte; ++num_digits) byte = byte * base_of(magnitude) + magnitude;
+        plane.digits.push_back(static_cast<uint8_t>(byte));
+    }
+    if (!plane.header.wide) plane.highs.clear();
+    plane.header.num_exceptions = static_cast<uint32_t>(plane.gaps.size());
+    return plane;
 }
 
-void unpack_tile(const PlaneHeader& header, const uint8_t* source, size_t num_values, size_t first,
-                 size_t count, int16_t* __restrict out) {
-    using UnpackDigits = void (*)(const uint8_t*, size_t, size_t, int16_t*);
-    static constexpr UnpackDigits kUnpackDigits[kMaxPackedMagnitude] = {
-        unpack_digits<1>, unpack_digits<2>, unpack_digits<3>, unpack_digits<4>,
-        unpack_digits<5>, unpack_digits<6>, unpack_digits<7>};
-    switch (header.packing) {
-        case Packing::nothing:
-            std::fill_n(out, count, int16_t{0});
-            return;
-        case Packing::packed:
-            return kUnpackDigits[header.magnitude - 1](source, first, count, out);
-        case Packing::bytes:
-            for (size_t j = 0; j < count; ++j) out[j] = unzigzag(source[first + j]);
-            return;
-        case Packing::words: {
-            const uint8_t* low = source + first;
-            const uint8_t* high = low + num_values;
+template <typename Integer>
+void unpack_digits(uint8_t magnitude, const uint8_t* source, size_t first, size_t count,
+                   Integer* out) {
+    switch (magnitude) {
+        case 1:
+            return unpack<Integer, 1>(source, first, count, out);
+        case 2:
+            return unpack<Integer, 2>(source, first, count, out);
+        case 7:
+            return unpack<Integer, 7>(source, first, count, out);
+        case kByteDigits:
             for (size_t j = 0; j < count; ++j) {
-                out[j] = unzigzag(static_cast<uint16_t>(low[j] | (high[j] << 8)));
+                const uint8_t code = source[first + j];
+                out[j] = static_cast<int8_t>((code >> 1) ^ (0 - (code & 1)));
             }
             return;
-        }
+        default:
+            PAIM_CHECK_EQ(int{magnitude}, 0);
+            std::fill_n(out, count, Integer{0});
     }
 }
+
+template PackedPlane pack(Prediction, uint8_t, std::span<const int8_t>);
+template PackedPlane pack(Prediction, uint8_t, std::span<const int16_t>);
+template void unpack_digits(uint8_t, const uint8_t*, size_t, size_t, int8_t*);
+template void unpack_digits(uint8_t, const uint8_t*, size_t, size_t, int16_t*);
 
 }  // namespace paim

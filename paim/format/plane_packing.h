@@ -1,48 +1,114 @@
 // Residuals of a plane as bytes, and back.
+//
+// Most residuals are zero or nearly so: as many digits share a byte as fit, and what no digit holds is
+// an exception, a number of values to pass over and one to add. Huffman codes of such bytes come near
+// the entropy of the values, without any search for repetitions.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <type_traits>
+#include <vector>
 
 #include "paim/format/plane_predictor.h"
 
 namespace paim {
 
-// The residuals of a plane of N values:
-//   nothing  all zero, no bytes
-//   packed   as many base-(2a + 1) digits r + a a byte as fit, the first one the highest
-//   bytes    one a value, zigzag (0, −1, 1, −2, …)
-//   words    two a value, zigzag: all low bytes, then all high bytes
-enum class Packing : uint8_t { nothing = 0, packed = 1, bytes = 2, words = 3 };
+// The largest digits a plane may have: none, digits of −a … a with the first one the highest, so many a
+// byte as fit, or (kByteDigits) one a byte, zigzag (0, −1, 1, −2, …).
+constexpr uint8_t kByteDigits = 127;
+constexpr std::array<uint8_t, 5> kMagnitudes{0, 1, 2, 7, kByteDigits};
 
-constexpr int32_t kMaxPackedMagnitude = 7;  // 15² < 256: at least two values a byte
-
-// Two bytes a plane in a file: what is predicted and how it is packed; the largest magnitude a, of
-// Packing::packed alone.
+// Of a plane in a file.
 struct PlaneHeader {
     Prediction prediction = Prediction::none;
-    Packing packing = Packing::nothing;
-    uint8_t magnitude = 0;
+    bool wide = false;      // whether exceptions have high bytes too
+    uint8_t magnitude = 0;  // one of kMagnitudes
+    uint32_t num_exceptions = 0;
 };
 
-// Bytes of `count` values.
-size_t packed_size(const PlaneHeader& header, size_t count);
+// Bytes of so many digits.
+size_t digit_bytes(uint8_t magnitude, size_t count);
 
-// out  [packed_size()]
-void pack(const PlaneHeader& header, std::span<const int32_t> residuals, uint8_t* out);
+struct PackedPlane {
+    PlaneHeader header;
+    std::vector<uint8_t> digits;  // [digit_bytes()]
+    // [num_exceptions] each: the values to pass over from the last exception on, to the next; what is
+    // added there, zigzag. 255 that are passed over may be followed by an exception of 0.
+    std::vector<uint8_t> gaps, lows, highs;  // highs only of wide ones
+};
 
-// A tile is a number of values that starts at a byte in every packing.
+// Digits end at ±magnitude, and exceptions have the rest.
+template <typename Integer>
+PackedPlane pack(Prediction prediction, uint8_t magnitude, std::span<const Integer> residuals);
+
+// A tile is a number of values that starts at a byte, however many digits share it.
 constexpr size_t kTileValues = 240;
-// What unpack_tile() may write past the values it was asked for.
+// What unpack_digits() may write past the values it was asked for.
 constexpr size_t kTilePadding = 8;
 
-// out[j] = residual first + j, for j in [0, count); after them, junk up to the padding.
-// source  [packed_size(header, num_values)] bytes of the whole plane, any bytes
+// out[j] = digit first + j, for j in [0, count); after them, junk up to the padding.
+// source  [digit_bytes(magnitude, first + count)] any bytes
 // first   a multiple of kTileValues
 // count   up to kTileValues
 // out     [count + kTilePadding]
-void unpack_tile(const PlaneHeader& header, const uint8_t* source, size_t num_values, size_t first,
-                 size_t count, int16_t* out);
+template <typename Integer>
+void unpack_digits(uint8_t magnitude, const uint8_t* source, size_t first, size_t count,
+                   Integer* out);
+
+// The exceptions of a plane, whatever their bytes, in order.
+class Exceptions {
+  public:
+    Exceptions() = default;
+    // gaps, lows, highs  [header.num_exceptions]; highs only of wide ones
+    Exceptions(const PlaneHeader& header, const uint8_t* gaps, const uint8_t* lows,
+               const uint8_t* highs)
+        : gaps_(gaps), lows_(lows), highs_(highs), wide_(header.wide), end_(header.num_exceptions) {
+        if (end_ > 0) place_ = gaps_[0];
+    }
+
+    bool done() const { return next_ == end_; }
+
+    // Adds those before value `end` that have not been added.
+    // at(place)  a reference to what one is added to: an integer without sign
+    template <typename At>
+    void add_until(size_t end, const At& at) {
+        if (wide_) {
+            add<true>(end, at);
+        } else {
+            add<false>(end, at);
+        }
+    }
+
+  private:
+    template <bool kWide, typename At>
+    void add(size_t end, const At& at) {
+        // Copies, as what is written may be anything.
+        const uint8_t* const gaps = gaps_;
+        const uint8_t* const lows = lows_;
+        const uint8_t* const highs = highs_;
+        const size_t last = end_;
+        size_t next = next_, place = place_;
+        while (next < last && place < end) {
+            uint32_t code = lows[next];
+            if constexpr (kWide) code |= uint32_t{highs[next]} << 8;
+            auto& value = at(place);
+            value = static_cast<std::remove_reference_t<decltype(value)>>(
+                value + ((code >> 1) ^ (0 - (code & 1))));
+            if (++next < last) place += size_t{1} + gaps[next];
+        }
+        next_ = next;
+        place_ = place;
+    }
+
+    const uint8_t* gaps_ = nullptr;
+    const uint8_t* lows_ = nullptr;
+    const uint8_t* highs_ = nullptr;
+    bool wide_ = false;
+    size_t next_ = 0, end_ = 0;
+    size_t place_ = 0;  // of the next one
+};
 
 }  // namespace paim

@@ -1,8 +1,11 @@
 // Predicts integers at vertices from those at vertices before them.
+// Based on: Touma and Gotsman, Triangle Mesh Compression, 1998 (parallelograms)
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <mutex>
 #include <span>
 #include <vector>
 
@@ -12,9 +15,9 @@ namespace paim {
 
 // What a value is predicted to be. Files hold these numbers.
 enum class Prediction : uint8_t {
-    none = 0,    // zero
-    latest = 1,  // the value at the latest neighbour
-    mean = 2,    // the mean over the latest neighbours, rounded to nearest, halves up
+    none = 0,            // zero
+    mean = 1,            // the mean over the latest neighbours, rounded to nearest, halves up
+    parallelograms = 2,  // the mean of two neighbours' values, each plus its slope, halves up
 };
 
 // Neighbours of vertices among those before them.
@@ -30,27 +33,43 @@ class PlanePredictor {
     // For points in a row, such as poses: the neighbour of each is the one before.
     static PlanePredictor chain(size_t num_points);
 
-    // The latest first: one more than the vertex, 0 for nobody. A mean is over four, or over three
-    // and nobody: one parent is there four times, two twice in turns, which has the same mean.
-    struct Parents {
-        std::array<uint32_t, kMaxParents> row;
-        bool has_three() const { return row[3] == 0; }
+    // Rows of what a mean is over, the latest first: one more than the vertex, 0 for nobody, whose
+    // value is 0. One parent is there four times, two twice in turns, the latest of three twice.
+    using Parents = std::array<uint32_t, kMaxParents>;
+
+    // Rows of two parallelograms: value a + b − c completes the triangle with corners a, b, c across
+    // the edge a b. Where the mesh has none, a parent stands for it (b = c = 0).
+    struct Parallelograms {
+        struct Corners {
+            uint32_t a = 0, b = 0, c = 0;
+        };
+        Corners first, second;
     };
 
     bool has_mesh() const { return !parents_.empty(); }
     std::span<const Parents> parents() const { return parents_; }
 
-    // residuals[n] = values[n] − prediction, wrapped around to 16 bits, as values are
-    void subtract(Prediction prediction, std::span<const int32_t> values,
-                  std::span<int32_t> residuals) const;
+    // Made when they are first asked for, by any thread.
+    std::span<const Parallelograms> parallelograms() const;
 
-    // The reverse, in place: whatever the residuals, values of 16 bits.
-    void add(Prediction prediction, std::span<int32_t> residuals) const;
+    // residuals[n] = values[n] − prediction, in arithmetic of the integers' size that wraps around,
+    // as every sum of values below does.
+    template <typename Integer>
+    void subtract(Prediction prediction, std::span<const Integer> values,
+                  std::span<Integer> residuals) const;
+
+    // The reverse, in place. One plane after the other: undo_planes() does many at once.
+    template <typename Integer>
+    void add(Prediction prediction, std::span<Integer> residuals) const;
 
   private:
-    int32_t predict(Prediction prediction, size_t v, const int32_t* values) const;
+    struct Later {
+        std::once_flag made;
+        std::vector<Parallelograms> parallelograms;
+    };
 
     std::vector<Parents> parents_;  // [V], or none
+    std::shared_ptr<Later> later_ = std::make_shared<Later>();
 };
 
 }  // namespace paim

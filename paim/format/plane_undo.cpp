@@ -1,9 +1,10 @@
 // Planes from packed residuals: many planes at once.
 //
 // A value depends on values before it in its plane, so that a plane alone is a chain of additions
-// that wait for one another. Here a row has the values of up to 32 planes at a vertex, and rows are
-// predicted from rows. Planes are unpacked and transposed into rows, and rows back into planes, in
-// tiles that stay in the first-level cache.
+// that wait for one another. Here a row has the values of many planes at a vertex, and rows are
+// predicted from rows. Digits are unpacked and transposed into rows, exceptions are added to rows
+// where they are, and rows transposed back into planes, in tiles that stay in the first-level cache.
+// Rows hold values with their highest bit turned: then means of two are what vector units have.
 #include "paim/format/plane_undo.h"
 
 #if defined(__SSE2__)
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 #include "paim/base/check.h"
@@ -21,322 +23,343 @@ namespace paim {
 
 namespace {
 
-constexpr size_t kBlock = 8;  // values that are transposed at once, either way
-static_assert(kTileValues % kBlock == 0);
+constexpr size_t kVectorBytes = 16;
 
-typedef int16_t Eight __attribute__((vector_size(2 * kBlock)));
-typedef uint16_t Wrapping __attribute__((vector_size(2 * kBlock)));
+typedef uint8_t Bytes __attribute__((vector_size(kVectorBytes)));
+typedef uint16_t Words __attribute__((vector_size(kVectorBytes)));
 
-// Eight rows of eight become columns.
-__attribute__((always_inline)) inline void transpose(Eight (&m)[kBlock]) {
-    Eight a[kBlock], b[kBlock];
+// Of so many integers, one a plane, as a row has them.
+template <typename Integer>
+struct Lanes {
+    using Lane = std::make_unsigned_t<Integer>;
+    using Vector = std::conditional_t<sizeof(Integer) == 1, Bytes, Words>;
+    static constexpr size_t kLanes = kVectorBytes / sizeof(Integer);
+    static constexpr auto kHighest = static_cast<Lane>(Lane{1} << (8 * sizeof(Lane) - 1));
+};
+static_assert(kTileValues % Lanes<int8_t>::kLanes == 0);
+
+// ⌊(a + b + 1) / 2⌋, without the overflow.
+__attribute__((always_inline)) inline Bytes mean_of_two(const Bytes& a, const Bytes& b) {
+#if defined(__SSE2__)
+    return Bytes(_mm_avg_epu8(__m128i(a), __m128i(b)));
+#else
+    return (a | b) - ((a ^ b) >> 1);
+#endif
+}
+
+__attribute__((always_inline)) inline Words mean_of_two(const Words& a, const Words& b) {
+#if defined(__SSE2__)
+    return Words(_mm_avg_epu16(__m128i(a), __m128i(b)));
+#else
+    return (a | b) - ((a ^ b) >> 1);
+#endif
+}
+
+// ⌊(a + b + c + d + 2) / 4⌋: the mean of two means rounds up once too often where both the means and
+// the values of one of them differ by an odd number.
+template <typename Vector>
+__attribute__((always_inline)) inline Vector mean_of_four(const Vector& a, const Vector& b,
+                                                          const Vector& c, const Vector& d) {
+    const Vector ab = mean_of_two(a, b), cd = mean_of_two(c, d);
+    return mean_of_two(ab, cd) - (((a ^ b) | (c ^ d)) & (ab ^ cd) & 1);
+}
+
+__attribute__((always_inline)) inline Bytes interleave_low(const Bytes& a, const Bytes& b) {
+    return __builtin_shufflevector(a, b, 0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23);
+}
+__attribute__((always_inline)) inline Bytes interleave_high(const Bytes& a, const Bytes& b) {
+    return __builtin_shufflevector(a, b, 8, 24, 9, 25, 10, 26, 11, 27, 12, 28, 13, 29, 14, 30, 15,
+                                   31);
+}
+__attribute__((always_inline)) inline Words interleave_low(const Words& a, const Words& b) {
+    return __builtin_shufflevector(a, b, 0, 8, 1, 9, 2, 10, 3, 11);
+}
+__attribute__((always_inline)) inline Words interleave_high(const Words& a, const Words& b) {
+    return __builtin_shufflevector(a, b, 4, 12, 5, 13, 6, 14, 7, 15);
+}
+
+// As many vectors as each has lanes: rows become columns, a bit of the row's number at a time.
+template <typename Vector, size_t kSize>
+__attribute__((always_inline)) inline void transpose(Vector (&m)[kSize]) {
+    Vector from[kSize];
 #pragma GCC unroll 4
-    for (size_t j = 0; j < 4; ++j) {
-        a[2 * j] = __builtin_shufflevector(m[j], m[j + 4], 0, 8, 1, 9, 2, 10, 3, 11);
-        a[2 * j + 1] = __builtin_shufflevector(m[j], m[j + 4], 4, 12, 5, 13, 6, 14, 7, 15);
-    }
-#pragma GCC unroll 4
-    for (size_t j = 0; j < 4; ++j) {
-        b[2 * j] = __builtin_shufflevector(a[j], a[j + 4], 0, 8, 1, 9, 2, 10, 3, 11);
-        b[2 * j + 1] = __builtin_shufflevector(a[j], a[j + 4], 4, 12, 5, 13, 6, 14, 7, 15);
-    }
-#pragma GCC unroll 4
-    for (size_t j = 0; j < 4; ++j) {
-        m[2 * j] = __builtin_shufflevector(b[j], b[j + 4], 0, 8, 1, 9, 2, 10, 3, 11);
-        m[2 * j + 1] = __builtin_shufflevector(b[j], b[j + 4], 4, 12, 5, 13, 6, 14, 7, 15);
+    for (size_t bit = 1; bit < kSize; bit *= 2) {
+#pragma GCC unroll 16
+        for (size_t j = 0; j < kSize; ++j) from[j] = m[j];
+#pragma GCC unroll 8
+        for (size_t j = 0; j < kSize / 2; ++j) {
+            m[2 * j] = interleave_low(from[j], from[j + kSize / 2]);
+            m[2 * j + 1] = interleave_high(from[j], from[j + kSize / 2]);
+        }
     }
 }
 
-// Whether all values so far were in the symmetrical range of the integers.
+// Without prediction, a plane is what is packed.
 template <typename Integer>
-class RangeCheck {
-  public:
-    __attribute__((always_inline)) void add(const Eight& values) {
-        most_ = values > most_ ? values : most_;
-        least_ = values < least_ ? values : least_;
+bool copy_plane(const PlaneSource<Integer>& plane, size_t num_points) {
+    using Lane = typename Lanes<Integer>::Lane;
+    const PlaneHeader& header = plane.header;
+    Integer tile[kTileValues + kTilePadding];
+    for (size_t first = 0; first < num_points && header.magnitude > 0; first += kTileValues) {
+        const size_t count = std::min(kTileValues, num_points - first);
+        unpack_digits(header.magnitude, plane.digits, first, count, tile);
+        std::copy_n(tile, count, plane.out + first);
     }
-    bool passed() const {
-        constexpr int16_t kMost = std::numeric_limits<Integer>::max();
-        for (size_t j = 0; j < kBlock; ++j) {
-            if (most_[j] > kMost || least_[j] < -kMost) return false;
+    if (header.magnitude == 0) std::fill_n(plane.out, num_points, Integer{0});
+    auto* const values = reinterpret_cast<Lane*>(plane.out);
+    Exceptions exceptions(header, plane.gaps, plane.lows, plane.highs);
+    exceptions.add_until(num_points, [values](size_t n) -> Lane& { return values[n]; });
+    Lane any_lowest = 0;
+    for (size_t n = 0; n < num_points && header.num_exceptions + header.magnitude > 0; ++n) {
+        any_lowest = static_cast<Lane>(any_lowest | (values[n] == Lanes<Integer>::kHighest));
+    }
+    return exceptions.done() && any_lowest == 0;
+}
+
+// Undoes up to kLanes · kVectors predicted planes, of which those that are means come first.
+template <typename Integer, size_t kVectors>
+class Undo {
+  public:
+    using Vector = typename Lanes<Integer>::Vector;
+    using Lane = typename Lanes<Integer>::Lane;
+    static constexpr size_t kLanes = Lanes<Integer>::kLanes;
+
+    // Values of planes at a vertex.
+    struct alignas(kVectorBytes* kVectors) Row {
+        Vector vectors[kVectors];
+    };
+
+    Undo(std::span<const PlaneSource<Integer>> planes, const PlanePredictor& predictor,
+         size_t num_points, Buffer& rows)
+        : planes_(planes),
+          num_points_(num_points),
+          // Nobody's, then one a vertex, then what completes the last block.
+          rows_(reinterpret_cast<Row*>(rows.resize((1 + num_points + kLanes) * sizeof(Row)))),
+          parents_(predictor.parents()) {
+        PAIM_CHECK_EQ(parents_.size(), num_points);
+        for (Vector& vector : rows_[0].vectors) vector = Vector{} + Lanes<Integer>::kHighest;
+        size_t num_means = 0;
+        for (size_t j = 0; j < planes.size(); ++j) {
+            const PlaneSource<Integer>& plane = planes[j];
+            exceptions_[j] = Exceptions(plane.header, plane.gaps, plane.lows, plane.highs);
+            num_means += plane.header.prediction == Prediction::mean;
+            if (plane.header.magnitude > 0) has_digits_[j / kLanes] = true;
+        }
+        num_mean_vectors_ = (num_means + kLanes - 1) / kLanes;
+        is_mixed_ = num_means < planes.size() && num_means % kLanes != 0;
+        for (size_t j = 0; j < num_means % kLanes; ++j) means_[j] = static_cast<Lane>(-1);
+        if (num_means == planes.size()) num_mean_vectors_ = kVectors;
+        if (num_means < planes.size()) parallelograms_ = predictor.parallelograms();
+    }
+
+    bool run() {
+        for (size_t first = 0; first < num_points_; first += kTileValues) {
+            const size_t count = std::min(kTileValues, num_points_ - first);
+            read(first, count);
+            add_some(first, count);
+            write(first, count);
+        }
+        return finished();
+    }
+
+  private:
+    // Residuals of the tile into rows.
+    __attribute__((noinline)) void read(size_t first, size_t count) {
+        Row* const rows = rows_ + 1 + first;
+        for (size_t j = 0; j < planes_.size(); ++j) {
+            if (const uint8_t magnitude = planes_[j].header.magnitude; magnitude > 0) {
+                unpack_digits(magnitude, planes_[j].digits, first, count, tile_[j]);
+            }
+        }
+        for (size_t k = 0; k < kVectors; ++k) {
+            if (!has_digits_[k]) {
+                for (size_t n = 0; n < count; ++n) rows[n].vectors[k] = Vector{};
+                continue;
+            }
+            for (size_t n = 0; n < count; n += kLanes) {
+                Vector block[kLanes];
+#pragma GCC unroll 16
+                for (size_t i = 0; i < kLanes; ++i) {
+                    std::memcpy(&block[i], tile_[k * kLanes + i] + n, sizeof(Vector));
+                }
+                transpose(block);
+#pragma GCC unroll 16
+                for (size_t i = 0; i < kLanes; ++i) rows[n + i].vectors[k] = block[i];
+            }
+        }
+        auto* const lanes = reinterpret_cast<Lane*>(rows_);
+        for (size_t j = 0; j < planes_.size(); ++j) {
+            Lane* const column = lanes + kLanes * kVectors + j;
+            exceptions_[j].add_until(first + count, [column](size_t n) -> Lane& {
+                return column[kLanes * kVectors * n];
+            });
+        }
+    }
+
+    // Predicts rows from rows: the first kMeans vectors by means, the last kSlopes by parallelograms,
+    // and one that is both by what each lane wants.
+    template <size_t kMeans, size_t kSlopes>
+    __attribute__((noinline)) void add(size_t first, size_t count) {
+        static_assert(kMeans + kSlopes == kVectors || kMeans + kSlopes == kVectors + 1);
+        Row* const rows = rows_;
+        for (size_t n = first; n < first + count; ++n) {
+            Vector mixed{};
+            if constexpr (kMeans > 0) {
+                const PlanePredictor::Parents& parents = parents_[n];
+                const Row& a = rows[parents[0]];
+                const Row& b = rows[parents[1]];
+                const Row& c = rows[parents[2]];
+                const Row& d = rows[parents[3]];
+#pragma GCC unroll 4
+                for (size_t k = 0; k < kMeans; ++k) {
+                    const Vector mean =
+                        mean_of_four(a.vectors[k], b.vectors[k], c.vectors[k], d.vectors[k]);
+                    if (k + kSlopes < kVectors) {
+                        rows[1 + n].vectors[k] += mean;
+                    } else {
+                        mixed = mean & means_;
+                    }
+                }
+            }
+            if constexpr (kSlopes > 0) {
+                const auto& [one, other] = parallelograms_[n];
+                const Row& a = rows[one.a];
+                const Row& b = rows[one.b];
+                const Row& c = rows[one.c];
+                const Row& e = rows[other.a];
+                const Row& f = rows[other.b];
+                const Row& g = rows[other.c];
+#pragma GCC unroll 4
+                for (size_t k = kVectors - kSlopes; k < kVectors; ++k) {
+                    const Vector complete =
+                        mean_of_two(Vector(a.vectors[k] + b.vectors[k] - c.vectors[k]),
+                                    Vector(e.vectors[k] + f.vectors[k] - g.vectors[k]));
+                    rows[1 + n].vectors[k] += k < kMeans ? mixed | (complete & ~means_) : complete;
+                }
+            }
+        }
+    }
+
+    // The one of all add()s that has so many vectors of means.
+    template <size_t kMeans = 0>
+    void add_some(size_t first, size_t count) {
+        if constexpr (kMeans < kVectors) {
+            if (num_mean_vectors_ > kMeans) return add_some<kMeans + 1>(first, count);
+        }
+        if constexpr (kMeans > 0) {
+            if (is_mixed_) return add<kMeans, kVectors + 1 - kMeans>(first, count);
+        }
+        add<kMeans, kVectors - kMeans>(first, count);
+    }
+
+    __attribute__((noinline)) void write(size_t first, size_t count) {
+        const size_t whole = count - count % kLanes;
+        Vector any_lowest{};
+        for (size_t j = 0; j < planes_.size(); j += kLanes) {
+            const size_t num_used = std::min(kLanes, planes_.size() - j);
+            Integer* to[kLanes];
+            for (size_t i = 0; i < kLanes; ++i) {
+                to[i] = planes_[j + std::min(i, num_used - 1)].out + first;
+            }
+            Vector block[kLanes];
+            for (size_t n = 0; n < whole; n += kLanes) {
+                load_columns(first + n, j / kLanes, block);
+                if (num_used == kLanes) {
+#pragma GCC unroll 16
+                    for (size_t i = 0; i < kLanes; ++i) {
+                        any_lowest |= Vector(block[i] == 0);
+                        store(block[i], to[i] + n);
+                    }
+                    continue;
+                }
+                for (size_t i = 0; i < num_used; ++i) {
+                    any_lowest |= Vector(block[i] == 0);
+                    store(block[i], to[i] + n);
+                }
+            }
+            if (whole == count) continue;
+            load_columns(first + whole, j / kLanes, block);
+            for (size_t i = 0; i < num_used; ++i) {
+                Integer all[kLanes];
+                store(block[i], all);
+                std::copy_n(all, count - whole, to[i] + whole);
+                for (size_t n = 0; n < count - whole; ++n) {
+                    any_lowest[0] |= static_cast<Lane>(block[i][n] == 0);
+                }
+            }
+        }
+        any_lowest_ |= any_lowest;
+    }
+
+    // block[i] = plane i of a vector of the rows, at as many points from n on.
+    __attribute__((always_inline)) void load_columns(size_t n, size_t vector,
+                                                     Vector (&block)[kLanes]) const {
+#pragma GCC unroll 16
+        for (size_t i = 0; i < kLanes; ++i) block[i] = rows_[1 + n + i].vectors[vector];
+        transpose(block);
+    }
+
+    __attribute__((always_inline)) static void store(const Vector& turned, Integer* out) {
+        const Vector values = turned ^ Lanes<Integer>::kHighest;
+        std::memcpy(out, &values, sizeof(values));
+    }
+
+    bool finished() const {
+        for (size_t j = 0; j < planes_.size(); ++j) {
+            if (!exceptions_[j].done()) return false;
+        }
+        for (size_t j = 0; j < kLanes; ++j) {
+            if (any_lowest_[j] != 0) return false;
         }
         return true;
     }
 
-  private:
-    Eight most_{}, least_{};
-};
-
-template <typename Integer>
-__attribute__((always_inline)) inline void store(const Eight& values, Integer* out) {
-    typedef Integer Narrow __attribute__((vector_size(kBlock * sizeof(Integer))));
-    const Narrow narrow = __builtin_convertvector(values, Narrow);
-    std::memcpy(out, &narrow, sizeof(narrow));
-}
-
-// The first so many of eight.
-template <typename Integer>
-void store_some(const Eight& values, size_t count, Integer* out) {
-    Integer all[kBlock];
-    store(values, all);
-    std::copy_n(all, count, out);
-}
-
-template <typename Integer>
-void copy_plane(const PackedPlane& plane, size_t num_points, Integer* out,
-                RangeCheck<Integer>& range) {
-    int16_t tile[kTileValues + kTilePadding];
-    for (size_t first = 0; first < num_points; first += kTileValues) {
-        const size_t count = std::min(kTileValues, num_points - first);
-        unpack_tile(plane.header, plane.source, num_points, first, count, tile);
-        std::fill_n(tile + count, kTilePadding, int16_t{0});
-        for (size_t j = 0; j < count; j += kBlock) {
-            Eight values;
-            std::memcpy(&values, tile + j, sizeof(values));
-            range.add(values);
-            if (count - j >= kBlock) {
-                store(values, out + first + j);
-            } else {
-                store_some(values, count - j, out + first + j);
-            }
-        }
-    }
-}
-
-// ⌊a · b / 65536⌋, lane by lane.
-__attribute__((always_inline)) inline Eight high_half(const Eight& a, const Eight& b) {
-#if defined(__SSE2__)
-    // Which the compiler does not find by itself if b is the same in all lanes.
-    return Eight(_mm_mulhi_epi16(__m128i(a), __m128i(b)));
-#else
-    Eight product;
-    for (size_t j = 0; j < kBlock; ++j) {
-        product[j] = static_cast<int16_t>((int32_t{a[j]} * b[j]) >> 16);
-    }
-    return product;
-#endif
-}
-
-// 65536 / (2 · divisor), rounded up: right for numerators up to 10,000 and divisors of 3 and 4.
-constexpr int16_t reciprocal(int divisor) {
-    return static_cast<int16_t>((65536 + 2 * divisor - 1) / (2 * divisor));
-}
-
-__attribute__((always_inline)) inline Wrapping all_lanes(int value) {
-    return Wrapping{} + static_cast<uint16_t>(value);
-}
-
-// The mean of four parents, or of three and a row of zeros, as PlanePredictor has it, in arithmetic of
-// 16 bits that wraps around.
-template <typename Integer>
-struct Mean {
-    __attribute__((always_inline)) explicit Mean(bool three)
-        : divisor(all_lanes(three ? 3 : 4)),
-          share(Eight(all_lanes(three ? 21846 : 16384))),
-          half_share(Eight(all_lanes(reciprocal(three ? 3 : 4)))) {}
-
-    Wrapping divisor;
-    Eight share;  // of 65536: 1 / divisor
-    Eight half_share;
-
-    // Of any values: their sum comes in parts, as it does not fit. Quarters, and what is left of them, 0
-    // to 12; quarters again are divisor · quotient + remainder, with a remainder of 0 to 3.
-    __attribute__((always_inline)) Wrapping operator()(const Wrapping& a, const Wrapping& b,
-                                                       const Wrapping& c, const Wrapping& d) const {
-        const Eight quarters =
-            (Eight(a) >> 2) + (Eight(b) >> 2) + (Eight(c) >> 2) + (Eight(d) >> 2);
-        const auto rest = a + b + c + d - 4 * Wrapping(quarters);
-        const auto quotient = Wrapping(high_half(quarters, share));
-        const auto remainder = Wrapping(quarters) - quotient * divisor;
-        const auto numerator = 8 * remainder + 2 * rest + divisor;
-        return 4 * quotient + Wrapping(high_half(Eight(numerator), half_share));
-    }
-};
-
-// Of values in range, whose sum fits.
-template <>
-struct Mean<int8_t> {
-    // Makes the numerator positive: no mean of values in range is less.
-    static constexpr int kPositive = 512;
-
-    __attribute__((always_inline)) explicit Mean(bool three)
-        : offset(all_lanes((three ? 3 : 4) * (1 + 2 * kPositive))),
-          half_share(Eight(all_lanes(reciprocal(three ? 3 : 4)))) {}
-
-    Wrapping offset;
-    Eight half_share;
-
-    __attribute__((always_inline)) Wrapping operator()(const Wrapping& a, const Wrapping& b,
-                                                       const Wrapping& c, const Wrapping& d) const {
-        const auto numerator = 2 * (a + b + c + d) + offset;
-        return Wrapping(high_half(Eight(numerator), half_share)) - kPositive;
-    }
-};
-
-// Values of planes at a vertex.
-template <size_t kLanes>
-struct alignas(2 * kLanes) Row {
-    Wrapping eight[kLanes / kBlock];
-};
-
-template <typename Integer, size_t kLanes>
-class Undo {
-  public:
-    using Rows = Row<kLanes>;
-
-    // planes, outs [up to kLanes]
-    Undo(std::span<const PackedPlane> planes, std::span<Integer* const> outs,
-         const PlanePredictor& predictor, size_t num_points, ScratchPool::Buffer& rows)
-        : planes_(planes),
-          outs_(outs),
-          parents_(predictor.parents()),
-          num_points_(num_points),
-          // Nobody's, then one a vertex, then what completes the last block.
-          rows_(reinterpret_cast<Rows*>(rows.resize((1 + num_points + kBlock) * sizeof(Rows)))) {
-        PAIM_CHECK_EQ(parents_.size(), num_points);
-        rows_[0] = {};
-        for (size_t j = 0; j < planes.size(); ++j) {
-            const bool mean = planes[j].header.prediction == Prediction::mean;
-            means_.eight[j / kBlock][j % kBlock] = mean ? 0xffff : 0;
-            all_means_ = all_means_ && mean;
-        }
-    }
-
-    void run(RangeCheck<Integer>& range) {
-        for (size_t first = 0; first < num_points_; first += kTileValues) {
-            const size_t count = std::min(kTileValues, num_points_ - first);
-            read(first, count);
-            if (all_means_) {
-                add<true>(first, count);
-            } else {
-                add<false>(first, count);
-            }
-            write(first, count, range);
-        }
-    }
-
-  private:
-    __attribute__((noinline)) void read(size_t first, size_t count) {
-        for (size_t j = 0; j < planes_.size(); ++j) {
-            unpack_tile(planes_[j].header, planes_[j].source, num_points_, first, count, tile_[j]);
-            std::fill_n(tile_[j] + count, kTilePadding, int16_t{0});
-        }
-        for (size_t n = 0; n < count; n += kBlock) {
-            for (size_t j = 0; j < planes_.size(); j += kBlock) {
-                Eight block[kBlock];
-                for (size_t i = 0; i < kBlock; ++i) {
-                    std::memcpy(&block[i], tile_[j + i] + n, sizeof(Eight));
-                }
-                transpose(block);
-                for (size_t i = 0; i < kBlock; ++i) {
-                    rows_[1 + first + n + i].eight[j / kBlock] = Wrapping(block[i]);
-                }
-            }
-        }
-    }
-
-    template <bool kAllMeans>
-    __attribute__((noinline)) void add(size_t first, size_t count) {
-        for (size_t n = first; n < first + count; ++n) {
-            const PlanePredictor::Parents& parents = parents_[n];
-            const Mean<Integer> mean(parents.has_three());
-            const Rows& a = rows_[parents.row[0]];
-            const Rows& b = rows_[parents.row[1]];
-            const Rows& c = rows_[parents.row[2]];
-            const Rows& d = rows_[parents.row[3]];
-            Rows& row = rows_[1 + n];
-#pragma GCC unroll 4
-            for (size_t j = 0; j < kLanes / kBlock; ++j) {
-                Wrapping predicted = mean(a.eight[j], b.eight[j], c.eight[j], d.eight[j]);
-                if constexpr (!kAllMeans) {
-                    predicted = (predicted & means_.eight[j]) | (a.eight[j] & ~means_.eight[j]);
-                }
-                row.eight[j] += predicted;
-            }
-        }
-    }
-
-    __attribute__((noinline)) void write(size_t first, size_t count, RangeCheck<Integer>& range) {
-        const size_t whole = count - count % kBlock;
-        for (size_t j = 0; j < planes_.size(); j += kBlock) {
-            const size_t num_used = std::min(kBlock, planes_.size() - j);
-            Integer* to[kBlock];
-            for (size_t i = 0; i < kBlock; ++i)
-                to[i] = outs_[j + std::min(i, num_used - 1)] + first;
-            Eight block[kBlock];
-            for (size_t n = 0; n < whole; n += kBlock) {
-                load_columns(first + n, j, block, range);
-                if (num_used == kBlock) {
-#pragma GCC unroll 8
-                    for (size_t i = 0; i < kBlock; ++i) store(block[i], to[i] + n);
-                } else {
-                    for (size_t i = 0; i < num_used; ++i) store(block[i], to[i] + n);
-                }
-            }
-            if (whole == count) continue;
-            load_columns(first + whole, j, block, range);
-            for (size_t i = 0; i < num_used; ++i) {
-                store_some(block[i], count - whole, to[i] + whole);
-            }
-        }
-    }
-
-    // block[i] = plane j + i at eight points from n on. Lanes that no plane has are zero.
-    __attribute__((always_inline)) void load_columns(size_t n, size_t j, Eight (&block)[kBlock],
-                                                     RangeCheck<Integer>& range) const {
-#pragma GCC unroll 8
-        for (size_t i = 0; i < kBlock; ++i) {
-            block[i] = Eight(rows_[1 + n + i].eight[j / kBlock]);
-            range.add(block[i]);
-        }
-        transpose(block);
-    }
-
-    std::span<const PackedPlane> planes_;
-    std::span<Integer* const> outs_;
-    std::span<const PlanePredictor::Parents> parents_;
+    std::span<const PlaneSource<Integer>> planes_;
     size_t num_points_;
-    Rows* rows_;
-    bool all_means_ = true;
-    Rows means_{};                                           // every bit of a lane
-    int16_t tile_[kLanes][kTileValues + kTilePadding] = {};  // residuals
+    Row* rows_;
+    std::span<const PlanePredictor::Parents> parents_;
+    std::span<const PlanePredictor::Parallelograms> parallelograms_;
+    size_t num_mean_vectors_ = 0;  // of rows, the first ones
+    bool is_mixed_ = false;        // whether some lanes of the last of these are no means
+    bool has_digits_[kVectors] = {};
+    Vector means_{};  // of a mixed vector: every bit of the lanes that are
+    Vector any_lowest_{};
+    Exceptions exceptions_[kLanes * kVectors];
+    Integer tile_[kLanes * kVectors][kTileValues + kTilePadding] = {};  // digits
 };
 
 }  // namespace
 
 template <typename Integer>
-bool undo_planes(std::span<const PackedPlane> planes, const PlanePredictor& predictor,
-                 size_t num_points, ScratchPool::Buffer& rows, Integer* out) {
-    RangeCheck<Integer> range;
-    std::vector<PackedPlane> predicted;
-    std::vector<Integer*> outs;
-    for (size_t j = 0; j < planes.size(); ++j) {
-        if (planes[j].header.prediction == Prediction::none) {
-            copy_plane(planes[j], num_points, out + j * num_points, range);
-        } else {
-            predicted.push_back(planes[j]);
-            outs.push_back(out + j * num_points);
+bool undo_planes(std::span<PlaneSource<Integer>> planes, const PlanePredictor& predictor,
+                 size_t num_points, Buffer& rows) {
+    // Whoever has digits beside others, and whoever is predicted in one way.
+    std::stable_sort(planes.begin(), planes.end(), [](const auto& a, const auto& b) {
+        const auto rank = [](const PlaneHeader& header) {
+            return 2 * static_cast<int>(header.prediction) + (header.magnitude > 0);
+        };
+        return rank(a.header) < rank(b.header);
+    });
+    constexpr size_t kLanes = Lanes<Integer>::kLanes;
+    for (size_t first = 0; first < planes.size();) {
+        if (planes[first].header.prediction == Prediction::none) {
+            if (!copy_plane(planes[first], num_points)) return false;
+            ++first;
+            continue;
         }
-    }
-    for (size_t first = 0; first < predicted.size();) {
-        const size_t count = std::min<size_t>(32, predicted.size() - first);
-        const auto some = std::span(predicted).subspan(first, count);
-        const auto to = std::span<Integer* const>(outs).subspan(first, count);
-        if (count <= 8) {
-            Undo<Integer, 8>(some, to, predictor, num_points, rows).run(range);
-        } else if (count <= 16) {
-            Undo<Integer, 16>(some, to, predictor, num_points, rows).run(range);
-        } else {
-            Undo<Integer, 32>(some, to, predictor, num_points, rows).run(range);
-        }
+        const size_t count = std::min(4 * kLanes, planes.size() - first);
+        const std::span<const PlaneSource<Integer>> some = planes.subspan(first, count);
+        const bool good =
+            count <= kLanes       ? Undo<Integer, 1>(some, predictor, num_points, rows).run()
+            : count <= 2 * kLanes ? Undo<Integer, 2>(some, predictor, num_points, rows).run()
+                                  : Undo<Integer, 4>(some, predictor, num_points, rows).run();
+        if (!good) return false;
         first += count;
     }
-    return range.passed();
+    return true;
 }
 
-template bool undo_planes(std::span<const PackedPlane>, const PlanePredictor&, size_t,
-                          ScratchPool::Buffer&, int8_t*);
-template bool undo_planes(std::span<const PackedPlane>, const PlanePredictor&, size_t,
-                          ScratchPool::Buffer&, int16_t*);
+template bool undo_planes(std::span<PlaneSource<int8_t>>, const PlanePredictor&, size_t, Buffer&);
+template bool undo_planes(std::span<PlaneSource<int16_t>>, const PlanePredictor&, size_t, Buffer&);
 
 }  // namespace paim

@@ -6,21 +6,30 @@
 
 #include "paim/format/plane_packing.h"
 #include "paim/format/plane_predictor.h"
-#include "paim/format/scratch_pool.h"
+#include "paim/format/workspace.h"
 
 namespace paim {
 
-struct PackedPlane {
-    PlaneHeader header;               // valid
-    const uint8_t* source = nullptr;  // [packed_size()] any bytes
+// A plane in a file, and where it goes.
+template <typename Integer>
+struct PlaneSource {
+    PlaneHeader header;  // valid
+    // Any bytes: [digit_bytes()]; of each exception, see PackedPlane.
+    const uint8_t* digits = nullptr;
+    const uint8_t* gaps = nullptr;
+    const uint8_t* lows = nullptr;
+    const uint8_t* highs = nullptr;
+    Integer* out = nullptr;  // [N]
 };
 
-// out [planes][N] = what PlanePredictor::add() makes of each plane's residuals. False if a value does
-// not fit: out then holds anything.
+// Every plane's `out` = what PlanePredictor::add() makes of its residuals. False if an exception lies
+// outside of its plane or a value is the lowest of its integers, which files do not use: what is out
+// then is anything.
+// planes     are taken in the order that suits, so that it may become another
 // predictor  of N points, unless no plane is predicted
 // rows       to work in: up to 64 bytes a point
 template <typename Integer>
-bool undo_planes(std::span<const PackedPlane> planes, const PlanePredictor& predictor,
-                 size_t num_points, ScratchPool::Buffer& rows, Integer* out);
+bool undo_planes(std::span<PlaneSource<Integer>> planes, const PlanePredictor& predictor,
+                 size_t num_points, Buffer& rows);
 
 }  // namespace paim

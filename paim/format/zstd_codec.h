@@ -15,17 +15,18 @@ enum class Effort { fast, small };
 // One frame that states the size of its contents. The same bytes for the same input.
 std::vector<uint8_t> zstd_compress(std::span<const uint8_t> bytes);
 
-// The same of numbers that are nearly noise, so that only their frequencies help: short repetitions
-// mostly cost more than they gain, and take long to undo. Small: files with and without are compared.
-// block_ends  offsets, ascending, where what follows has other statistics: entropy tables start anew
-//             there; the encoder tries with and without and keeps the smaller
-std::vector<uint8_t> zstd_compress_numbers(std::span<const uint8_t> bytes,
-                                           std::span<const size_t> block_ends, Effort effort);
+// The same of bytes that are nearly noise, so that only their frequencies help: repetitions gain
+// little and take longest to undo, so that they are used only where they save more than 3 %.
+// Small: frames with and without are compared. Fast: without.
+// block_ends  offsets, ascending, where what follows has other statistics: tables start anew there
+std::vector<uint8_t> zstd_compress_noise(std::span<const uint8_t> bytes,
+                                         std::span<const size_t> block_ends, Effort effort);
 
 // The size that the frame says its contents have; nothing if this is no frame or does not say.
 std::optional<uint64_t> zstd_content_size(std::span<const uint8_t> frame);
 
-// Fills `out` exactly; false if the frame is damaged or holds anything but out.size() bytes.
+// Fills `out` exactly; false if this is not one whole frame, is damaged or holds anything but
+// out.size() bytes. Threads keep what they work in, about 100 KiB.
 bool zstd_decompress(std::span<const uint8_t> frame, std::span<uint8_t> out);
 
 }  // namespace paim

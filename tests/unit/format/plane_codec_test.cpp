@@ -3,11 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "paim/base/seed.h"
 #include "paim/format/index_codec.h"
+#include "paim/format/plane_packing.h"
 #include "paim/mesh/locality.h"
 
 namespace paim {
@@ -26,37 +28,68 @@ Topology grid(uint32_t n) {
     return topology;
 }
 
+template <typename Integer>
+std::vector<Integer> subtract(const PlanePredictor& predictor, Prediction prediction,
+                              const std::vector<Integer>& values) {
+    std::vector<Integer> residuals(values.size());
+    predictor.subtract(prediction, std::span<const Integer>(values), std::span(residuals));
+    return residuals;
+}
+
 TEST(PlanePredictor, TakesNeighboursBeforeTheVertex) {
     // Vertex 4 of a 3 × 3 grid: 1, 2, 3 are its neighbours before it (0 is not: the diagonal is from
     // 1 to 3).
     const PlanePredictor predictor(grid(3));
-    const std::vector<int32_t> values{100, 10, 20, 33, 7, 0, 0, 0, 0};
-    std::vector<int32_t> residuals(9);
-    predictor.subtract(Prediction::mean, values, residuals);
+    const std::vector<int16_t> values{100, 10, 20, 34, 7, 0, 0, 0, 0};
+    const auto residuals = subtract(predictor, Prediction::mean, values);
     EXPECT_EQ(residuals[0], 100);       // nobody before it
     EXPECT_EQ(residuals[1], 10 - 100);  // 0
-    EXPECT_EQ(residuals[4], 7 - 21);    // (10 + 20 + 33) / 3
-    EXPECT_EQ(residuals[3], 33 - 55);   // 0 and 1: 110 / 2
-    predictor.subtract(Prediction::latest, values, residuals);
-    EXPECT_EQ(residuals[4], 7 - 33);
-    predictor.subtract(Prediction::none, values, residuals);
-    EXPECT_EQ(residuals, values);
+    EXPECT_EQ(residuals[4], 7 - 25);    // (2 · 34 + 20 + 10) / 4, halves up
+    EXPECT_EQ(residuals[3], 34 - 55);   // 0 and 1: 110 / 2
+    EXPECT_EQ(subtract(predictor, Prediction::none, values), values);
+}
+
+TEST(PlanePredictor, CompletesParallelograms) {
+    const PlanePredictor predictor(grid(3));
+    const std::vector<int16_t> values{100, 10, 20, 34, 7, 9, 0, 0, 0};
+    const auto residuals = subtract(predictor, Prediction::parallelograms, values);
+    EXPECT_EQ(residuals[0], 100);                  // nobody
+    EXPECT_EQ(residuals[1], 10 - 100);             // 0, twice
+    EXPECT_EQ(residuals[2], 20 - 10);              // 1, twice
+    EXPECT_EQ(residuals[3], 34 - 55);              // 1 and 0 share no triangle but its own
+    EXPECT_EQ(residuals[4], 7 - (34 + 10 - 100));  // across the edge 1 3 from 0
+    EXPECT_EQ(residuals[5], 9 - (7 + 20 - 10));    // across the edge 2 4 from 1
+}
+
+// A linear function is what a parallelogram says, wherever there is one.
+TEST(PlanePredictor, ParallelogramsAreRightOnSlopes) {
+    const PlanePredictor predictor(grid(9));
+    std::vector<int16_t> values;
+    for (int v = 0; v < 81; ++v) values.push_back(static_cast<int16_t>(5 * (v % 9) - 3 * (v / 9)));
+    const auto residuals = subtract(predictor, Prediction::parallelograms, values);
+    for (int v = 9; v < 81; ++v) {
+        if (v % 9 == 0) continue;
+        EXPECT_EQ(residuals[static_cast<size_t>(v)], 0) << v;
+    }
 }
 
 TEST(PlanePredictor, RoundsHalvesUpAndWrapsAround) {
     const Topology triangle{3, {{0, 1, 2}}};
     const PlanePredictor predictor(triangle);
-    std::vector<int32_t> residuals(3);
-    for (const int32_t sum : {-3, -2, -1, 0, 1, 2, 3}) {
-        predictor.subtract(Prediction::mean, std::vector<int32_t>{sum, 0, 0}, residuals);
+    for (const int16_t sum : {-3, -2, -1, 0, 1, 2, 3}) {
+        const auto residuals =
+            subtract(predictor, Prediction::mean, std::vector<int16_t>{sum, 0, 0});
         EXPECT_EQ(residuals[2], -static_cast<int32_t>(std::floor(sum / 2.0 + 0.5))) << sum;
     }
-    const std::vector<int32_t> extremes{32767, -32767, 32767};
-    for (const Prediction prediction : {Prediction::mean, Prediction::latest}) {
-        predictor.subtract(prediction, extremes, residuals);
-        for (const int32_t r : residuals) EXPECT_EQ(r, static_cast<int16_t>(r));
-        predictor.add(prediction, residuals);
+    const std::vector<int16_t> extremes{32767, -32767, 32767};
+    const std::vector<int8_t> small_extremes{127, -127, 127};
+    for (const Prediction prediction : {Prediction::mean, Prediction::parallelograms}) {
+        auto residuals = subtract(predictor, prediction, extremes);
+        predictor.add(prediction, std::span(residuals));
         EXPECT_EQ(residuals, extremes);
+        auto small_residuals = subtract(predictor, prediction, small_extremes);
+        predictor.add(prediction, std::span(small_residuals));
+        EXPECT_EQ(small_residuals, small_extremes);
     }
 }
 
@@ -64,9 +97,38 @@ TEST(PlanePredictor, KeepsTheFourLatestOfMany) {
     Topology fan{9, {}};
     for (uint32_t v = 0; v < 8; ++v) fan.triangles.push_back({8, v, (v + 1) % 8});
     const PlanePredictor predictor(fan);
-    std::vector<int32_t> values{1000, 1000, 1000, 1000, 4, 5, 6, 9, 0}, residuals(9);
-    predictor.subtract(Prediction::mean, values, residuals);
-    EXPECT_EQ(residuals[8], -6);
+    const std::vector<int16_t> values{1000, 1000, 1000, 1000, 4, 5, 6, 9, 0};
+    EXPECT_EQ(subtract(predictor, Prediction::mean, values)[8], -6);
+}
+
+TEST(PlanePredictor, ChainsFollowTheOneBefore) {
+    const PlanePredictor predictor = PlanePredictor::chain(4);
+    for (const Prediction prediction : {Prediction::mean, Prediction::parallelograms}) {
+        EXPECT_EQ(subtract(predictor, prediction, std::vector<int16_t>{7, 9, 4, 4}),
+                  (std::vector<int16_t>{7, 2, -5, 0}));
+    }
+}
+
+// Digits that share bytes, the first one the highest, and exceptions: gaps, zigzag.
+TEST(PlanePacking, IsWhatTheDocumentsSay) {
+    std::vector<int16_t> residuals{1, -1, 0, 0, 1, 0, 0, 3};
+    PackedPlane plane = pack(Prediction::none, 1, std::span<const int16_t>(residuals));
+    EXPECT_EQ(plane.digits, (std::vector<uint8_t>{2 * 81 + 0 + 9 + 3 + 2, 81 + 27 + 18 + 3 + 1}));
+    EXPECT_EQ(plane.gaps, (std::vector<uint8_t>{7}));
+    EXPECT_EQ(plane.lows, (std::vector<uint8_t>{4}));
+    EXPECT_FALSE(plane.header.wide);
+    residuals.assign(600, 0);
+    residuals[0] = -1;
+    residuals[256] = 2;    // 255 between: no exception of 0
+    residuals[599] = 300;  // 342 between: one of 0 after 255, and 86 more
+    plane = pack(Prediction::none, 0, std::span<const int16_t>(residuals));
+    EXPECT_TRUE(plane.digits.empty());
+    EXPECT_EQ(plane.gaps, (std::vector<uint8_t>{0, 255, 255, 86}));
+    EXPECT_EQ(plane.lows, (std::vector<uint8_t>{1, 4, 0, 600 & 255}));
+    EXPECT_EQ(plane.highs, (std::vector<uint8_t>{0, 0, 0, 2}));
+    plane = pack(Prediction::none, kByteDigits, std::span<const int16_t>(residuals).last(1));
+    EXPECT_EQ(plane.digits, (std::vector<uint8_t>{254}));
+    EXPECT_EQ(plane.lows, (std::vector<uint8_t>{(2 * (300 - 127)) & 255}));
 }
 
 // Planes whose magnitudes go from 0 to `limit`, each another way.
@@ -157,13 +219,61 @@ TEST(PlaneCodec, AnswersDamageWithFalseOrOtherNumbers) {
     EXPECT_FALSE(decode_planes(big, 4, predictor, std::span(out)));
     const auto small = zstd_compress(std::vector<uint8_t>(7, 0));
     EXPECT_FALSE(decode_planes(small, 4, predictor, std::span(out)));
-    const auto zero = zstd_compress(std::vector<uint8_t>(8, 0));
+    const auto zero = zstd_compress(std::vector<uint8_t>(6 * 4, 0));
     EXPECT_TRUE(decode_planes(zero, 4, predictor, std::span(out)));
-    // −128 is no value, although eight bits hold it: residuals 127 and −255 + 256 … of zigzag bytes.
-    std::vector<uint8_t> lowest(2 + 64, 0);
-    lowest[0] = 2 << 2;
-    lowest[2] = 255;  // −128
-    EXPECT_FALSE(decode_planes(zstd_compress(lowest), 1, predictor, std::span(out).first(64)));
+    // One frame, neither two nor one that is passed over.
+    auto twice = zero;
+    const auto empty = zstd_compress({});
+    twice.insert(twice.end(), empty.begin(), empty.end());
+    EXPECT_FALSE(decode_planes(twice, 4, predictor, std::span(out)));
+    auto passed_over = zero;
+    for (const uint8_t byte : {0x50, 0x2a, 0x4d, 0x18, 0, 0, 0, 0}) passed_over.push_back(byte);
+    EXPECT_FALSE(decode_planes(passed_over, 4, predictor, std::span(out)));
+    EXPECT_FALSE(zstd_decompress(std::span(passed_over).last(8), {}));
+    // −128 is no value, although eight bits hold it: digit −127 and an exception of −1.
+    std::vector<uint8_t> lowest(6 + 64, 0);
+    lowest[1] = kByteDigits;
+    lowest[6] = 253;  // −127
+    EXPECT_TRUE(decode_planes(zstd_compress(lowest), 1, predictor, std::span(out).first(64)));
+    lowest[2] = 1;  // exception
+    lowest.insert(lowest.end(), {0, 1});
+    for (const uint8_t prediction : {0, 1, 2}) {
+        lowest[0] = prediction;
+        EXPECT_FALSE(decode_planes(zstd_compress(lowest), 1, predictor, std::span(out).first(64)));
+    }
+}
+
+// Every header that is none, and exceptions that do not fit.
+TEST(PlaneCodec, RefusesOtherHeaders) {
+    const PlanePredictor predictor(grid(8));
+    std::vector<int8_t> out(64);
+    const auto decodes = [&](std::vector<uint8_t> header, std::vector<uint8_t> rest) {
+        header.insert(header.end(), rest.begin(), rest.end());
+        return decode_planes(zstd_compress(header), 1, predictor, std::span(out));
+    };
+    EXPECT_TRUE(decodes({0, 0, 1, 0, 0, 0}, {63, 2}));
+    EXPECT_EQ(out[63], 1);
+    EXPECT_TRUE(decodes({1, 0, 1, 0, 0, 0}, {63, 2}));
+    EXPECT_FALSE(decodes({0, 0, 1, 0, 0, 0}, {64, 2}));  // past the end
+    EXPECT_FALSE(decodes({2, 0, 1, 0, 0, 0}, {64, 2}));
+    EXPECT_FALSE(decodes({0, 0, 1, 0, 0, 0}, {63, 2, 0}));  // a byte too many
+    EXPECT_FALSE(decodes({0, 0, 1, 0, 0, 0}, {63}));        // one too few
+    EXPECT_FALSE(decodes({0, 0, 0, 0, 0, 1}, {}));
+    EXPECT_FALSE(decodes({0, 0, 65, 0, 0, 0}, std::vector<uint8_t>(130, 0)));
+    EXPECT_TRUE(decodes({4, 0, 1, 0, 0, 0}, {63, 2, 0}));  // wide
+    EXPECT_FALSE(decodes({3, 0, 0, 0, 0, 0}, {}));
+    EXPECT_FALSE(decodes({8, 0, 0, 0, 0, 0}, {}));
+    for (int magnitude = 1; magnitude < 256; ++magnitude) {
+        const auto a = static_cast<uint8_t>(magnitude);
+        const bool is = std::find(kMagnitudes.begin(), kMagnitudes.end(), a) != kMagnitudes.end();
+        if (is) {
+            EXPECT_TRUE(decodes({0, a, 0, 0, 0, 0}, std::vector<uint8_t>(digit_bytes(a, 64))));
+            continue;
+        }
+        for (const size_t size : {0, 13, 22, 32, 64}) {
+            EXPECT_FALSE(decodes({0, a, 0, 0, 0, 0}, std::vector<uint8_t>(size)));
+        }
+    }
 }
 
 TEST(IndexCodec, KeepsTrianglesUpToTurning) {
