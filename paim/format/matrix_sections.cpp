@@ -265,7 +265,7 @@ StillPlanes read_still_planes(const ContainerReader& reader, Tag values, Tag ste
                               const PlanePredictor& predictor) {
     const Section& section = require(reader, values);
     expect_shape(reader, section, num_planes, num_points);
-    ScratchPool pool;
+    WorkspacePool pool;
     StillPlanes planes;
     if (is_integer(precision_of(section.spec.type))) {
         planes.steps = read_steps(reader, steps, num_planes);
