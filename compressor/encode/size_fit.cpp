@@ -17,7 +17,7 @@ namespace {
 // Everything here is in natural logarithms, of errors (x) and of bytes (y).
 const double kResolution = std::log(1.02);
 // Within this a coding that was chosen for one error is used for another.
-const double kNear = std::log(1.15);
+const double kNear = std::log(1.06);
 constexpr double kLargestError = 0.5;
 
 // Sizes fall about as a power of the error, which is learnt from the last two that are known.

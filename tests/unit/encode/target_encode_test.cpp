@@ -258,10 +258,12 @@ TEST_F(TargetEncode, FindsTheSmallestErrorOfASize) {
             EXPECT_EQ(std::filesystem::file_size(output_), fitted.size_bytes);
             EXPECT_EQ(fitted.chosen().components, read_paim(output_).transfer.num_components);
             EXPECT_LE(fitted.error.transfer.total(), fitted.transfer_target);
-            // The size of a file of 2 % allows 2 % or little more, others more than that.
+            // The size of a file of 2 % allows 2 % or little more, others more than that. Files of 20
+            // to 40 kB of nearly the same error differ by up to 1.5 % in size, which is 4 % of the
+            // error here, and the search ends at 2 % of it.
             const double error = fitted.error.transfer.total();
             EXPECT_GT(error, share == 100 ? 0.0 : 0.02) << share;
-            EXPECT_LT(error, share == 100 ? 0.0208 : 0.5) << share;
+            EXPECT_LT(error, share == 100 ? 1.06 * 0.02 : 0.5) << share;
         }
     }
 }
