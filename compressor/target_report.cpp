@@ -71,6 +71,13 @@ std::string target_text(const std::string& file, const TargetSummary& summary) {
         "diagonal), worst {:.3g}; KG {:.3g} %, E_RMS {:.3g}\n",
         summary.geometry_components, geometry.rms(), summary.geometry_target,
         100.0 * geometry.relative_rms(), geometry.worst(), geometry.kg_error(), geometry.e_rms());
+    if (!summary.error.scenery) return text;
+    const SceneryError& scenery = *summary.error.scenery;
+    text += fmt::format(
+        "  scenery: transfer {:.3g} % measured, worst vertex {:.3g} %; RMS distance {:.3g}, worst "
+        "{:.3g}\n",
+        100.0 * scenery.transfer.total(), 100.0 * scenery.transfer.worst_vertex_deviation,
+        scenery.geometry.rms(), scenery.geometry.worst());
     return text;
 }
 

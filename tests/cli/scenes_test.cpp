@@ -161,6 +161,35 @@ TEST_F(Scenes, BouncesAreNamedAndColourCostsThreeChannels) {
 #endif
 }
 
+TEST_F(Scenes, StaticFilesAreWithinATargetToo) {
+    make_poses("plates", 3, 50);
+    make_poses("box", 1, 400);
+    const std::string wall = path("box/box_0000.obj");
+    expect_success(compress({"bake", path("plates"), "-o", path("x.bake"), "--rays", "1024",
+                             "--bands", "3", "--static", wall}));
+    const ToolResult said =
+        compress({"encode", path("x.bake"), "-o", path("x.paim"), "--max-error", "10%"});
+    expect_success(said);
+    EXPECT_TRUE(contains(said.out, "scenery: transfer ")) << said.out;
+    const Model model = read_paim(path("x.paim"));
+    EXPECT_FALSE(model.scenery.transfer.values.holds_floats());
+    const auto json =
+        parse_object(analyze({path("x.bake"), "--verify", path("x.paim"), "--json"}))["errors"];
+    for (const char* name : {"scenery_transfer_total_error", "scenery_position_worst"}) {
+        EXPECT_TRUE(json[name]["within"]) << name;
+        EXPECT_EQ(json[name]["stated"], json[name]["measured"]) << name;
+    }
+    EXPECT_LE(json["scenery_transfer_total_error"]["measured"], 0.1);
+
+    // One that was changed is found out.
+    Model worse = model;
+    worse.scenery.transfer.steps[0] *= 1.5f;
+    write_paim(path("worse.paim"), worse);
+    const ToolResult found = analyze({path("x.bake"), "--verify", path("worse.paim")});
+    EXPECT_EQ(found.exit_code, 5);
+    EXPECT_TRUE(contains(found.err, "expected a scenery_transfer_error of at most ")) << found.err;
+}
+
 TEST_F(Scenes, StaticFilesAreStoredOnceAndNamed) {
     make_poses("plates", 3, 50);
     make_poses("box", 1, 50);
