@@ -82,11 +82,11 @@ void print_text(const AnalyzeOptions& options, const LightSpectrum& spectrum,
                 const std::vector<Comparison>& comparisons) {
     fmt::print("{} against {}, light spectrum {}\n", options.verify.string(),
                options.bake_directory.string(), spectrum.name);
-    fmt::print("  {:<34}{:>14}{:>14}\n", "", "stated", "measured");
+    fmt::print("  {:<40}{:>14}{:>14}\n", "", "stated", "measured");
     for (const Comparison& comparison : comparisons) {
         const std::string stated =
             comparison.stated ? fmt::format("{:.6g}", *comparison.stated) : "-";
-        fmt::print("  {:<34}{:>14}{:>14.6g}{}\n", comparison.measured.name, stated,
+        fmt::print("  {:<40}{:>14}{:>14.6g}{}\n", comparison.measured.name, stated,
                    comparison.measured.value, comparison.within() ? "" : "  above");
     }
 }

@@ -136,10 +136,12 @@ void add_encode_options(CLI::App& app, CompressOptions& options, RawOptions& raw
     app.add_option("--transfer-components", raw.transfer_components,
                    "Components of the transfer: a number, 'all', or 'auto'")
         ->capture_default_str();
-    app.add_option("--auto-transfer-error", raw.auto_transfer_error,
-                   "What 'auto' keeps the transfer's energy error below, a fraction or percentage; "
-                   "components that are nothing but bake noise are never kept (the geometry's is "
-                   "always 1 %)")
+    app.add_option(
+           "--auto-transfer-error", raw.auto_transfer_error,
+           "What 'auto' keeps the transfer's signal error below, its energy error without the "
+           "bake's noise, a fraction or percentage; "
+           "components that are nothing but bake noise are never kept (the geometry's is "
+           "always 1 %)")
         ->capture_default_str();
     app.add_option("--noise", raw.noise,
                    "Bake noise in the transfer's components: 'shrink' scales them down by what of "

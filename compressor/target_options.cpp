@@ -30,7 +30,8 @@ void add_target_options(CLI::App& app, RawTarget& raw) {
         "over lights, vertices and poses, against a bake without noise. Components, bands, steps "
         "of "
         "integers and codec are then chosen for the smallest file, which is measured before it is "
-        "written (docs/metrics.md). Takes the place of the options of components");
+        "written (docs/metrics.md). Static scenery has to meet it by itself, too. Takes the place "
+        "of the options of components");
     add("--geometry-error", raw.geometry_error,
         fmt::format(
             "With --max-error or --max-size: the RMS distance that positions may be off, a "
@@ -39,11 +40,13 @@ void add_target_options(CLI::App& app, RawTarget& raw) {
             1.0 / kGeometryPerTransferError));
     add("--max-size", raw.max_size,
         "The size that the file may have, bytes or with K, M, G for powers of 1000: the smallest "
-        "error that fits, at most 50 %, is found to 2 % of itself; with --max-error, both must be "
+        "error that fits, at most 50 %, is found to a few percent of itself (of files below 50 kB, "
+        "to a tenth); with --max-error, both must be "
         "met");
     add("--max-decode-cost", raw.max_decode_cost,
         "Multiply-adds that a vertex may take a frame for lit transfer: K + 4 for each coefficient "
-        "with svd, 3 (K + 1) in all with cpca");
+        "with svd, 3 (K + 1) in all with cpca; positions, and what a frame takes for the bases of "
+        "clusters, come on top");
     add("--codec", raw.codec,
         "How the transfer is coded for --max-error or --max-size: 'svd' (components over poses), "
         "'cpca' (clustered PCA: light comes before weights, far cheaper to play), or what suits "

@@ -62,7 +62,8 @@ std::string target_text(const std::string& file, const TargetSummary& summary) {
                             candidate.multiply_adds);
     }
     text += fmt::format(
-        "  transfer: {:.3g} % measured, {:.3g} % allowed, {:.2g} % at best; worst vertex {:.3g} %, "
+        "  transfer: {:.3g} % measured, {:.3g} % allowed, {:.2g} % at best with these components; "
+        "from the bake: worst vertex {:.3g} %, "
         "worst pose {:.3g} %\n",
         100.0 * transfer.total(), 100.0 * summary.transfer_target, 100.0 * summary.floor,
         100.0 * transfer.worst_vertex_deviation, 100.0 * transfer.worst_pose_deviation);

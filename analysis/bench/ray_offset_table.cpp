@@ -15,6 +15,8 @@
 #include <bit>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -22,6 +24,7 @@
 #include "compressor/io/obj_sequence.h"
 #include "paim/base/parallel.h"
 #include "paim/base/seed.h"
+#include "paim/cli/run_main.h"
 #include "paim/trace/scene.h"
 #include "poses/octopus.h"
 #include "poses/shapes.h"
@@ -147,9 +150,17 @@ void measure(const std::string& name, const Topology& topology, const Pose& pose
 }  // namespace
 }  // namespace paim
 
-int main(int argc, char** argv) {
-    std::setvbuf(stdout, nullptr, _IOLBF, 0);
-    using namespace paim;
+namespace paim {
+
+namespace {
+
+// Files are opened before anything is measured.
+int run(int argc, char** argv) {
+    std::vector<std::unique_ptr<ObjSequence>> sequences;
+    for (int i = 1; i < argc; ++i) {
+        sequences.push_back(
+            std::make_unique<ObjSequence>(std::vector<std::filesystem::path>{argv[i]}));
+    }
     const auto shape = [](const std::string& name, const PoseSet& set, const Vec3f& squash,
                           const Vec3f& move = Vec3f::Zero()) {
         std::vector<Vec3f> positions = set.load_pose(0).positions;
@@ -168,8 +179,17 @@ int main(int argc, char** argv) {
     shape("octopus", poses::make_octopus(5000, 1), as_it_is);
     // As far out as single precision is left to carry it (paim/mesh/origin.h).
     shape("octopus 15 sizes out", poses::make_octopus(5000, 1), as_it_is, {150.0f, 0.0f, 0.0f});
-    for (int i = 1; i < argc; ++i) {
-        const ObjSequence sequence({argv[i]});
-        measure(argv[i], sequence.topology(), sequence.load_pose(0));
+    for (size_t i = 0; i < sequences.size(); ++i) {
+        measure(argv[i + 1], sequences[i]->topology(), sequences[i]->load_pose(0));
     }
+    return 0;
+}
+
+}  // namespace
+
+}  // namespace paim
+
+int main(int argc, char** argv) {
+    std::setvbuf(stdout, nullptr, _IOLBF, 0);
+    return paim::cli::run_main("paim-ray-offsets", [&] { return paim::run(argc, argv); });
 }

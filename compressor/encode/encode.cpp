@@ -150,7 +150,8 @@ EncodeSummary encode(const BakeReader& bake, const EncodeOptions& options,
 
     if (options.measure) {
         check_measuring_memory(paim_size_bytes(model), model.topology.num_vertices,
-                               model.num_poses(), options.memory_bytes, output.string());
+                               model.num_poses(), bake_size(bake).scenery_bytes,
+                               options.memory_bytes, output.string());
     }
     PaimWriter writer(output, model);
     stream(writer, Part::geometry, geometry_rows, geometry, summary.geometry_components, nullptr,

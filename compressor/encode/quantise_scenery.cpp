@@ -2,7 +2,7 @@
 #include "compressor/encode/quantise_scenery.h"
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 #include "compressor/encode/quantise.h"
 
@@ -34,32 +34,40 @@ StillPlanes quantise_planes(const StillPlanes& exact, const std::vector<double>&
 
 }  // namespace
 
-Scenery quantise_scenery(const Material& material, double transfer_error, double distance) {
-    Scenery scenery = material.frame.scenery;
-    if (scenery.empty()) return scenery;
-    const uint32_t num_vertices = scenery.topology.num_vertices;
-    scenery.positions = quantise_planes(scenery.positions, {1.0, 1.0, 1.0}, num_vertices,
-                                        distance * distance * num_vertices);
+QuantisedScenery exact_scenery(const Material& material) {
+    return {material.frame.scenery, material.floor.scenery};
+}
 
-    const TransferError& floor = material.floor.scenery->transfer;
+QuantisedScenery quantise_scenery(const Material& material, double transfer_error,
+                                  double distance) {
+    const QuantisedScenery exact = exact_scenery(material);
+    if (exact.scenery.empty()) return exact;
+    const uint32_t num_vertices = exact.scenery.topology.num_vertices;
+    const TransferError& floor = exact.error->transfer;
     double energy = 0.0;
     for (uint32_t l = 0; l < floor.bands.size(); ++l) {
         energy += material.spectrum.weight(l) * floor.bands[l].baked;
     }
     const double room = transfer_error * transfer_error - floor.total() * floor.total();
-    double budget = std::max(0.0, room) * energy;
-    Model model = material.frame;
-    model.scenery = scenery;
+    double transfer_budget = std::max(0.0, room) * energy;
+    double distance_budget = distance * distance * num_vertices;
     // Rounding and noise are independent, but only on average.
     constexpr int kMostRounds = 8;
-    for (int round = 0; round < kMostRounds; ++round, budget *= 0.95) {
-        model.scenery.transfer =
-            quantise_planes(scenery.transfer, material.plane_weight, num_vertices, budget);
-        if (model.scenery.transfer.values.holds_floats()) break;
+    constexpr double kSmaller = 0.95;
+    Model model = material.frame;
+    for (int round = 0; round < kMostRounds; ++round) {
+        model.scenery.positions = quantise_planes(exact.scenery.positions, {1.0, 1.0, 1.0},
+                                                  num_vertices, distance_budget);
+        model.scenery.transfer = quantise_planes(exact.scenery.transfer, material.plane_weight,
+                                                 num_vertices, transfer_budget);
         const SceneryError error = measure_scenery(model, material.bake, material.spectrum);
-        if (error.transfer.total() <= transfer_error) break;
+        const bool transfer_good = error.transfer.total() <= transfer_error;
+        const bool distance_good = error.geometry.rms() <= distance;
+        if (transfer_good && distance_good) return {std::move(model.scenery), error};
+        if (!transfer_good) transfer_budget *= kSmaller;
+        if (!distance_good) distance_budget *= kSmaller;
     }
-    return model.scenery;
+    return exact;
 }
 
 }  // namespace paim

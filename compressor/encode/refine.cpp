@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "compressor/encode/float_part.h"
-#include "compressor/encode/quantise_scenery.h"
 #include "compressor/encode/trim_bands.h"
 #include "paim/base/error.h"
 
@@ -47,25 +46,23 @@ void adjust(Quantiser& quantiser, Precision precision, bool coarser, double erro
 
 }  // namespace
 
-std::optional<RefinedModel> refine(const Material& material, Coding coding,
-                                   const Targets& targets) {
+std::optional<RefinedModel> refine(const Material& material, const QuantisedScenery& still,
+                                   Coding coding, const Targets& targets) {
     constexpr int kMostRounds = 8;
     constexpr double kRoom = 0.985;  // below this share of a target a coarser step is tried
     const double floor = material.floor.transfer.total();
-    const Scenery scenery = is_integer(coding.geometry_precision)
-                                ? quantise_scenery(material, targets.transfer, targets.geometry)
-                                : material.frame.scenery;
     std::optional<RefinedModel> best;
     for (int round = 0; round < kMostRounds; ++round) {
         Model model;
         try {
-            model = build(material, scenery, coding);
+            model = build(material, still.scenery, coding);
         } catch (const Error& error_of_step) {
             // Finer than values of 16 bits can be: what there is, is the best there is.
             if (error_of_step.code() != ExitCode::unsupported) throw;
             break;
         }
-        const ModelError measured = material.measure(model);
+        ModelError measured = measure_animation(model, material.bake, material.spectrum);
+        measured.scenery = still.error;
         const double transfer = measured.transfer.total();
         const double geometry = measured.geometry.rms();
         const bool good = transfer <= targets.transfer && geometry <= targets.geometry;

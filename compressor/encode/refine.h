@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "compressor/encode/quantise_scenery.h"
 #include "compressor/encode/target_coding.h"
 
 namespace paim {
@@ -15,7 +16,9 @@ struct RefinedModel {
 
 // Makes steps finer until both errors, measured, are within the targets, and coarser where there is
 // room. Nothing if no step was found.
-std::optional<RefinedModel> refine(const Material& material, Coding coding, const Targets& targets);
+// still  of these targets
+std::optional<RefinedModel> refine(const Material& material, const QuantisedScenery& still,
+                                   Coding coding, const Targets& targets);
 
 // Steps that should do for other targets, where those of `from` were met.
 void scale_steps(const Material& material, const Targets& from, const Targets& to, Coding& coding);

@@ -7,7 +7,8 @@
 
 namespace paim {
 
-// Resolves the error to 2 %: no file of an error that much smaller is expected to fit, as sizes go.
+// Follows the size over the error, as a power law, to 2 % of the error. Sizes scatter about that law, those
+// of small files most: of 1,000 vertices, files of errors 3 to 9 % smaller fitted as well.
 // say  is told each error that is tried
 // Errors: threshold exceeded, with the smallest file there is.
 TargetFile fit_size(const Material& material, TargetFiles& files, uint64_t most_bytes,

@@ -9,17 +9,21 @@
 
 namespace paim {
 
-uint64_t measuring_memory_bytes(uint64_t file_bytes, uint64_t num_vertices, uint64_t num_poses) {
+uint64_t measuring_memory_bytes(uint64_t file_bytes, uint64_t num_vertices, uint64_t num_poses,
+                                uint64_t scenery_bytes) {
     // Half floats are floats in memory, and what is read is in memory beside what is made of it. Of
     // a plane: the bake, its noise, what was decoded, and as much while it is decoded; measuring takes
     // doubles, a few rows at a time.
     const uint64_t plane_bytes = sizeof(float) * num_vertices * num_poses;
-    return 3 * file_bytes + 6 * plane_bytes;
+    // Scenery: as baked, in the file's order, and as decoded.
+    return std::max(3 * file_bytes, kProgramBytes + 2 * file_bytes) + 6 * plane_bytes +
+           3 * scenery_bytes;
 }
 
 void check_measuring_memory(uint64_t file_bytes, uint64_t num_vertices, uint64_t num_poses,
-                            uint64_t limit_bytes, const std::string& what) {
-    const uint64_t needed = measuring_memory_bytes(file_bytes, num_vertices, num_poses);
+                            uint64_t scenery_bytes, uint64_t limit_bytes, const std::string& what) {
+    const uint64_t needed =
+        measuring_memory_bytes(file_bytes, num_vertices, num_poses, scenery_bytes);
     if (needed <= limit_bytes) return;
     throw_unsupported("{}: {} are needed to measure it, but --memory allows {}", what,
                       memory_text(needed), memory_text(limit_bytes - 1));
@@ -44,14 +48,16 @@ void check_measuring_memory(const EncodeSize& bake, const TransferLayout& layout
     const uint64_t value = options.precision == Precision::f16 ? 2 : 4;
     const uint64_t of_vertex = 3 * (4 + value * counted(options.geometry, 0)) +
                                kept.num_planes() * (4 + value * counted(options.transfer, most));
-    check_measuring_memory(bake.num_vertices * of_vertex, bake.num_vertices, bake.num_poses,
+    check_measuring_memory(bake.num_vertices * of_vertex + bake.scenery_bytes / 2,
+                           bake.num_vertices, bake.num_poses, bake.scenery_bytes,
                            options.memory_bytes, what);
 }
 
 ModelError state_errors(const std::filesystem::path& file, const BakeReader& bake,
                         const LightSpectrum& spectrum, uint64_t memory_bytes) {
     check_measuring_memory(std::filesystem::file_size(file), bake.identity().num_vertices,
-                           bake.num_poses(), memory_bytes, file.string());
+                           bake.num_poses(), bake_size(bake).scenery_bytes, memory_bytes,
+                           file.string());
     Model model = read_paim(file);
     const ModelError error = measure_model(model, bake, spectrum);
     auto provenance = nlohmann::ordered_json::parse(model.provenance_json);

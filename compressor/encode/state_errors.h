@@ -12,11 +12,13 @@
 namespace paim {
 
 // Peak memory of the process while it measures a file of floats of this size.
-uint64_t measuring_memory_bytes(uint64_t file_bytes, uint64_t num_vertices, uint64_t num_poses);
+// scenery_bytes  as it was baked
+uint64_t measuring_memory_bytes(uint64_t file_bytes, uint64_t num_vertices, uint64_t num_poses,
+                                uint64_t scenery_bytes);
 
 // Error (unsupported) naming `what` and the memory that is needed, if it is more than limit_bytes.
 void check_measuring_memory(uint64_t file_bytes, uint64_t num_vertices, uint64_t num_poses,
-                            uint64_t limit_bytes, const std::string& what);
+                            uint64_t scenery_bytes, uint64_t limit_bytes, const std::string& what);
 
 // The same of a bake that is not there yet, by the components that are asked for by number or all: how
 // many `auto` will take is not known, nor what rank the geometry has.

@@ -77,11 +77,13 @@ bool CodingSearch::choose_geometry(double target, Coding& coding) const {
     return true;
 }
 
-std::string CodingSearch::missed_transfer(double target) const {
+std::string CodingSearch::missed_transfer(double target) {
     const std::string asked = fmt::format("a transfer error of {:.3g} % ", 100.0 * target);
     if (target_.decode_cost) {
+        const auto least = search_.least_multiply_adds(transfer_budget(target));
         return asked +
-               fmt::format("cannot be met with {} multiply-adds a vertex", *target_.decode_cost);
+               fmt::format("cannot be met with {} multiply-adds a vertex", *target_.decode_cost) +
+               (least ? fmt::format("; with {} it can", *least) : "");
     }
     if (target_.codec == CodecChoice::cpca) {
         return asked +

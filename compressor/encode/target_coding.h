@@ -14,6 +14,8 @@ namespace paim {
 struct Targets {
     double transfer = 0.0;
     double geometry = 0.0;
+
+    bool operator==(const Targets&) const = default;
 };
 
 // What goes with this error of the transfer.
@@ -43,7 +45,7 @@ class CodingSearch {
   private:
     double transfer_budget(double target) const;
     bool choose_geometry(double target, Coding& coding) const;
-    std::string missed_transfer(double target) const;
+    std::string missed_transfer(double target);
     uint64_t frame_bytes() const;
 
     const Material& material_;

@@ -12,12 +12,18 @@
 
 namespace paim {
 
-uint64_t TargetFiles::frame_bytes(double transfer_error) const {
+const QuantisedScenery& TargetFiles::scenery_of(const Targets& targets) {
+    if (scenery_targets_ == targets) return scenery_;
+    scenery_ = is_integer(options_.precision)
+                   ? quantise_scenery(material_, targets.transfer, targets.geometry)
+                   : exact_scenery(material_);
+    scenery_targets_ = targets;
+    return scenery_;
+}
+
+uint64_t TargetFiles::frame_bytes(double transfer_error) {
     Model frame = material_.frame;
-    if (is_integer(options_.precision)) {
-        const Targets errors = targets(transfer_error);
-        frame.scenery = quantise_scenery(material_, errors.transfer, errors.geometry);
-    }
+    frame.scenery = scenery_of(targets(transfer_error)).scenery;
     const auto fill = [&](uint32_t num_planes, LowRankMatrix& matrix) {
         matrix.num_points = frame.topology.num_vertices;
         matrix.num_planes = num_planes;
@@ -55,7 +61,7 @@ std::optional<TargetFile> TargetFiles::meet(double transfer_error, std::string& 
             reason = bake_name() + ": " + reason;
             return std::nullopt;
         }
-        auto refined = refine(material_, std::move(*coding), targets);
+        auto refined = refine(material_, scenery_of(targets), std::move(*coding), targets);
         if (refined) return pack(targets, std::move(candidates), std::move(*refined), reason);
     }
     reason = fmt::format(
@@ -68,7 +74,7 @@ std::optional<TargetFile> TargetFiles::meet(double transfer_error, std::string& 
 std::optional<TargetFile> TargetFiles::meet(double transfer_error, Draft draft,
                                             std::string& reason) {
     const Targets targets = this->targets(transfer_error);
-    auto refined = refine(material_, std::move(draft.coding), targets);
+    auto refined = refine(material_, scenery_of(targets), std::move(draft.coding), targets);
     if (!refined) return meet(transfer_error, reason);
     return pack(targets, std::move(draft.candidates), std::move(*refined), reason);
 }

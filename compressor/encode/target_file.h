@@ -32,7 +32,7 @@ class TargetFiles {
     }
 
     // Of a file of this error, beside geometry and transfer.
-    uint64_t frame_bytes(double transfer_error) const;
+    uint64_t frame_bytes(double transfer_error);
 
     // A coding that should do for an error, and how large that makes geometry and transfer, about.
     struct Draft {
@@ -50,12 +50,15 @@ class TargetFiles {
   private:
     std::optional<TargetFile> pack(const Targets& targets, std::vector<Candidate> candidates,
                                    RefinedModel refined, std::string& reason) const;
+    const QuantisedScenery& scenery_of(const Targets& targets);
     std::string bake_name() const { return material_.bake.directory().string(); }
 
     const Material& material_;
     const EncodeOptions& options_;
     const EncodeTarget& target_;
     CodingSearch search_;
+    QuantisedScenery scenery_;  // of the last targets that were asked about
+    std::optional<Targets> scenery_targets_;
 };
 
 }  // namespace paim

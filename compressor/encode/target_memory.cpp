@@ -7,6 +7,7 @@
 #include "compressor/encode/search_limits.h"
 #include "compressor/encode/tsqr.h"
 #include "paim/base/error.h"
+#include "paim/format/plane_predictor.h"
 
 namespace paim {
 
@@ -57,9 +58,9 @@ struct Need {
     // The mesh in the bake's and in local order, in the model's frame and in a model; each vertex with
     // its number and those before it that predict it.
     uint64_t mesh() const {
-        constexpr uint64_t kParents = 5 * sizeof(uint32_t);
+        constexpr uint64_t kPredicting = PlanePredictor::kBytesAVertex + sizeof(uint32_t);
         return 4 * (size.streamed.num_triangles + size.streamed.num_colours) * 12 +
-               vertices() * (2 * kParents + sizeof(uint64_t)) + 4 * size.streamed.scenery_bytes +
+               vertices() * (2 * kPredicting + sizeof(uint64_t)) + 4 * size.streamed.scenery_bytes +
                512 * poses();
     }
 

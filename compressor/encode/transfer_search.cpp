@@ -48,7 +48,7 @@ void TransferCoding::apply(const Material& material, Model& model) const {
 
 TransferSearch::TransferSearch(const Material& material, const EncodeOptions& options,
                                const EncodeTarget& target)
-    : material_(material), options_(options), target_(target) {}
+    : material_(material), options_(options), target_(target), decode_cost_(target.decode_cost) {}
 
 void TransferSearch::add_floats(double most_error, std::vector<TransferCoding>& codings) const {
     const std::vector<double> tails = tail_errors(material_.transfer, material_.plane_weight);
@@ -204,6 +204,18 @@ std::vector<TransferCoding> TransferSearch::codings(double most_error) {
     }
     for (TransferCoding& coding : codings) coding.candidate.bands = material_.layout.bands;
     return codings;
+}
+
+std::optional<uint32_t> TransferSearch::least_multiply_adds(double most_error) {
+    decode_cost_.reset();
+    const std::vector<TransferCoding> all = codings(most_error);
+    decode_cost_ = target_.decode_cost;
+    const auto cheapest =
+        std::min_element(all.begin(), all.end(), [](const auto& a, const auto& b) {
+            return a.candidate.multiply_adds < b.candidate.multiply_adds;
+        });
+    if (cheapest == all.end()) return std::nullopt;
+    return cheapest->candidate.multiply_adds;
 }
 
 const TransferCoding* best_coding(const std::vector<TransferCoding>& codings, Preference preference,

@@ -41,6 +41,9 @@ class TransferSearch {
     // most_error  weighted squares over rows and poses, against the scores
     std::vector<TransferCoding> codings(double most_error);
 
+    // Of all that meet the error at any decode cost; nothing if nothing does. As long as codings().
+    std::optional<uint32_t> least_multiply_adds(double most_error);
+
   private:
     void add_floats(double most_error, std::vector<TransferCoding>& codings) const;
     void add_svd(double most_error, std::vector<TransferCoding>& codings) const;
@@ -51,12 +54,13 @@ class TransferSearch {
                                                  uint32_t assumed_components);
     void keep_bases_of_best(std::vector<TransferCoding>& codings);
     bool cheap_enough(uint64_t multiply_adds) const {
-        return !target_.decode_cost || multiply_adds <= *target_.decode_cost;
+        return !decode_cost_ || multiply_adds <= *decode_cost_;
     }
 
     const Material& material_;
     const EncodeOptions& options_;
     const EncodeTarget& target_;
+    std::optional<uint32_t> decode_cost_;  // the target's, but for least_multiply_adds()
     // By number of clusters and of components assumed.
     std::map<std::pair<uint32_t, uint32_t>, std::shared_ptr<const ClusteredPca>> clusters_;
     uint64_t kept_bytes_ = 0;  // of bases

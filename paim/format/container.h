@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -80,6 +81,14 @@ struct Section {
 // expansion below; anything else claims more than it can hold.
 constexpr uint64_t kMaxFreeBytes = uint64_t{1} << 26;
 constexpr uint64_t kMaxExpansion = 1024;
+
+// So many for a file of this size.
+constexpr uint64_t most_bytes_of_values(uint64_t file_size_bytes) {
+    constexpr uint64_t kMost = std::numeric_limits<uint64_t>::max() - kMaxFreeBytes;
+    const uint64_t expanded =
+        file_size_bytes > kMost / kMaxExpansion ? kMost : kMaxExpansion * file_size_bytes;
+    return kMaxFreeBytes + expanded;
+}
 
 namespace container {
 

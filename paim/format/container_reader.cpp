@@ -80,8 +80,10 @@ void check_header(const std::string& path, const Header& header, Tag kind, uint6
     }
     const bool cut = size_bytes < header.file_size_bytes;
     if (header.file_size_bytes != size_bytes && !(cut && extent == Extent::beginning)) {
-        throw_bad_input("{}: {} bytes, expected {}{}", path, size_bytes, header.file_size_bytes,
-                        cut ? ": the file is cut short" : "");
+        throw_bad_input(
+            "{}: {} bytes, expected {}{}", path, size_bytes, header.file_size_bytes,
+            cut ? ": the file is cut short (paim-play --progressive plays what is there of a .paim)"
+                : "");
     }
     if (header.num_sections > container::kMaxSections ||
         header.num_sections > (header.file_size_bytes - sizeof(Header)) / sizeof(TableEntry)) {
@@ -164,7 +166,7 @@ void ContainerReader::check_table(const std::vector<TableEntry>& table, uint64_t
     // Sections that share bytes would let a small file claim any amount of memory, and so would a
     // header that claims any size: only what is there counts.
     ByteBudget stored(file_size_bytes_ - table_end);
-    ByteBudget values(kMaxFreeBytes + saturating_product(kMaxExpansion, file_size_bytes_));
+    ByteBudget values(most_bytes_of_values(file_size_bytes_));
     sections_.reserve(table.size());
     for (const TableEntry& entry : table) {
         sections_.push_back(check_entry(path_, entry, whole_size_bytes, table_end));

@@ -48,6 +48,7 @@ void read_integers(const ContainerReader& reader, std::span<const Section* const
         const auto bad = std::find_if(planes.begin(), planes.end(), [&](const auto& section) {
             return !good(std::span(&section, 1));
         });
+        PAIM_CHECK(bad != planes.end());
         const Section& section = *sections[static_cast<size_t>(bad - planes.begin())];
         throw_bad_input("{}: holds no {} planes of {} integers", reader.label(section),
                         section.spec.shape[1], section.spec.shape[2]);
@@ -124,15 +125,16 @@ Precision precision_of(ScalarType type) {
     }
 }
 
-// Positive, finite numbers: what integers are multiples of.
+// What integers are multiples of: numbers from 0 up, of which 2¹⁵ are finite.
 std::vector<float> read_steps(const ContainerReader& reader, Tag tag, uint32_t count) {
     const Section& section = reader.require(tag, ScalarType::f32);
     expect_shape(reader, section, 1, count);
     std::vector<float> steps = reader.read_f32(section);
     for (const float step : steps) {
-        if (!(step >= 0.0f && std::isfinite(step))) {
-            throw_bad_input("{}: steps: expected finite numbers from 0 up, got {}",
-                            reader.label(section), step);
+        constexpr float kMost = std::numeric_limits<float>::max() / 32768.0f;
+        if (!(step >= 0.0f && step <= kMost)) {
+            throw_bad_input("{}: steps: expected numbers from 0 to {:.3g}, got {}",
+                            reader.label(section), kMost, step);
         }
     }
     return steps;
@@ -197,6 +199,20 @@ void expect_shape(const ContainerReader& reader, const Section& section, uint32_
         throw_bad_input("{}: {} x {} x {} values, expected {} x {}", reader.label(section),
                         shape[0], shape[1], shape[2], rows, columns);
     }
+}
+
+PlanePredictor read_predictor(const ContainerReader& reader, const Topology& topology) {
+    const bool predicted =
+        std::any_of(reader.sections().begin(), reader.sections().end(),
+                    [](const Section& s) { return s.codec == SectionCodec::planes; });
+    if (!predicted) return {};
+    const uint64_t most =
+        most_bytes_of_values(reader.file_size_bytes()) / PlanePredictor::kBytesAVertex;
+    if (topology.num_vertices > most) {
+        throw_bad_input("{}: {} vertices, expected at most {} in a file of {} bytes", reader.path(),
+                        topology.num_vertices, most, reader.file_size_bytes());
+    }
+    return PlanePredictor(topology);
 }
 
 void read_matrix(const ContainerReader& reader, Part part, const PlanePredictor& predictor,

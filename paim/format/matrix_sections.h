@@ -11,6 +11,11 @@ namespace paim {
 void expect_shape(const ContainerReader& reader, const Section& section, uint32_t rows,
                   uint32_t columns);
 
+// What integers of a mesh are predicted with; nothing where no section is predicted.
+// Error (bad input) if a file of this size has no business with so many vertices: sections may claim
+// few bytes for each.
+PlanePredictor read_predictor(const ContainerReader& reader, const Topology& topology);
+
 // Fills a matrix whose dimensions are set, those of the whole file.
 // predictor  of its points, where they are a mesh
 // num_there  components are read, and matrix.num_components becomes that if the file has more

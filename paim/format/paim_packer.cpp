@@ -214,10 +214,12 @@ PackedFile::PackedFile(const Model& model, Effort effort) {
         value_bytes += tasks[j].spec.size_bytes();
         plans_.emplace_back(tasks[j].spec, tasks[j].codec, bytes_[j].size());
     }
-    const uint64_t readable = kMaxFreeBytes + kMaxExpansion * size_bytes();
-    if (value_bytes > readable) {
-        throw_unsupported("{} bytes of values that compress to {}: readers take at most {}",
-                          value_bytes, size_bytes(), readable);
+    const uint64_t readable = most_bytes_of_values(size_bytes());
+    const uint64_t most_vertices = std::max(num_vertices, model.scenery.topology.num_vertices);
+    if (std::max(value_bytes, PlanePredictor::kBytesAVertex * most_vertices) > readable) {
+        throw_unsupported(
+            "{} vertices and {} bytes of values that compress to {}: readers take at most {}",
+            most_vertices, value_bytes, size_bytes(), readable);
     }
 }
 

@@ -99,10 +99,7 @@ Model read_paim(const std::filesystem::path& path, const ReadOptions& options) {
         throw_bad_input("{}: section {} 0 is missing", reader.path(), section::kMean[0].str());
     }
     expect_shape(reader, *mean, 3, num_vertices);
-    const bool predicted =
-        std::any_of(reader.sections().begin(), reader.sections().end(),
-                    [](const Section& s) { return s.codec == SectionCodec::planes; });
-    const PlanePredictor predictor = predicted ? PlanePredictor(model.topology) : PlanePredictor();
+    const PlanePredictor predictor = read_predictor(reader, model.topology);
     const uint32_t geometry_components = model.geometry.num_components;
     const uint32_t transfer_components = model.transfer.num_components;
     read_matrix(reader, Part::geometry, predictor, prefix.geometry_components, model.geometry);

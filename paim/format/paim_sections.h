@@ -40,7 +40,7 @@ constexpr Tag kSceneryTransferSteps("STST");
 // .bake poses and scenery.
 constexpr Tag kPositions("POSN");  // f32 [3][V]
 constexpr Tag kNormals("NRML");    // f32 [3][V]
-constexpr Tag kTransfer("TRNF");   // f32, i16 or i8 [planes][N]
+constexpr Tag kTransfer("TRNF");   // f32 [planes][V]
 constexpr Tag kNoise("NOIS");      // f16 [planes][V]
 
 }  // namespace paim::section

@@ -24,10 +24,12 @@ enum class Prediction : uint8_t {
 class PlanePredictor {
   public:
     static constexpr uint32_t kMaxParents = 4;
+    static constexpr uint64_t kBytesAVertex = 40;
 
     // For points that are no mesh: only Prediction::none.
     PlanePredictor() = default;
 
+    // Takes kBytesAVertex, in part later.
     explicit PlanePredictor(const Topology& topology);
 
     // For points in a row, such as poses: the neighbour of each is the one before.
@@ -45,6 +47,8 @@ class PlanePredictor {
         };
         Corners first, second;
     };
+
+    static_assert(sizeof(Parents) + sizeof(Parallelograms) == kBytesAVertex);
 
     bool has_mesh() const { return !parents_.empty(); }
     std::span<const Parents> parents() const { return parents_; }

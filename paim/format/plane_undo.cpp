@@ -64,19 +64,39 @@ __attribute__((always_inline)) inline Vector mean_of_four(const Vector& a, const
     return mean_of_two(ab, cd) - (((a ^ b) | (c ^ d)) & (ab ^ cd) & 1);
 }
 
+// a0 b0 a1 b1 … of their lower or their higher halves.
+#if defined(__SSE2__)
 __attribute__((always_inline)) inline Bytes interleave_low(const Bytes& a, const Bytes& b) {
-    return __builtin_shufflevector(a, b, 0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23);
+    return Bytes(_mm_unpacklo_epi8(__m128i(a), __m128i(b)));
 }
 __attribute__((always_inline)) inline Bytes interleave_high(const Bytes& a, const Bytes& b) {
-    return __builtin_shufflevector(a, b, 8, 24, 9, 25, 10, 26, 11, 27, 12, 28, 13, 29, 14, 30, 15,
-                                   31);
+    return Bytes(_mm_unpackhi_epi8(__m128i(a), __m128i(b)));
 }
 __attribute__((always_inline)) inline Words interleave_low(const Words& a, const Words& b) {
-    return __builtin_shufflevector(a, b, 0, 8, 1, 9, 2, 10, 3, 11);
+    return Words(_mm_unpacklo_epi16(__m128i(a), __m128i(b)));
 }
 __attribute__((always_inline)) inline Words interleave_high(const Words& a, const Words& b) {
-    return __builtin_shufflevector(a, b, 4, 12, 5, 13, 6, 14, 7, 15);
+    return Words(_mm_unpackhi_epi16(__m128i(a), __m128i(b)));
 }
+#else
+template <typename Vector>
+__attribute__((always_inline)) inline Vector interleave(const Vector& a, const Vector& b,
+                                                        size_t first) {
+    Vector result;
+    for (size_t j = 0; j < sizeof(Vector) / sizeof(result[0]); ++j) {
+        result[j] = (j % 2 == 0 ? a : b)[first + j / 2];
+    }
+    return result;
+}
+template <typename Vector>
+__attribute__((always_inline)) inline Vector interleave_low(const Vector& a, const Vector& b) {
+    return interleave(a, b, 0);
+}
+template <typename Vector>
+__attribute__((always_inline)) inline Vector interleave_high(const Vector& a, const Vector& b) {
+    return interleave(a, b, sizeof(Vector) / sizeof(a[0]) / 2);
+}
+#endif
 
 // As many vectors as each has lanes: rows become columns, a bit of the row's number at a time.
 template <typename Vector, size_t kSize>

@@ -41,12 +41,7 @@ Scenery read_scenery(const ContainerReader& reader, const TransferLayout& layout
     }
     const uint32_t num_vertices = count_vertices(reader, section::kSceneryPositions);
     scenery.topology = read_triangles(reader, num_vertices, section::kSceneryTriangles);
-    const bool predicted = std::any_of(std::begin(tags), std::end(tags), [&](Tag tag) {
-        const Section* section = reader.find(tag);
-        return section != nullptr && section->codec == SectionCodec::planes;
-    });
-    const PlanePredictor predictor =
-        predicted ? PlanePredictor(scenery.topology) : PlanePredictor();
+    const PlanePredictor predictor = read_predictor(reader, scenery.topology);
     scenery.positions =
         read_still_planes(reader, section::kSceneryPositions, section::kSceneryPositionSteps, 3,
                           num_vertices, predictor);

@@ -91,12 +91,17 @@ GeometryError measure_geometry(const Model& model, const BakeReader& bake,
 
 }  // namespace
 
+ModelError measure_animation(const Model& model, const BakeReader& bake,
+                             const LightSpectrum& spectrum) {
+    const std::vector<uint32_t> old_vertex = check_same_animation(model, bake);
+    return {measure_transfer(model, bake, spectrum, old_vertex),
+            measure_geometry(model, bake, old_vertex),
+            {}};
+}
+
 ModelError measure_model(const Model& model, const BakeReader& bake,
                          const LightSpectrum& spectrum) {
-    const std::vector<uint32_t> old_vertex = check_same_animation(model, bake);
-    ModelError error{measure_transfer(model, bake, spectrum, old_vertex),
-                     measure_geometry(model, bake, old_vertex),
-                     {}};
+    ModelError error = measure_animation(model, bake, spectrum);
     if (bake.scenery()) error.scenery = measure_scenery(model, bake, spectrum);
     return error;
 }
@@ -143,7 +148,10 @@ ErrorStatement read_error_statement(const Model& model, const std::filesystem::p
     const Metadata provenance(model.provenance_json.empty() ? "{}" : model.provenance_json,
                               file.string());
     if (!provenance.root().contains(kMember)) {
-        throw_bad_input("{}: expected a file that states its errors, got none", file.string());
+        throw_bad_input(
+            "{}: expected a file that states its errors, got none: "
+            "encode with --max-error, --max-size or --measure",
+            file.string());
     }
     const Metadata measured(provenance.object_text(kMember), file.string());
     ErrorStatement statement;
@@ -156,7 +164,10 @@ ErrorStatement read_error_statement(const Model& model, const std::filesystem::p
         statement.errors.push_back(std::move(named));
     }
     if (statement.errors.empty()) {
-        throw_bad_input("{}: expected a file that states its errors, got none", file.string());
+        throw_bad_input(
+            "{}: expected a file that states its errors, got none: "
+            "encode with --max-error, --max-size or --measure",
+            file.string());
     }
     return statement;
 }

@@ -22,11 +22,15 @@ struct ModelError {
     std::optional<SceneryError> scenery;  // none: there is no scenery
 };
 
-// Decodes and measures everything that the model holds; a plane over all poses of bake, noise and
-// model is in memory at a time. Bands that the model does not have count as zero; a grey model of a
-// coloured bake counts in every channel.
+// Decodes and measures everything that the model holds but scenery; a plane over all poses of bake,
+// noise and model is in memory at a time. Bands that the model does not have count as zero; a grey
+// model of a coloured bake counts in every channel.
 // bake  verified (BakeReader::verify_all)
 // Errors: bad input if the model is not of this bake, saying what differs.
+ModelError measure_animation(const Model& model, const BakeReader& bake,
+                             const LightSpectrum& spectrum);
+
+// The same with the scenery, where there is any.
 ModelError measure_model(const Model& model, const BakeReader& bake, const LightSpectrum& spectrum);
 
 // One figure of an error, by the name that files and reports have for it (docs/metrics.md).

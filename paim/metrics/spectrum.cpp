@@ -46,7 +46,10 @@ auto first_ones(size_t num_components) {
 
 auto those_of(const LowRankMatrix& matrix) {
     std::vector<bool> kept(matrix.singular_values.size(), false);
-    for (uint32_t k = 0; k < matrix.num_components; ++k) kept[matrix.singular_index(k)] = true;
+    for (uint32_t k = 0; k < matrix.num_components; ++k) {
+        PAIM_CHECK_LT(size_t{matrix.singular_index(k)}, kept.size());
+        kept[matrix.singular_index(k)] = true;
+    }
     return [kept = std::move(kept)](size_t k) { return kept[k]; };
 }
 

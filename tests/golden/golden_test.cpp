@@ -59,6 +59,30 @@ TEST(Golden, ReadsScenery) {
     EXPECT_EQ(scenery.transfer, expected.transfer);
 }
 
+// Integers of every kind. Read, not written: bytes depend on the version of Zstandard.
+Model golden_model_of_integers() {
+    Model model = make_clustered_example(3, 3, 2, true);
+    model.vertex_order = VertexOrder::local;
+    model.scenery = make_quantised_scenery(model.layout);
+    return model;
+}
+
+TEST(Golden, ReadsIntegers) {
+    const std::filesystem::path file =
+        std::filesystem::path(PAIM_GOLDEN_DIR) / "example_v1_integers.paim";
+    if (std::getenv("PAIM_UPDATE_GOLDEN") != nullptr) write_paim(file, golden_model_of_integers());
+    const Model model = read_paim(file), expected = golden_model_of_integers();
+    for (const Part part : {Part::geometry, Part::transfer}) {
+        EXPECT_EQ(model.part(part).mean, expected.part(part).mean);
+        EXPECT_EQ(model.part(part).components, expected.part(part).components);
+        EXPECT_EQ(model.part(part).steps, expected.part(part).steps);
+    }
+    EXPECT_EQ(model.clusters.cluster, expected.clusters.cluster);
+    EXPECT_EQ(model.clusters.coefficients, expected.clusters.coefficients);
+    EXPECT_EQ(model.scenery.positions, expected.scenery.positions);
+    EXPECT_EQ(model.scenery.transfer, expected.scenery.transfer);
+}
+
 TEST(Golden, ReadsVersionOne) {
     const Model model = read_paim(std::filesystem::path(PAIM_GOLDEN_DIR) / "example_v1.paim");
     const Model expected = golden_model();

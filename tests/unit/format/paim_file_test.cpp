@@ -219,6 +219,31 @@ TEST(PaimFile, KeepsSceneryOfIntegers) {
     EXPECT_EQ(floats[4 * 5 + 2], (6.0f / 100.0f) * read.transfer.values[4 * 5 + 2]);
 }
 
+// What predicts them takes 40 bytes a vertex, whatever they are packed to.
+TEST(PaimFile, RefusesMoreVerticesThanASmallFileMayHave) {
+    const TemporaryDirectory directory;
+    Model model = quantise_example(make_example_model(1));
+    model.topology = {2'000'000, {}};
+    const auto empty = [&](LowRankMatrix& matrix) {
+        matrix.num_points = model.topology.num_vertices;
+        matrix.num_components = 0;
+        matrix.mean = std::vector<int8_t>(matrix.num_rows());
+        matrix.components.clear();
+        matrix.weights.clear();
+    };
+    empty(model.geometry);
+    empty(model.transfer);
+    try {
+        write_paim(directory / "x.paim", model);
+        ADD_FAILURE() << "written";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ExitCode::unsupported);
+        EXPECT_NE(std::string(error.what()).find("2000000 vertices and"), std::string::npos)
+            << error.what();
+    }
+    EXPECT_FALSE(std::filesystem::exists(directory / "x.paim"));
+}
+
 TEST(PaimFile, KeepsScenery) {
     const TemporaryDirectory directory;
     for (const uint32_t channels : {1u, 3u}) {
@@ -410,7 +435,7 @@ TEST(PaimFile, RefusesContentsThatCannotBePlayed) {
     model = with_scenery();
     model.scenery = make_quantised_scenery(model.layout);
     model.scenery.transfer.steps[1] = -1.0f;
-    EXPECT_NE(complaint(model).find("steps: expected finite numbers from 0 up, got -1"),
+    EXPECT_NE(complaint(model).find("steps: expected numbers from 0 to 1.04e+34, got -1"),
               std::string::npos)
         << complaint(model);
     model = with_scenery();

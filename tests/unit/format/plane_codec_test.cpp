@@ -324,5 +324,23 @@ TEST(LocalOrder, IsAPermutationThatKeepsTheMesh) {
     EXPECT_TRUE(local_order({4, {}}).topology.triangles.empty());
 }
 
+// Two planes of six values as docs/format.md has them: digits by their size, then gaps, low bytes and
+// high bytes of all planes.
+TEST(PlaneCodec, ReadsAFrameWrittenByHand) {
+    const std::vector<uint8_t> contents{
+        0x00, 1,    1, 0, 0, 0,  // no prediction, digits up to 1, one exception
+        0x04, 2,    2, 0, 0, 0,  // exceptions are wide, digits up to 2, two of them
+        194,  40,                // 1 0 −1 0 1, −1: 2 1 0 1 2 and 0 1 1 1 1 in base 3
+        102,  86,                // 2 −2 0, 1 0 −1: 4 0 2 and 3 2 1 in base 5
+        4,                       // value 4
+        0,    2,                 // values 0 and 3
+        10,                      // 5 more than its digit
+        0x58, 0x77,              // 300 more, 700 less: zigzag 600 and 1399
+        0x02, 0x05};
+    std::vector<int16_t> values(12);
+    ASSERT_TRUE(decode_planes<int16_t>(zstd_compress(contents), 2, PlanePredictor(), values));
+    EXPECT_EQ(values, (std::vector<int16_t>{1, 0, -1, 0, 6, -1, 302, -2, 0, -699, 0, -1}));
+}
+
 }  // namespace
 }  // namespace paim

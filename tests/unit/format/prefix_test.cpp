@@ -35,7 +35,11 @@ std::vector<std::pair<std::string, Model>> example_models() {
             const auto q = static_cast<float>(j * 977 % 401) - 200.0f;
             matrix->weights[j] = matrix->weight_steps[j / matrix->num_poses] * q;
         }
+        // The third of five vanished.
+        matrix->singular_values.push_back(0.25 * matrix->singular_values.back());
+        matrix->singular_indices = {0, 1, 3, 4};
     }
+    integers.scenery = make_quantised_scenery(integers.layout);
     return {{"f32", make_example_model(3, 1)},
             {"f16", half},
             {"integers", integers},
@@ -56,6 +60,7 @@ void expect_equal(const LowRankMatrix& a, const LowRankMatrix& b) {
     EXPECT_EQ(a.weights, b.weights);
     EXPECT_EQ(a.weight_steps, b.weight_steps);
     EXPECT_EQ(a.singular_values, b.singular_values);
+    EXPECT_EQ(a.singular_indices, b.singular_indices);
 }
 
 void expect_equal(const Model& a, const Model& b) {
