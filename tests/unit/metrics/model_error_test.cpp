@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "analysis/bench/made_up_identity.h"
 #include "paim/base/error.h"
 #include "paim/codec/make_decoder.h"
 #include "paim/mesh/locality.h"
@@ -19,19 +20,12 @@ constexpr uint32_t kVertices = 4;
 
 class ModelErrorTest : public testing::Test {
   protected:
-    // A bake of random numbers for the model's mesh.
-    // Scenery where the model has some.
+    // A bake of random numbers for the model's mesh, with scenery where the model has some.
     BakeReader write_bake(const Model& model, const TransferLayout& layout, uint32_t num_poses) {
-        BakeIdentity identity;
-        identity.layout = layout;
-        identity.rays = 2;
-        identity.sampler = "cosine";
-        identity.streams = "per-pose";
-        identity.normals = "faces";
-        identity.num_vertices = kVertices;
-        identity.num_triangles = static_cast<uint32_t>(model.topology.triangles.size());
-        identity.mesh_xxh3 = mesh_checksum(model.topology, model.albedo);
-        for (uint32_t p = 0; p < num_poses; ++p) identity.poses.push_back({"pose", p});
+        std::vector<BakeIdentity::Source> poses;
+        for (uint32_t p = 0; p < num_poses; ++p) poses.push_back({"pose", p});
+        BakeIdentity identity =
+            made_up_identity(model.topology, model.albedo, layout, std::move(poses));
         const auto directory = directory_ / "x.bake";
         std::filesystem::remove_all(directory);
         if (!model.scenery.empty()) identity.scenery.push_back({"still", 0});
