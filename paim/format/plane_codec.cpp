@@ -60,7 +60,7 @@ double entropy_bits(std::span<const Integer> residuals) {
     Counts counts{};
     double plain_bits = 0.0;
     for (const int32_t r : residuals) {
-        const uint32_t code = (static_cast<uint32_t>(r) << 1) ^ static_cast<uint32_t>(r >> 31);
+        const uint32_t code = zigzag(r);
         if (code < kSmall) {
             ++counts[code];
         } else {

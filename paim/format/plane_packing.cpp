@@ -10,10 +10,6 @@ namespace paim {
 
 namespace {
 
-constexpr uint32_t zigzag(int32_t value) {
-    return (static_cast<uint32_t>(value) << 1) ^ static_cast<uint32_t>(value >> 31);
-}
-
 constexpr uint32_t base_of(uint32_t magnitude) {
     return 2 * magnitude + 1;
 }
@@ -119,7 +115,7 @@ void unpack_digits(uint8_t magnitude, const uint8_t* source, size_t first, size_
         case kByteDigits:
             for (size_t j = 0; j < count; ++j) {
                 const uint8_t code = source[first + j];
-                out[j] = static_cast<int8_t>((code >> 1) ^ (0 - (code & 1)));
+                out[j] = static_cast<int8_t>(undo_zigzag(code));
             }
             return;
         default:

@@ -29,6 +29,14 @@ struct PlaneHeader {
     uint32_t num_exceptions = 0;
 };
 
+// 0, −1, 1, −2, … as 0, 1, 2, 3, …
+constexpr uint32_t zigzag(int32_t value) {
+    return (static_cast<uint32_t>(value) << 1) ^ static_cast<uint32_t>(value >> 31);
+}
+constexpr uint32_t undo_zigzag(uint32_t code) {  // of a negative number, 2³² more
+    return (code >> 1) ^ (0 - (code & 1));
+}
+
 // Bytes of so many digits.
 size_t digit_bytes(uint8_t magnitude, size_t count);
 
@@ -95,8 +103,8 @@ class Exceptions {
             uint32_t code = lows[next];
             if constexpr (kWide) code |= uint32_t{highs[next]} << 8;
             auto& value = at(place);
-            value = static_cast<std::remove_reference_t<decltype(value)>>(
-                value + ((code >> 1) ^ (0 - (code & 1))));
+            value =
+                static_cast<std::remove_reference_t<decltype(value)>>(value + undo_zigzag(code));
             if (++next < last) place += size_t{1} + gaps[next];
         }
         next_ = next;

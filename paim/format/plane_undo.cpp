@@ -39,21 +39,19 @@ struct Lanes {
 static_assert(kTileValues % Lanes<int8_t>::kLanes == 0);
 
 // ⌊(a + b + 1) / 2⌋, without the overflow.
+#if defined(__SSE2__)
 __attribute__((always_inline)) inline Bytes mean_of_two(const Bytes& a, const Bytes& b) {
-#if defined(__SSE2__)
     return Bytes(_mm_avg_epu8(__m128i(a), __m128i(b)));
-#else
-    return (a | b) - ((a ^ b) >> 1);
-#endif
 }
-
 __attribute__((always_inline)) inline Words mean_of_two(const Words& a, const Words& b) {
-#if defined(__SSE2__)
     return Words(_mm_avg_epu16(__m128i(a), __m128i(b)));
-#else
-    return (a | b) - ((a ^ b) >> 1);
-#endif
 }
+#else
+template <typename Vector>
+__attribute__((always_inline)) inline Vector mean_of_two(const Vector& a, const Vector& b) {
+    return (a | b) - ((a ^ b) >> 1);
+}
+#endif
 
 // ⌊(a + b + c + d + 2) / 4⌋: the mean of two means rounds up once too often where both the means and
 // the values of one of them differ by an odd number.

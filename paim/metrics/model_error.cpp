@@ -64,12 +64,9 @@ TransferError measure_transfer(const Model& model, const BakeReader& bake,
             reorder_planes({baked.col(column).data(), num_vertices}, old_vertex);
             reorder_planes({noise.col(column).data(), num_vertices}, old_vertex);
         });
-        const uint32_t i = plane % layout.num_coefficients();
-        const uint32_t channel = plane / layout.num_coefficients();
-        const uint32_t of_model = model.layout.channels == 1 ? 0 : channel;
-        const bool kept = i < model.layout.num_coefficients();
+        const auto kept = plane_of_file(model.layout, layout, plane);
         meter.add(plane, baked, noise,
-                  kept ? decode_plane(model, Part::transfer, model.layout.plane(of_model, i))
+                  kept ? decode_plane(model, Part::transfer, *kept)
                        : MatrixXf::Zero(baked.rows(), baked.cols()));
     }
     return meter.result();
@@ -147,21 +144,18 @@ ErrorStatement read_error_statement(const Model& model, const std::filesystem::p
     constexpr const char* kMember = "measured";
     const Metadata provenance(model.provenance_json.empty() ? "{}" : model.provenance_json,
                               file.string());
-    if (!provenance.root().contains(kMember)) {
-        throw_bad_input(
-            "{}: expected a file that states its errors, got none: "
-            "encode with --max-error, --max-size or --measure",
-            file.string());
-    }
-    const Metadata measured(provenance.object_text(kMember), file.string());
     ErrorStatement statement;
-    statement.light_spectrum = measured.text("light_spectrum");
-    ModelError with_all;
-    with_all.scenery.emplace();
-    for (NamedError& named : named_errors(with_all)) {
-        if (!measured.root().contains(named.name)) continue;
-        named.value = measured.number(named.name.c_str(), 0.0, std::numeric_limits<double>::max());
-        statement.errors.push_back(std::move(named));
+    if (provenance.root().contains(kMember)) {
+        const Metadata measured(provenance.object_text(kMember), file.string());
+        statement.light_spectrum = measured.text("light_spectrum");
+        ModelError with_all;
+        with_all.scenery.emplace();
+        for (NamedError& named : named_errors(with_all)) {
+            if (!measured.root().contains(named.name)) continue;
+            named.value =
+                measured.number(named.name.c_str(), 0.0, std::numeric_limits<double>::max());
+            statement.errors.push_back(std::move(named));
+        }
     }
     if (statement.errors.empty()) {
         throw_bad_input(

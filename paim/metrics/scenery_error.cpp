@@ -31,20 +31,14 @@ SceneryError measure_scenery(const Model& model, const BakeReader& bake,
     const std::vector<float> decoded = model.scenery.transfer.floats();
     TransferErrorMeter meter(layout, baked.topology.num_vertices, 1, spectrum,
                              orthonormal_pose_space({}, 1));
-    const auto plane_of = [&](const std::vector<float>& planes, uint32_t plane) {
+    const auto values_of = [&](const std::vector<float>& planes, uint32_t plane) {
         return Eigen::Map<const MatrixXf>(planes.data() + plane * num_vertices, num_vertices, 1);
     };
-    const MatrixXf nothing = MatrixXf::Zero(num_vertices, 1);
+    const std::vector<float> nothing(old_vertex.size());
     for (uint32_t plane = 0; plane < layout.num_planes(); ++plane) {
-        const uint32_t i = plane % layout.num_coefficients();
-        const uint32_t channel = plane / layout.num_coefficients();
-        const uint32_t of_model = model.layout.channels == 1 ? 0 : channel;
-        if (i < model.layout.num_coefficients()) {
-            meter.add(plane, plane_of(truth, plane), plane_of(noise, plane),
-                      plane_of(decoded, model.layout.plane(of_model, i)));
-        } else {
-            meter.add(plane, plane_of(truth, plane), plane_of(noise, plane), nothing);
-        }
+        const auto kept = plane_of_file(model.layout, layout, plane);
+        meter.add(plane, values_of(truth, plane), values_of(noise, plane),
+                  values_of(kept ? decoded : nothing, kept.value_or(0)));
     }
     error.transfer = meter.result();
     return error;

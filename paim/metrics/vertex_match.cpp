@@ -1,4 +1,4 @@
-// Which vertex of a bake each vertex of a file is.
+// Which vertices and planes of a file and of its bake belong together.
 #include "paim/metrics/vertex_match.h"
 
 #include <algorithm>
@@ -42,6 +42,13 @@ std::vector<uint32_t> match_vertices(const Topology& of_file, VertexOrder order,
         throw_bad_input("{}: expected a file made from this bake, got other {}", bake, what);
     }
     return std::move(expected.old_vertex);
+}
+
+std::optional<uint32_t> plane_of_file(const TransferLayout& of_file, const TransferLayout& of_bake,
+                                      uint32_t plane) {
+    const uint32_t i = plane % of_bake.num_coefficients();
+    if (i >= of_file.num_coefficients()) return std::nullopt;
+    return of_file.plane(of_file.channels == 1 ? 0 : plane / of_bake.num_coefficients(), i);
 }
 
 void reorder_planes(std::span<float> planes, std::span<const uint32_t> old_vertex) {

@@ -1,7 +1,8 @@
-// Which vertex of a bake each vertex of a file is.
+// Which vertices and planes of a file and of its bake belong together.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,6 +17,11 @@ namespace paim {
 std::vector<uint32_t> match_vertices(const Topology& of_file, VertexOrder order,
                                      const Topology& of_bake, const std::string& bake,
                                      const char* what);
+
+// Where a file has this plane of the bake's transfer: nowhere if its bands end before. A grey file has
+// one for all channels.
+std::optional<uint32_t> plane_of_file(const TransferLayout& of_file, const TransferLayout& of_bake,
+                                      uint32_t plane);
 
 // planes [num_planes][V] of the bake, in place in the order of the file.
 void reorder_planes(std::span<float> planes, std::span<const uint32_t> old_vertex);
