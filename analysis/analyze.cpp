@@ -16,7 +16,7 @@
 #include "paim/base/file.h"
 #include "paim/base/parallel.h"
 #include "paim/cli/progress.h"
-#include "paim/format/paim_file.h"
+#include "paim/format/paim/paim_file.h"
 
 namespace paim {
 

@@ -8,8 +8,8 @@
 #include <set>
 #include <span>
 
-#include "paim/format/paim_file.h"
-#include "paim/metrics/spectrum.h"
+#include "paim/format/paim/paim_file.h"
+#include "paim/metrics/singular_value_error.h"
 
 namespace paim {
 

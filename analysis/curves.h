@@ -9,7 +9,7 @@
 
 #include "paim/codec/decoder.h"
 #include "paim/codec/model.h"
-#include "paim/format/bake_directory.h"
+#include "paim/format/bake/bake_directory.h"
 #include "paim/image/image.h"
 #include "paim/metrics/array_error.h"
 

@@ -9,7 +9,7 @@
 
 #include "paim/base/error.h"
 #include "paim/base/parallel.h"
-#include "paim/format/paim_file.h"
+#include "paim/format/paim/paim_file.h"
 #include "paim/metrics/model_error.h"
 
 namespace paim {

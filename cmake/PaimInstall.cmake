@@ -12,20 +12,20 @@ install(EXPORT paim-targets NAMESPACE paim:: DESTINATION ${package_dir})
 set(public_rooms base codec format image light mesh metrics sh shade transfer)
 set(private_headers
     codec/vector_kernels.h
-    format/bake_manifest.h
-    format/index_codec.h
-    format/matrix_sections.h
-    format/mesh_sections.h
-    format/metadata.h
-    format/paim_metadata.h
-    format/paim_packer.h
-    format/paim_sections.h
-    format/plane_codec.h
-    format/plane_packing.h
-    format/plane_predictor.h
-    format/plane_undo.h
-    format/workspace.h
-    format/zstd_codec.h
+    format/bake/bake_manifest.h
+    format/pack/index_codec.h
+    format/paim/matrix_sections.h
+    format/container/mesh_sections.h
+    format/container/metadata.h
+    format/paim/paim_metadata.h
+    format/paim/paim_packer.h
+    format/container/sections.h
+    format/pack/plane_codec.h
+    format/pack/plane_packing.h
+    format/pack/plane_predictor.h
+    format/pack/plane_reconstruct.h
+    format/pack/workspace.h
+    format/pack/zstd_codec.h
     image/exr_header.h
     sh/recurrence.h)
 foreach(header IN LISTS private_headers)

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "compressor/encode/encode_target.h"
+#include "compressor/encode/search/rate_target.h"
 
 namespace paim {
 

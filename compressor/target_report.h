@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "compressor/encode/target_encode.h"
+#include "compressor/encode/search/target_encode.h"
 
 namespace paim {
 

@@ -10,9 +10,9 @@
 
 #include "paim/base/hash.h"
 #include "paim/codec/sequence_bounds.h"
-#include "paim/format/container_reader.h"
-#include "paim/format/paim_file.h"
-#include "paim/format/paim_sections.h"
+#include "paim/format/container/container_reader.h"
+#include "paim/format/paim/paim_file.h"
+#include "paim/format/container/sections.h"
 
 namespace paim::player {
 

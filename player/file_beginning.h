@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "paim/codec/model.h"
-#include "paim/format/prefixes.h"
+#include "paim/format/paim/prefixes.h"
 #include "paim/mesh/bounds.h"
 
 namespace paim::player {

@@ -8,7 +8,7 @@
 
 #include "paim/base/error.h"
 #include "paim/codec/sequence_bounds.h"
-#include "paim/format/paim_file.h"
+#include "paim/format/paim/paim_file.h"
 #include "paim/image/exr.h"
 #include "paim/light/environment.h"
 #include "paim/light/sky.h"

@@ -9,7 +9,7 @@
 #include "paim/base/parallel.h"
 #include "paim/base/seed.h"
 #include "paim/mesh/normals.h"
-#include "paim/trace/scene.h"
+#include "paim/trace/ray_scene.h"
 #include "poses/octopus.h"
 
 namespace paim::bench {

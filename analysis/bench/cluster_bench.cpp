@@ -5,7 +5,7 @@
 
 #include "analysis/bench/ratio.h"
 #include "analysis/bench/synthetic_points.h"
-#include "compressor/encode/clustered_pca.h"
+#include "compressor/encode/cluster/clustered_pca.h"
 #include "paim/base/check.h"
 
 namespace paim::bench {

@@ -14,11 +14,11 @@
 #include "analysis/bench/ratio.h"
 #include "paim/base/parallel.h"
 #include "paim/base/seed.h"
-#include "paim/format/container_reader.h"
-#include "paim/format/paim_file.h"
-#include "paim/format/paim_sections.h"
-#include "paim/format/zstd_codec.h"
-#include "paim/mesh/locality.h"
+#include "paim/format/container/container_reader.h"
+#include "paim/format/paim/paim_file.h"
+#include "paim/format/container/sections.h"
+#include "paim/format/pack/zstd_codec.h"
+#include "paim/mesh/cache_order.h"
 
 namespace paim::bench {
 

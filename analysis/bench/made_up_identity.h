@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "paim/format/bake_directory.h"
+#include "paim/format/bake/bake_directory.h"
 
 namespace paim {
 

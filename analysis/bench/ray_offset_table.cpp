@@ -25,7 +25,7 @@
 #include "paim/base/parallel.h"
 #include "paim/base/seed.h"
 #include "paim/cli/run_main.h"
-#include "paim/trace/scene.h"
+#include "paim/trace/ray_scene.h"
 #include "poses/octopus.h"
 #include "poses/shapes.h"
 

@@ -8,7 +8,7 @@
 #include "analysis/bench/made_up_identity.h"
 #include "paim/base/parallel.h"
 #include "paim/base/seed.h"
-#include "paim/format/bake_directory.h"
+#include "paim/format/bake/bake_directory.h"
 
 namespace paim::bench {
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "compressor/encode/point_source.h"
+#include "compressor/encode/data/point_source.h"
 #include "paim/base/seed.h"
 
 namespace paim::bench {

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
-#include "paim/format/bake_directory.h"
-#include "paim/format/paim_file.h"
-#include "paim/metrics/spectrum.h"
+#include "paim/format/bake/bake_directory.h"
+#include "paim/format/paim/paim_file.h"
+#include "paim/metrics/singular_value_error.h"
 
 namespace paim {
 

@@ -5,8 +5,8 @@
 
 #include <optional>
 
-#include "paim/format/paim_file.h"
-#include "paim/format/prefixes.h"
+#include "paim/format/paim/paim_file.h"
+#include "paim/format/paim/prefixes.h"
 #include "paim/metrics/prefix_error.h"
 
 namespace paim {

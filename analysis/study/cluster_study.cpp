@@ -15,10 +15,10 @@
 #include <vector>
 
 #include "analysis/bench/synthetic_points.h"
-#include "compressor/encode/bake_rows.h"
-#include "compressor/encode/clustered_pca.h"
-#include "compressor/encode/clustering.h"
-#include "compressor/encode/point_projection.h"
+#include "compressor/encode/data/bake_rows.h"
+#include "compressor/encode/cluster/clustered_pca.h"
+#include "compressor/encode/cluster/clustering.h"
+#include "compressor/encode/cluster/point_projection.h"
 #include "paim/base/error.h"
 
 namespace paim {

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "compressor/encode/target_encode.h"
+#include "compressor/encode/search/target_encode.h"
 #include "paim/base/file.h"
 #include "paim/cli/parse.h"
 #include "paim/cli/run_main.h"
-#include "paim/format/paim_file.h"
+#include "paim/format/paim/paim_file.h"
 #include "paim/metrics/rates.h"
 
 namespace {

@@ -8,10 +8,10 @@
 
 #include "analysis/study/baked_matrices.h"
 #include "analysis/study/studies.h"
-#include "compressor/encode/component_noise.h"
+#include "compressor/encode/noise/component_noise.h"
 #include "compressor/encode/encode.h"
-#include "compressor/encode/principal_components.h"
-#include "compressor/encode/shrinkage.h"
+#include "compressor/encode/svd/principal_components.h"
+#include "compressor/encode/noise/shrinkage.h"
 #include "paim/metrics/pose_space.h"
 #include "paim/metrics/transfer_error.h"
 

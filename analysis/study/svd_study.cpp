@@ -6,7 +6,7 @@
 
 #include "analysis/study/hard_matrices.h"
 #include "analysis/study/reference_svd.h"
-#include "compressor/encode/left_vectors.h"
+#include "compressor/encode/svd/left_singular_vectors.h"
 
 namespace paim {
 

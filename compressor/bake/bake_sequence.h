@@ -8,7 +8,7 @@
 
 #include "compressor/bake/transfer_baker.h"
 #include "compressor/scene/static_mesh.h"
-#include "paim/format/bake_directory.h"
+#include "paim/format/bake/bake_directory.h"
 #include "paim/mesh/pose_source.h"
 
 namespace paim {

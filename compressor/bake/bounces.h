@@ -10,7 +10,7 @@
 #include <functional>
 #include <vector>
 
-#include "compressor/bake/hit_rows.h"
+#include "compressor/bake/transport_row.h"
 #include "paim/mesh/topology.h"
 #include "paim/transfer/layout.h"
 

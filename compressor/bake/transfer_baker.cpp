@@ -9,14 +9,14 @@
 #include <cmath>
 #include <numeric>
 
-#include "compressor/bake/half_sums.h"
+#include "compressor/bake/split_estimate.h"
 #include "compressor/bake/noise_target.h"
 #include "compressor/bake/ray_offset.h"
 #include "paim/base/check.h"
 #include "paim/base/parallel.h"
 #include "paim/mesh/planes.h"
 #include "paim/sh/cosine_lobe.h"
-#include "paim/trace/scene.h"
+#include "paim/trace/ray_scene.h"
 
 namespace paim {
 

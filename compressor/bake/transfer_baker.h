@@ -11,7 +11,7 @@
 #include "compressor/bake/bounces.h"
 #include "compressor/bake/direction_sampler.h"
 #include "compressor/scene/static_mesh.h"
-#include "paim/format/bake_directory.h"
+#include "paim/format/bake/bake_directory.h"
 #include "paim/mesh/pose_source.h"
 #include "paim/sh/basis.h"
 #include "paim/transfer/layout.h"

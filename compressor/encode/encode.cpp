@@ -6,17 +6,17 @@
 
 #include <algorithm>
 
-#include "compressor/encode/bake_rows.h"
-#include "compressor/encode/component_noise.h"
-#include "compressor/encode/memory_plan.h"
-#include "compressor/encode/playable_scenery.h"
-#include "compressor/encode/principal_components.h"
-#include "compressor/encode/provenance.h"
-#include "compressor/encode/shrinkage.h"
+#include "compressor/encode/data/bake_rows.h"
+#include "compressor/encode/noise/component_noise.h"
+#include "compressor/encode/memory/memory_plan.h"
+#include "compressor/encode/data/playable_scenery.h"
+#include "compressor/encode/svd/principal_components.h"
+#include "compressor/encode/data/provenance.h"
+#include "compressor/encode/noise/shrinkage.h"
 #include "compressor/encode/state_errors.h"
 #include "paim/base/file.h"
-#include "paim/format/paim_file.h"
-#include "paim/metrics/spectrum.h"
+#include "paim/format/paim/paim_file.h"
+#include "paim/metrics/singular_value_error.h"
 
 namespace paim {
 

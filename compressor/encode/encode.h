@@ -10,9 +10,9 @@
 #include <span>
 #include <string>
 
-#include "compressor/encode/component_choice.h"
+#include "compressor/encode/noise/rank_selection.h"
 #include "paim/codec/model.h"
-#include "paim/format/bake_directory.h"
+#include "paim/format/bake/bake_directory.h"
 
 namespace paim {
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "paim/base/error.h"
-#include "paim/format/paim_file.h"
+#include "paim/format/paim/paim_file.h"
 
 namespace paim {
 

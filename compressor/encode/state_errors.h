@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <string>
 
-#include "compressor/encode/memory_plan.h"
-#include "paim/format/bake_directory.h"
+#include "compressor/encode/memory/memory_plan.h"
+#include "paim/format/bake/bake_directory.h"
 #include "paim/metrics/model_error.h"
 
 namespace paim {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "paim/format/bake_directory.h"
+#include "paim/format/bake/bake_directory.h"
 #include "paim/mesh/pose_source.h"
 
 namespace paim {

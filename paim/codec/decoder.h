@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "paim/codec/row_table.h"
+#include "paim/codec/basis_table.h"
 #include "paim/transfer/layout.h"
 
 namespace paim {

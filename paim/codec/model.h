@@ -84,7 +84,7 @@ struct Scenery {
 // Whose order vertices and triangles have.
 enum class VertexOrder : uint32_t {
     baked = 0,  // the bake's
-    local = 1,  // what local_order() makes of it (mesh/locality.h)
+    local = 1,  // what local_order() makes of it (mesh/cache_order.h)
 };
 
 struct Model {

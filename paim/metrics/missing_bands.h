@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "paim/metrics/light_spectrum.h"
+#include "paim/metrics/band_power.h"
 
 namespace paim {
 

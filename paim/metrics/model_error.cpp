@@ -8,7 +8,7 @@
 #include "paim/base/parallel.h"
 #include "paim/codec/component_planes.h"
 #include "paim/codec/pose_parts.h"
-#include "paim/format/metadata.h"
+#include "paim/format/container/metadata.h"
 #include "paim/metrics/pose_space.h"
 #include "paim/metrics/vertex_match.h"
 

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "paim/codec/model.h"
-#include "paim/format/bake_directory.h"
+#include "paim/format/bake/bake_directory.h"
 #include "paim/metrics/geometry_error.h"
-#include "paim/metrics/light_spectrum.h"
+#include "paim/metrics/band_power.h"
 #include "paim/metrics/scenery_error.h"
 #include "paim/metrics/transfer_error.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "paim/codec/model.h"
-#include "paim/metrics/light_spectrum.h"
+#include "paim/metrics/band_power.h"
 #include "paim/metrics/model_error.h"
 
 namespace paim {

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "paim/metrics/light_spectrum.h"
+#include "paim/metrics/band_power.h"
 #include "paim/transfer/layout.h"
 
 namespace paim {

@@ -6,7 +6,7 @@
 
 #include "paim/base/check.h"
 #include "paim/base/error.h"
-#include "paim/mesh/locality.h"
+#include "paim/mesh/cache_order.h"
 
 namespace paim {
 

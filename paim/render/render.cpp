@@ -4,7 +4,7 @@
 
 #include "paim/base/check.h"
 #include "paim/base/parallel.h"
-#include "paim/trace/scene.h"
+#include "paim/trace/ray_scene.h"
 
 namespace paim {
 

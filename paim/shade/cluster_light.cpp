@@ -10,7 +10,7 @@
 #include "paim/base/parallel.h"
 #include "paim/codec/accumulate.h"
 #include "paim/codec/low_rank.h"
-#include "paim/codec/row_table.h"
+#include "paim/codec/basis_table.h"
 
 namespace paim {
 

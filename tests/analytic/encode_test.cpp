@@ -8,8 +8,8 @@
 
 #include "compressor/bake/bake_sequence.h"
 #include "paim/codec/svd_decoder.h"
-#include "paim/format/paim_file.h"
-#include "paim/metrics/spectrum.h"
+#include "paim/format/paim/paim_file.h"
+#include "paim/metrics/singular_value_error.h"
 #include "poses/octopus.h"
 #include "tests/temporary_directory.h"
 

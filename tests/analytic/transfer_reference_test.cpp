@@ -8,7 +8,7 @@
 #include "compressor/bake/transfer_baker.h"
 #include "paim/base/seed.h"
 #include "paim/sh/basis_reference.h"
-#include "paim/trace/scene.h"
+#include "paim/trace/ray_scene.h"
 #include "poses/octopus.h"
 
 namespace paim {

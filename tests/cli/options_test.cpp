@@ -1,7 +1,7 @@
 // What the options of paim-compress do, through what the tools and the library read back.
 #include "paim/codec/svd_decoder.h"
-#include "paim/format/bake_directory.h"
-#include "paim/format/paim_file.h"
+#include "paim/format/bake/bake_directory.h"
+#include "paim/format/paim/paim_file.h"
 #include "tests/cli/tool_test.h"
 
 namespace paim {

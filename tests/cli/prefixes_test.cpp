@@ -1,8 +1,8 @@
 // paim-info --prefixes: the table, the JSON object, and files that have no prefixes.
 #include <algorithm>
 
-#include "paim/format/paim_file.h"
-#include "paim/format/prefixes.h"
+#include "paim/format/paim/paim_file.h"
+#include "paim/format/paim/prefixes.h"
 #include "paim/metrics/model_error.h"
 #include "tests/cli/tool_test.h"
 

@@ -1,8 +1,8 @@
 // What a sequence stands on and among, through the tools: floors, scenery and light that bounces.
 #include <fmt/format.h>
 
-#include "paim/format/bake_directory.h"
-#include "paim/format/paim_file.h"
+#include "paim/format/bake/bake_directory.h"
+#include "paim/format/paim/paim_file.h"
 #include "paim/image/exr.h"
 #include "tests/cli/tool_test.h"
 

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <functional>
 
-#include "paim/format/paim_file.h"
+#include "paim/format/paim/paim_file.h"
 #include "paim/image/exr.h"
 #include "paim/metrics/model_error.h"
 #include "tests/cli/tool_test.h"

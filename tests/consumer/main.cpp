@@ -8,7 +8,7 @@
 #include "paim/base/error.h"
 #include "paim/base/version.h"
 #include "paim/codec/svd_decoder.h"
-#include "paim/format/paim_file.h"
+#include "paim/format/paim/paim_file.h"
 #include "paim/shade/shade.h"
 
 int main(int argc, char** argv) {

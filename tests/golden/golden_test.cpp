@@ -9,7 +9,7 @@
 
 #include "paim/base/file.h"
 #include "paim/codec/svd_decoder.h"
-#include "paim/format/paim_file.h"
+#include "paim/format/paim/paim_file.h"
 #include "tests/example_model.h"
 #include "tests/temporary_directory.h"
 

@@ -7,8 +7,8 @@
 
 #include "paim/base/file.h"
 #include "paim/codec/model.h"
-#include "paim/format/paim_file.h"
-#include "paim/format/prefixes.h"
+#include "paim/format/paim/paim_file.h"
+#include "paim/format/paim/prefixes.h"
 
 namespace paim::player {
 

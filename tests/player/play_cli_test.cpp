@@ -10,7 +10,7 @@
 #include "paim/base/file.h"
 #include "paim/codec/make_decoder.h"
 #include "paim/codec/sequence_bounds.h"
-#include "paim/format/paim_file.h"
+#include "paim/format/paim/paim_file.h"
 #include "paim/image/exr.h"
 #include "paim/light/environment.h"
 #include "paim/light/sky.h"

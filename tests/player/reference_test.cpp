@@ -7,7 +7,7 @@
 #include "compressor/encode/encode.h"
 #include "paim/codec/sequence_bounds.h"
 #include "paim/codec/svd_decoder.h"
-#include "paim/format/paim_file.h"
+#include "paim/format/paim/paim_file.h"
 #include "paim/image/exr.h"
 #include "paim/image/tone.h"
 #include "paim/light/environment.h"

@@ -10,7 +10,7 @@
 #include "paim/base/seed.h"
 #include "paim/mesh/mesh_report.h"
 #include "paim/mesh/pose_set.h"
-#include "paim/trace/scene.h"
+#include "paim/trace/ray_scene.h"
 #include "poses/octopus.h"
 #include "poses/shapes.h"
 

@@ -6,7 +6,7 @@
 
 #include "paim/metrics/array_error.h"
 #include "paim/metrics/image_error.h"
-#include "paim/metrics/spectrum.h"
+#include "paim/metrics/singular_value_error.h"
 
 namespace paim {
 namespace {

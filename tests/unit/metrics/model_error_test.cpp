@@ -9,7 +9,7 @@
 #include "analysis/bench/made_up_identity.h"
 #include "paim/base/error.h"
 #include "paim/codec/make_decoder.h"
-#include "paim/mesh/locality.h"
+#include "paim/mesh/cache_order.h"
 #include "tests/example_model.h"
 #include "tests/temporary_directory.h"
 

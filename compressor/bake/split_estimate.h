@@ -1,0 +1,62 @@
+// What half of a vertex's rays says about its transfer, and how the two halves check each other.
+// Based on: Owen, Monte Carlo Theory, Methods and Examples, 2013, chapter 8.9 (control variates)
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "compressor/bake/direction_sampler.h"
+#include "paim/sh/basis.h"
+#include "paim/trace/ray_scene.h"
+
+namespace paim {
+
+// Running sums over the rays of one half.
+struct HalfSums {
+    explicit HalfSums(size_t num_coefficients) : all(num_coefficients), open(num_coefficients) {}
+
+    std::vector<double> all;   // [C] Σ weight · y_i
+    std::vector<double> open;  // [C] the same over rays that are not blocked
+    uint64_t num_points = 0;   // of the sampler
+    uint64_t num_rays = 0;     // of these, above the horizon and traced
+    uint64_t num_blocked = 0;  // of these
+};
+
+// Traces the rays of one half and adds them up. One for each thread and half.
+class HalfTracer {
+  public:
+    explicit HalfTracer(const sh::BatchBasis& basis);
+
+    // Traces and counts; the sums are left alone until add().
+    void trace(const Scene& scene, const Vec3f& origin, const Vec3f& normal,
+               const DirectionSampler& sampler, uint64_t key, HalfSums& sums);
+
+    // Adds the rays that were traced last to the sums.
+    void add(HalfSums& sums);
+
+  private:
+    void accumulate(std::span<const float> weights, std::vector<double>& sums);
+
+    const sh::BatchBasis& basis_;
+    RaySet rays_;
+    std::vector<float> blocked_;       // [rays] 1 or 0
+    std::vector<float> open_weights_;  // [padded rays]
+    std::vector<float> lanes_;         // [C][kSumLanes]
+};
+
+// Each half's estimate of the transfer is
+//
+//     t_i = c · lobe_i + (open_i − c · all_i) / points,
+//
+// unbiased for any c that does not come from those rays. c is the fraction of open rays in the
+// *other* half: open vertices (c = 1) get the closed form exactly, closed ones (c = 0) exactly
+// zero, and in between the unoccluded part, whose integral is known, carries no noise of its own.
+// Half the difference of the two estimates is the standard error of their mean.
+// halves       both, whether their sums were added up or (all open or all blocked) not
+// unoccluded   [C] the transfer if nothing is blocked; empty: c = 0
+// estimates    [2][C]
+void estimate_halves(std::span<const HalfSums, 2> halves, std::span<const double> unoccluded,
+                     std::span<double> estimates);
+
+}  // namespace paim

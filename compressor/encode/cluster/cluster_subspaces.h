@@ -1,0 +1,67 @@
+// What stands for clusters while points are assigned to them: affine subspaces.
+// Based on: Kambhatla and Leen 1997; Sloan, Hall, Hart and Snyder 2003 (clustering.h)
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <vector>
+
+#include "compressor/encode/cluster/cluster_members.h"
+#include "compressor/encode/cluster/clustering.h"
+
+namespace paim {
+
+// The mean of each cluster and an orthonormal basis of the directions in which its members spread.
+class ClusterSubspaces {
+  public:
+    // d dimensions, K directions
+    ClusterSubspaces(Eigen::Index num_dimensions, uint32_t num_clusters, uint32_t num_components);
+
+    uint32_t num_clusters() const { return num_clusters_; }
+    uint32_t num_components() const { return num_components_; }
+
+    void set_mean(uint32_t c, const Eigen::VectorXf& mean);
+
+    // The mean of the members, exactly, and their principal directions by a few steps of subspace
+    // iteration that start where the last fit ended. A cluster has no more directions than its
+    // members span; empty clusters stay as they were. seed keys the first start.
+    void fit(const Eigen::MatrixXf& points, const ClusterMembers& members, uint64_t seed);
+
+    // With room for more directions, which the next fit finds.
+    ClusterSubspaces with_components(uint32_t num_components) const;
+
+    // How much of the cluster's own fit its member x is, 0 … 1, as the last fit left it:
+    // 1/size + Σ_k (b_k · (x − mean))² / Σ over members. 0 before any fit.
+    float leverage(uint32_t c, const Eigen::Ref<const Eigen::VectorXf>& x) const;
+
+    // Columns c (K + 1) + j: the mean (j = 0), then the directions; zero where there is none.
+    const Eigen::MatrixXf& columns() const { return columns_; }
+    // Products of each column with its cluster's mean.
+    const Eigen::VectorXf& products() const { return products_; }
+
+  private:
+    void fit_cluster(const Eigen::MatrixXf& points, const ClusterMembers& members, size_t c,
+                     uint64_t seed);
+
+    uint32_t num_clusters_;
+    uint32_t num_components_;
+    Eigen::MatrixXf columns_;   // [d][clusters (K + 1)]
+    Eigen::VectorXf products_;  // [clusters (K + 1)]
+    // [clusters (K + 1)] 1 / size, then 1 / sum of squares along each direction; 0 where unknown
+    Eigen::VectorXf inverse_spread_;
+};
+
+// Moves each point to the cluster whose subspace is nearest; of equals to the first. The squared
+// distance to its own cluster counts 1/(1 − leverage) times: by that much the cluster's error falls
+// when it leaves, for a fit always leans towards its own members (Hartigan and Wong, Algorithm AS
+// 136: A K-Means Clustering Algorithm, 1979, where directions are none and leverage is 1/size; Cook
+// and Weisberg, Residuals and Influence in Regression, 1982).
+// cluster  [V] in: where they are, for the neighbours' sake; out: where they belong
+// neighbour_cost  squared distance that each neighbour in another cluster adds; graph if not 0
+// squared_distance [V] out: to that subspace, without what neighbours cost
+void assign_points(const Eigen::MatrixXf& points, const ClusterSubspaces& subspaces,
+                   float neighbour_cost, const PointGraph* graph, std::vector<uint32_t>& cluster,
+                   std::vector<float>& squared_distance);
+
+}  // namespace paim

@@ -1,0 +1,61 @@
+// Subspace iteration.
+// Based on: Rutishauser 1970 (see the header)
+#include "compressor/encode/cluster/top_eigenpairs.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+
+#include <algorithm>
+
+#include "paim/base/seed.h"
+
+namespace paim {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+Index iterated_directions(Index wanted, Index n) {
+    return std::min(n, wanted + std::max<Index>(8, wanted / 2));
+}
+
+MatrixXd orthonormal_basis(const MatrixXd& columns) {
+    const Eigen::HouseholderQR<MatrixXd> qr(columns);
+    return qr.householderQ() * MatrixXd::Identity(columns.rows(), columns.cols());
+}
+
+Eigenpairs ritz_pairs(const MatrixXd& q, const MatrixXd& gram_q, Index wanted) {
+    MatrixXd within = q.transpose() * gram_q;
+    within = 0.5 * (within + within.transpose()).eval();
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(within);
+    wanted = std::min(wanted, q.cols());
+    return {solver.eigenvalues().tail(wanted).reverse().cwiseMax(0.0),
+            q * solver.eigenvectors().rightCols(wanted).rowwise().reverse()};
+}
+
+Eigenpairs top_eigenpairs(const MatrixXd& gram, Index wanted, uint64_t key) {
+    const Index n = gram.rows();
+    wanted = std::min(wanted, n);
+    const Index iterated = iterated_directions(wanted, n);
+    // Measured: from about here on iterating is the faster of the two.
+    if (n <= 4 * iterated) {
+        const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(gram);
+        return {solver.eigenvalues().tail(wanted).reverse().cwiseMax(0.0),
+                solver.eigenvectors().rightCols(wanted).rowwise().reverse()};
+    }
+    constexpr int kMaxSteps = 200, kStepsACheck = 2;
+    RandomStream random(key);
+    MatrixXd q = MatrixXd::NullaryExpr(n, iterated, [&] { return random.uniform() - 0.5; });
+    q = orthonormal_basis(q);
+    Eigenpairs pairs;
+    double sum = 0.0;
+    for (int step = 0; step < kMaxSteps; step += kStepsACheck) {
+        for (int s = 0; s < kStepsACheck; ++s) q = orthonormal_basis(gram * q);
+        pairs = ritz_pairs(q, gram * q, wanted);
+        const double next = pairs.values.sum();
+        if (next - sum <= 0x1p-40 * gram.trace()) break;
+        sum = next;
+    }
+    return pairs;
+}
+
+}  // namespace paim

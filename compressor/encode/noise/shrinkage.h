@@ -1,0 +1,59 @@
+// Scales components down by what of them is noise.
+// Based on: Wiener, Extrapolation, Interpolation, and Smoothing of Stationary Time Series, 1949; Efron
+//           and Morris, Stein's Estimation Rule and Its Competitors: An Empirical Bayes Approach, 1973
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "compressor/encode/noise/component_noise.h"
+
+namespace paim {
+
+// What encoding with shrinkage leaves as error, as energies (sums of squares over rows and poses).
+struct EncodedError {
+    double truncation = 0.0;  // signal of the components that are dropped
+    double noise = 0.0;       // noise that stays, and signal that is lost with the rest
+    double total() const { return truncation + noise; }
+};
+
+// The same if nothing is shrunk.
+EncodedError expected_error_unshrunk(const ComponentNoise& noise, uint32_t num_components);
+
+// Each row of component k is multiplied by signal / (signal + noise), the Wiener factor, which has the
+// least mean square error. Both differ much between vertices (open ones have no noise, still ones no
+// signal) and bands (high ones have more noise); so their energies are modelled as a product of what
+// the vertex has in the band and the share of the component in the band:
+//
+//     signal(v, l, k) = max(0, E_vl − N_vl) · h_lk        h_lk = max(0, e_lk − d_lk) / Σ_k max(0, e_lk − d_lk)
+//     noise (v, l, k) = N_vl · q_lk                       q_lk = d_lk / Σ_v N_vl
+//
+// E and N are vertex_energy and vertex_noise, e and d energy and noise of ComponentNoise.
+class Shrinkage {
+  public:
+    explicit Shrinkage(const ComponentNoise& noise);
+
+    // The factor of component k at a vertex in a band, 0 … 1; 1 where nothing is noise.
+    double factor(uint32_t band, size_t v, uint32_t k) const;
+
+    // Multiplies rows of the components, the first of which is row `first` of the data matrix.
+    void apply(uint64_t first, std::vector<std::vector<float>>& components) const;
+
+    // What is expected to be left as error if K components are kept and shrunk.
+    EncodedError expected_error(uint32_t num_components) const;
+
+  private:
+    // Expected squared error of the first components at a vertex in a band.
+    double risk(uint32_t band, size_t v, Eigen::Index num_components) const;
+
+    TransferLayout layout_;
+    size_t num_vertices_;
+    uint32_t num_poses_;
+    Eigen::Index num_above_noise_;
+    double mean_noise_;
+    std::vector<double> signal_, noise_;  // [bands][V] E − N, which may be negative, and N
+    Eigen::MatrixXd signal_share_, noise_share_;  // [bands][K]
+    Eigen::VectorXd component_signal_;  // [K] e − d over all bands, which may be negative
+};
+
+}  // namespace paim

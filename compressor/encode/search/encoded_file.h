@@ -1,0 +1,64 @@
+// Files that meet a target, ready to be written.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compressor/encode/search/rate_control.h"
+#include "paim/format/paim/paim_packer.h"
+
+namespace paim {
+
+struct TargetFile {
+    PackedFile file;
+    ModelError error;  // measured
+    Targets targets;   // that were met
+    std::vector<Candidate> candidates;
+    uint32_t geometry_components = 0;
+    Coding coding;  // with the steps that it was made with
+};
+
+class TargetFiles {
+  public:
+    TargetFiles(const Material& material, const EncodeOptions& options, const EncodeTarget& target)
+        : material_(material),
+          options_(options),
+          target_(target),
+          search_(material, options, target) {}
+
+    Targets targets(double transfer_error) const {
+        return targets_of(material_, target_, transfer_error);
+    }
+
+    // Of a file of this error, beside geometry and transfer.
+    uint64_t frame_bytes(double transfer_error);
+
+    // A coding that should do for an error, and how large that makes geometry and transfer, about.
+    struct Draft {
+        Coding coding;
+        std::vector<Candidate> candidates;
+        uint64_t estimated_bytes = 0;  // without the frame
+    };
+    std::optional<Draft> draft(double transfer_error, std::string& reason);
+
+    // The file of this error. Nothing, with the reason, if there is none.
+    // draft  of this error or one near by, with steps that should meet it
+    std::optional<TargetFile> meet(double transfer_error, std::string& reason);
+    std::optional<TargetFile> meet(double transfer_error, Draft draft, std::string& reason);
+
+  private:
+    std::optional<TargetFile> pack(const Targets& targets, std::vector<Candidate> candidates,
+                                   RefinedModel refined, std::string& reason) const;
+    const QuantisedScenery& scenery_of(const Targets& targets);
+    std::string bake_name() const { return material_.bake.directory().string(); }
+
+    const Material& material_;
+    const EncodeOptions& options_;
+    const EncodeTarget& target_;
+    CodingSearch search_;
+    QuantisedScenery scenery_;  // of the last targets that were asked about
+    std::optional<Targets> scenery_targets_;
+};
+
+}  // namespace paim

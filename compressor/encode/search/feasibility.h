@@ -1,0 +1,14 @@
+// What no file of a bake can meet.
+#pragma once
+
+#include "compressor/encode/search/problem.h"
+
+namespace paim {
+
+// Error (threshold exceeded): the bake's file for this error.
+[[noreturn]] void throw_missed(const std::string& message);
+
+// Refuses transfer errors below what noise and bands of the bake leave, with the best that there is.
+void check_reachable(const Material& material, double transfer_error);
+
+}  // namespace paim

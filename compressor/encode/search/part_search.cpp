@@ -1,0 +1,75 @@
+// The cheapest integers for a part of an animation.
+#include "compressor/encode/search/part_search.h"
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "compressor/encode/search/matrix_cost.h"
+
+namespace paim {
+
+std::vector<double> tail_errors(const Scores& scores, const std::vector<double>& plane_weight) {
+    std::vector<double> tails(scores.num_components() + 1, 0.0);
+    for (uint32_t k = scores.num_components(); k-- > 0;) {
+        double energy = 0.0;
+        for (uint32_t j = 0; j < scores.num_planes; ++j) {
+            double sum = 0.0;
+            for (const float value : scores.plane(scores.components[k], j)) {
+                sum += static_cast<double>(value) * static_cast<double>(value);
+            }
+            energy += plane_weight[j] * sum;
+        }
+        tails[k] = tails[k + 1] + scores.num_poses() * energy;
+    }
+    return tails;
+}
+
+std::vector<PartChoice> part_choices(const Scores& scores, const std::vector<double>& plane_weight,
+                                     double most_error, uint32_t most_components,
+                                     const PlanePredictor& predictor) {
+    // Few enough values that a step is found in a moment, enough that it is the right one.
+    constexpr size_t kSampledValues = 2'000'000;
+    Scores few = sample(scores, kSampledValues);
+    const Quantiser all{1.0, scores.num_components(), plane_weight};
+    if (smallest_step(few, all, Precision::i16) == 0.0) few = scores;  // it missed what there is
+    const double sampled = static_cast<double>(few.num_points) / scores.num_points;
+    const std::vector<double> tails = tail_errors(scores, plane_weight);
+
+    // Shares of the error that dropped components may take.
+    constexpr std::array<double, 6> kShares{0.0, 0.1, 0.25, 0.45, 0.65, 0.8};
+    std::set<uint32_t> counts;
+    for (const double share : kShares) {
+        uint32_t k = 0;
+        while (k < scores.num_components() && tails[k] > share * most_error) ++k;
+        counts.insert(std::min(k, most_components));
+    }
+    std::vector<PartChoice> choices;
+    for (const uint32_t count : counts) {
+        if (tails[count] > most_error) continue;
+        PartChoice choice;
+        choice.quantiser = {1.0, count, plane_weight};
+        choice.quantiser.step = largest_step(few, choice.quantiser, sampled * most_error);
+        if (choice.quantiser.step == 0.0) continue;
+        choice.quantiser.step = std::max(choice.quantiser.step,
+                                         smallest_step(scores, choice.quantiser, Precision::i16));
+        const LowRankMatrix matrix = quantise(scores, choice.quantiser);
+        choice.num_components = matrix.num_components;
+        choice.bytes = stored_bytes(matrix, predictor, Effort::fast);
+        choices.push_back(std::move(choice));
+    }
+    return choices;
+}
+
+std::optional<PartChoice> cheapest_part(std::vector<PartChoice> choices) {
+    if (choices.empty()) return std::nullopt;
+    uint64_t fewest = choices[0].bytes;
+    for (const PartChoice& choice : choices) fewest = std::min(fewest, choice.bytes);
+    // Counts ascend.
+    const auto best = std::find_if(choices.begin(), choices.end(), [&](const PartChoice& choice) {
+        return choice.bytes <= fewest + fewest / 100;
+    });
+    return std::move(*best);
+}
+
+}  // namespace paim

@@ -1,0 +1,35 @@
+// The cheapest integers for a part of an animation whose error must stay below something.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "compressor/encode/quantise/quantise.h"
+#include "paim/format/pack/plane_predictor.h"
+
+namespace paim {
+
+struct PartChoice {
+    Quantiser quantiser;
+    uint32_t num_components = 0;  // that are more than zero
+    uint64_t bytes = 0;           // stored_bytes() with fast effort
+};
+
+// Several numbers of components, ascending, each with the largest step that meets the error; none if no
+// step is small enough.
+// plane_weight     of squared errors
+// most_error       weighted, Σ over rows and poses
+// most_components  of the scores that may be kept
+std::vector<PartChoice> part_choices(const Scores& scores, const std::vector<double>& plane_weight,
+                                     double most_error, uint32_t most_components,
+                                     const PlanePredictor& predictor);
+
+// Of these the one with the fewest bytes, or fewer components within 1 % of it.
+std::optional<PartChoice> cheapest_part(std::vector<PartChoice> choices);
+
+// Weighted squares of the components from the k-th on, Σ over rows and poses: what is lost without
+// them. [K + 1]
+std::vector<double> tail_errors(const Scores& scores, const std::vector<double>& plane_weight);
+
+}  // namespace paim

@@ -1,0 +1,93 @@
+// Steps that meet a target, measured.
+#include "compressor/encode/search/rate_control.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "compressor/encode/quantise/float_part.h"
+#include "compressor/encode/quantise/trim_bands.h"
+#include "paim/base/error.h"
+
+namespace paim {
+
+namespace {
+
+Model build(const Material& material, const Scenery& scenery, const Coding& coding) {
+    Model model = material.frame;
+    model.scenery = scenery;
+    model.geometry = is_integer(coding.geometry_precision)
+                         ? quantise(material.geometry, coding.geometry)
+                         : float_part(material.geometry, coding.geometry.num_components,
+                                      coding.geometry_precision);
+    coding.transfer.apply(material, model);
+    trim_bands(model);
+    return model;
+}
+
+// Errors above the floor grow about as the step does.
+void scale_step(double from, double to, double floor, double slack, Quantiser& quantiser) {
+    const double now = from * from - floor * floor;
+    const double wanted = to * to - floor * floor;
+    if (now > 0.0 && wanted > 0.0) {
+        quantiser.step *= std::clamp(slack * std::sqrt(wanted / now), 0.5, 1.25);
+    }
+}
+
+// Floats have no step: one more component.
+void adjust(Quantiser& quantiser, Precision precision, bool coarser, double error, double target,
+            double floor) {
+    constexpr double kSlack = 0.997;
+    if (is_integer(precision)) {
+        scale_step(error, target, floor, kSlack, quantiser);
+    } else if (!coarser && error > target) {
+        ++quantiser.num_components;
+    }
+}
+
+}  // namespace
+
+std::optional<RefinedModel> refine(const Material& material, const QuantisedScenery& still,
+                                   Coding coding, const Targets& targets) {
+    constexpr int kMostRounds = 8;
+    constexpr double kRoom = 0.985;  // below this share of a target a coarser step is tried
+    const double floor = material.floor.transfer.total();
+    std::optional<RefinedModel> best;
+    for (int round = 0; round < kMostRounds; ++round) {
+        Model model;
+        try {
+            model = build(material, still.scenery, coding);
+        } catch (const Error& error_of_step) {
+            // Finer than values of 16 bits can be: what there is, is the best there is.
+            if (error_of_step.code() != ExitCode::unsupported) throw;
+            break;
+        }
+        ModelError measured = measure_animation(model, material.bake, material.spectrum);
+        measured.scenery = still.error;
+        const double transfer = measured.transfer.total();
+        const double geometry = measured.geometry.rms();
+        const bool good = transfer <= targets.transfer && geometry <= targets.geometry;
+        if (best && !good) break;  // a step too far
+        if (good) best = RefinedModel{std::move(model), measured, coding};
+        const bool room =
+            transfer < kRoom * targets.transfer || geometry < kRoom * targets.geometry;
+        if (good && (!room || round >= 3)) break;
+        const bool coarser = good;
+        adjust(coding.transfer.quantiser, coding.transfer.precision, coarser, transfer,
+               targets.transfer, floor);
+        adjust(coding.geometry, coding.geometry_precision, coarser, geometry, targets.geometry,
+               0.0);
+    }
+    return best;
+}
+
+void scale_steps(const Material& material, const Targets& from, const Targets& to, Coding& coding) {
+    if (is_integer(coding.transfer.precision)) {
+        scale_step(from.transfer, to.transfer, material.floor.transfer.total(), 1.0,
+                   coding.transfer.quantiser);
+    }
+    if (is_integer(coding.geometry_precision)) {
+        scale_step(from.geometry, to.geometry, 0.0, 1.0, coding.geometry);
+    }
+}
+
+}  // namespace paim

@@ -1,0 +1,26 @@
+// Steps that meet a target, measured.
+#pragma once
+
+#include <optional>
+
+#include "compressor/encode/search/quantise_scenery.h"
+#include "compressor/encode/search/settings_search.h"
+
+namespace paim {
+
+struct RefinedModel {
+    Model model;
+    ModelError error;  // measured
+    Coding coding;     // with the steps that it was made with
+};
+
+// Makes steps finer until both errors, measured, are within the targets, and coarser where there is
+// room. Nothing if no step was found.
+// still  of these targets
+std::optional<RefinedModel> refine(const Material& material, const QuantisedScenery& still,
+                                   Coding coding, const Targets& targets);
+
+// Steps that should do for other targets, where those of `from` were met.
+void scale_steps(const Material& material, const Targets& from, const Targets& to, Coding& coding);
+
+}  // namespace paim

@@ -1,0 +1,73 @@
+// From an error to a file: the cheapest .paim that meets a target.
+#include "compressor/encode/search/target_encode.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "compressor/encode/search/feasibility.h"
+#include "compressor/encode/search/size_fit.h"
+#include "paim/base/check.h"
+#include "paim/base/file.h"
+
+namespace paim {
+
+namespace {
+
+// Of this error, and of this size if one is asked for.
+TargetFile meet_error(const Material& material, TargetFiles& files, const EncodeTarget& target,
+                      double transfer_error) {
+    std::string reason;
+    std::optional<TargetFile> file = files.meet(transfer_error, reason);
+    if (!file) throw_missed(reason);
+    if (target.size_bytes && file->file.size_bytes() > *target.size_bytes) {
+        throw_missed(
+            fmt::format("{}: a transfer error of {:.3g} % takes {} bytes, --max-size allows {}",
+                        material.bake.directory().string(), 100.0 * transfer_error,
+                        file->file.size_bytes(), *target.size_bytes));
+    }
+    return std::move(*file);
+}
+
+}  // namespace
+
+const Candidate& TargetSummary::chosen() const {
+    const auto found = std::find_if(candidates.begin(), candidates.end(),
+                                    [](const Candidate& candidate) { return candidate.chosen; });
+    PAIM_CHECK(found != candidates.end());
+    return *found;
+}
+
+TargetSummary encode_to_target(const BakeReader& bake, const EncodeOptions& options,
+                               const EncodeTarget& target, const std::filesystem::path& output,
+                               const std::function<void(const char*)>& on_step) {
+    const auto say = [&](const char* step) {
+        if (on_step) on_step(step);
+    };
+    PAIM_CHECK(target.transfer_error || target.size_bytes);
+    remove_abandoned_files(std::filesystem::absolute(output).parent_path(),
+                           output.filename().string() + ".");
+    say("finding components");
+    const Material material = read_material(bake, options, target);
+    if (target.transfer_error) check_reachable(material, *target.transfer_error);
+    say("comparing ways to code them");
+    TargetFiles files(material, options, target);
+    TargetFile result = target.transfer_error
+                            ? meet_error(material, files, target, *target.transfer_error)
+                            : fit_size(material, files, *target.size_bytes, say);
+    result.file.write(output);
+    TargetSummary summary;
+    summary.error = result.error;
+    summary.floor = material.floor.transfer.total();
+    summary.transfer_target = result.targets.transfer;
+    summary.geometry_target = result.targets.geometry;
+    summary.candidates = std::move(result.candidates);
+    summary.geometry_components = result.geometry_components;
+    summary.num_vertices = material.geometry.num_points;
+    summary.num_poses = bake.num_poses();
+    summary.size_bytes = result.file.size_bytes();
+    return summary;
+}
+
+}  // namespace paim

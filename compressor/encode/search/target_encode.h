@@ -1,0 +1,36 @@
+// From an error to a file: the cheapest .paim that meets a target, measured after everything.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+
+#include "compressor/encode/encode.h"
+#include "compressor/encode/search/rate_target.h"
+#include "paim/metrics/model_error.h"
+
+namespace paim {
+
+struct TargetSummary {
+    ModelError error;              // of the file, measured
+    double floor = 0.0;            // transfer error of the best that this bake can give
+    double transfer_target = 0.0;  // that was met
+    double geometry_target = 0.0;  // RMS distance, scene units
+    std::vector<Candidate> candidates;
+    uint32_t geometry_components = 0;
+    uint32_t num_vertices = 0, num_poses = 0;
+    uint64_t size_bytes = 0;
+
+    const Candidate& chosen() const;
+};
+
+// Finds component counts, bands, steps and codec, writes the file, all or nothing, with the errors
+// that were measured in its provenance ("measured").
+// bake     verified (BakeReader::verify_all)
+// on_step  called with a line of text whenever something long begins
+// Errors: threshold exceeded, with the best that can be reached, if the target cannot; unsupported,
+// saying what is needed, if options.memory_bytes are not enough; output failed.
+TargetSummary encode_to_target(const BakeReader& bake, const EncodeOptions& options,
+                               const EncodeTarget& target, const std::filesystem::path& output,
+                               const std::function<void(const char*)>& on_step = {});
+
+}  // namespace paim

@@ -1,0 +1,159 @@
+// The .bake directory: manifest.json, mesh.bin and one self-contained, checksummed file a pose.
+// Layout: docs/format.md.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "paim/format/container/container_reader.h"
+#include "paim/format/bake/pose_statistics.h"
+#include "paim/mesh/pose_source.h"
+#include "paim/transfer/layout.h"
+
+namespace paim {
+
+// Everything that decides the bytes of a bake. Two bakes with the same identity may share a
+// directory.
+struct BakeIdentity {
+    uint32_t baker = 0;  // version of the baker, raised whenever the bytes it makes change
+    TransferLayout layout;
+    uint32_t rays = 0;  // per vertex; with a transfer_error, the most
+    uint64_t seed = 0;
+    double transfer_error = 0.0;  // what every vertex was baked to, 0: a fixed count of rays
+    std::string sampler;          // "cosine", "uniform" or "uniform-sobol"
+    std::string streams;          // "per-pose", "shared" or "mixed"
+    std::string normals;          // "faces" or "file"
+    uint32_t bounces = 0;         // of light between vertices
+    std::string floor;            // what ground was put under the poses; empty if none
+    uint32_t num_vertices = 0;
+    uint32_t num_triangles = 0;
+    uint64_t mesh_xxh3 = 0;        // of triangles and albedo
+    Vec3d origin = Vec3d::Zero();  // what positions are counted from, scene units
+    struct Source {
+        std::string name;
+        uint64_t xxh3 = 0;
+        bool operator==(const Source&) const = default;
+    };
+    std::vector<Source> poses;    // [P]
+    std::vector<Source> scenery;  // what stands still among them, checksums of all that was read
+
+    uint32_t num_poses() const { return static_cast<uint32_t>(poses.size()); }
+    bool operator==(const BakeIdentity&) const = default;
+};
+
+// Checksum of what all poses share.
+uint64_t mesh_checksum(const Topology& topology, const Albedo& albedo);
+
+// One baked pose. Planes as in transfer/layout.h.
+struct BakedPose {
+    std::vector<float> positions;  // [3][V] scene units
+    std::vector<float> normals;    // [3][V]
+    std::vector<float> transfer;   // [planes][V]
+    // [planes][V] one draw of the transfer's error: half the difference of its two independent
+    // halves, which has the mean (0) and the variance of that error. Files hold it as f16.
+    std::vector<float> noise;
+    PoseStatistics statistics;
+};
+
+// The number of the scenery where poses have theirs: in random streams and in metadata.
+constexpr uint32_t kSceneryPose = std::numeric_limits<uint32_t>::max();
+
+// What stands still among the poses, baked once, without them.
+struct BakedScenery {
+    Topology topology;
+    Albedo albedo;
+    BakedPose pose;
+};
+
+// What the bake of pose p found out about itself. Errors (bad input) name the file: damaged, or of
+// another pose or bake than the one with this checksum (bake_manifest.h) and number of bands.
+PoseStatistics read_bake_statistics(const std::filesystem::path& directory,
+                                    uint64_t identity_checksum, uint32_t p, uint32_t bands);
+
+// The scenery of a bake. Errors (bad input) name the file: missing, damaged, of another bake, or
+// shapes, indices or numbers that make no sense.
+BakedScenery read_bake_scenery(const std::filesystem::path& directory, uint64_t identity_checksum,
+                               const TransferLayout& layout);
+
+// Writes a bake, possibly one that was begun before.
+class BakeWriter {
+  public:
+    // Creates the directory, or goes on with the one that is there. Errors: bad input if it holds a
+    // bake of another identity (the first difference is named) or other files; output failed.
+    BakeWriter(std::filesystem::path directory, const BakeIdentity& identity,
+               const Topology& topology, const Albedo& albedo);
+
+    // Whether pose p is there, whole and of this identity.
+    bool has_pose(uint32_t p) const;
+
+    // What the bake of a pose that is there found out about itself.
+    PoseStatistics read_statistics(uint32_t p) const {
+        return read_bake_statistics(directory_, identity_checksum_, p, identity_.layout.bands);
+    }
+
+    // All or nothing; may be called from several threads.
+    void write_pose(uint32_t p, const BakedPose& pose) const;
+
+    // The same for the scenery of a bake whose identity names some.
+    bool has_scenery() const;
+    void write_scenery(const BakedScenery& scenery) const;
+
+  private:
+    std::filesystem::path directory_;
+    BakeIdentity identity_;
+    uint64_t identity_checksum_;
+};
+
+// Reads a complete bake.
+class BakeReader {
+  public:
+    // Errors (bad input) name the file: not a bake, damaged, poses missing.
+    explicit BakeReader(std::filesystem::path directory);
+
+    const std::filesystem::path& directory() const { return directory_; }
+    const BakeIdentity& identity() const { return identity_; }
+    const Topology& topology() const { return topology_; }
+    const Albedo& albedo() const { return albedo_; }
+    uint32_t num_poses() const { return identity_.num_poses(); }
+
+    // Nothing if the bake has none.
+    const std::optional<BakedScenery>& scenery() const { return scenery_; }
+
+    // Reads every byte of pose p and checks it. May be called from several threads.
+    BakedPose read_pose(uint32_t p) const;
+    PoseStatistics read_statistics(uint32_t p) const {
+        return read_bake_statistics(directory_, identity_checksum_, p, identity_.layout.bands);
+    }
+
+    // Of all files that belong to it.
+    uint64_t size_bytes() const;
+
+    // Of all poses together.
+    PoseStatistics total_statistics() const;
+
+    // Checks the checksums of all poses, once, before rows are streamed.
+    void verify_all() const;
+
+    // Rows [first, first + count) of positions (3 · V rows), transfer or noise (planes · V rows) of
+    // pose p.
+    void read_position_rows(uint32_t p, uint64_t first, uint64_t count, float* out) const;
+    void read_transfer_rows(uint32_t p, uint64_t first, uint64_t count, float* out) const;
+    void read_noise_rows(uint32_t p, uint64_t first, uint64_t count, float* out) const;
+
+  private:
+    std::filesystem::path directory_;
+    BakeIdentity identity_;
+    uint64_t identity_checksum_;
+    Topology topology_;
+    Albedo albedo_;
+    std::optional<BakedScenery> scenery_;
+};
+
+std::filesystem::path bake_pose_file(const std::filesystem::path& directory, uint32_t p);
+std::filesystem::path bake_scenery_file(const std::filesystem::path& directory);
+
+}  // namespace paim

@@ -1,0 +1,180 @@
+// The manifest of a .bake directory.
+#include "paim/format/bake/bake_manifest.h"
+
+#include <charconv>
+#include <limits>
+
+#include "paim/base/error.h"
+#include "paim/base/file.h"
+#include "paim/base/hash.h"
+#include "paim/codec/model.h"
+#include "paim/format/container/metadata.h"
+
+namespace paim {
+
+using nlohmann::ordered_json;
+
+namespace {
+
+constexpr uint32_t kManifestVersion = 2;
+constexpr uint32_t kMaxCount = std::numeric_limits<int32_t>::max();
+constexpr uint64_t kMaxSizeBytes = 64 << 20;
+
+// 64-bit numbers travel as 16 hexadecimal digits, since JSON readers may round them.
+std::string hex(uint64_t value) {
+    return fmt::format("{:016x}", value);
+}
+
+uint64_t parse_hex(const std::string& text, const std::string& file, const char* what) {
+    uint64_t value = 0;
+    const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value, 16);
+    if (text.size() != 16 || failure != std::errc() || end != text.data() + text.size()) {
+        throw_bad_input("{}: '{}': expected 16 hexadecimal digits, got '{}'", file, what, text);
+    }
+    return value;
+}
+
+std::string shown(const Vec3d& point) {
+    return fmt::format("({}, {}, {})", point.x(), point.y(), point.z());
+}
+
+// Of two lists of the same length.
+std::string first_difference(const char* what, const std::vector<BakeIdentity::Source>& there,
+                             const std::vector<BakeIdentity::Source>& wanted) {
+    for (size_t j = 0; j < wanted.size(); ++j) {
+        if (there[j] == wanted[j]) continue;
+        return fmt::format("{} {}: {} ({}) there, {} ({}) asked for", what, j, there[j].name,
+                           hex(there[j].xxh3), wanted[j].name, hex(wanted[j].xxh3));
+    }
+    return {};
+}
+
+}  // namespace
+
+std::string as_manifest_text(const std::string& text) {
+    const std::string dumped =
+        ordered_json(text).dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+    return ordered_json::parse(dumped).get<std::string>();
+}
+
+std::string manifest_text(const BakeIdentity& identity) {
+    ordered_json json;
+    json["format"] = "paim-bake";
+    json["version"] = kManifestVersion;
+    json["baker"] = identity.baker;
+    json["transfer_kind"] = "diffuse";
+    json["bands"] = identity.layout.bands;
+    json["channels"] = identity.layout.channels;
+    json["sampler"] = identity.sampler;
+    json["streams"] = identity.streams;
+    json["rays"] = identity.rays;
+    json["transfer_error"] = identity.transfer_error;
+    json["seed"] = hex(identity.seed);
+    json["normals"] = identity.normals;
+    if (identity.bounces > 0) json["bounces"] = identity.bounces;
+    if (!identity.floor.empty()) json["floor"] = identity.floor;
+    json["num_vertices"] = identity.num_vertices;
+    json["num_triangles"] = identity.num_triangles;
+    json["mesh_xxh3"] = hex(identity.mesh_xxh3);
+    // JSON numbers are written with all the digits that bring the same double back.
+    if (const Vec3d& o = identity.origin; !o.isZero(0.0)) json["origin"] = {o.x(), o.y(), o.z()};
+    ordered_json poses = ordered_json::array();
+    for (const auto& pose : identity.poses) {
+        poses.push_back({{"name", pose.name}, {"xxh3", hex(pose.xxh3)}});
+    }
+    json["poses"] = std::move(poses);
+    for (const auto& source : identity.scenery) {
+        json["static"].push_back({{"name", source.name}, {"xxh3", hex(source.xxh3)}});
+    }
+    return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+BakeIdentity read_manifest(const std::filesystem::path& path) {
+    const std::vector<char> bytes = read_file(path, kMaxSizeBytes);
+    const std::string file = path.string();
+    const Metadata metadata({bytes.data(), bytes.size()}, file);
+    if (metadata.text("format") != "paim-bake") throw_bad_input("{}: not a bake's manifest", file);
+    if (const uint32_t version = metadata.integer("version", 1, kMaxCount);
+        version != kManifestVersion) {
+        throw_unsupported("{}: bake version {}, expected {}", file, version, kManifestVersion);
+    }
+    if (metadata.text("transfer_kind") != "diffuse") {
+        throw_unsupported("{}: transfer of kind '{}'", file, metadata.text("transfer_kind"));
+    }
+    BakeIdentity identity;
+    identity.layout.bands = metadata.integer("bands", 1, sh::kMaxBands);
+    identity.layout.channels = metadata.integer("channels", 1, 3);
+    if (identity.layout.channels == 2) throw_unsupported("{}: 2 transfer channels", file);
+    identity.baker = metadata.integer("baker", 0, kMaxCount);
+    identity.rays = metadata.integer("rays", 1, kMaxCount);
+    identity.sampler = metadata.text("sampler");
+    identity.streams = metadata.text("streams");
+    identity.transfer_error =
+        metadata.number("transfer_error", 0.0, std::numeric_limits<double>::max());
+    identity.seed = parse_hex(metadata.text("seed"), file, "seed");
+    identity.normals = metadata.text("normals");
+    if (metadata.root().contains("bounces")) {
+        identity.bounces = metadata.integer("bounces", 0, kMaxCount);
+    }
+    if (metadata.root().contains("floor")) identity.floor = metadata.text("floor");
+    identity.num_vertices = metadata.integer("num_vertices", 1, kMaxCount);
+    identity.num_triangles = metadata.integer("num_triangles", 1, kMaxCount);
+    identity.mesh_xxh3 = parse_hex(metadata.text("mesh_xxh3"), file, "mesh_xxh3");
+    identity.origin = metadata.point("origin");
+    const auto poses = metadata.root().find("poses");
+    if (poses == metadata.root().end() || !poses->is_array() || poses->empty()) {
+        throw_bad_input("{}: 'poses': expected a list of at least one pose", file);
+    }
+    if (poses->size() > kMaxPoses) {
+        throw_unsupported("{}: {} poses, expected at most {}", file, poses->size(), kMaxPoses);
+    }
+    const auto source_of = [&](const nlohmann::json& entry) {
+        const Metadata source = Metadata::part(entry, file);
+        return BakeIdentity::Source{source.text("name"),
+                                    parse_hex(source.text("xxh3"), file, "xxh3")};
+    };
+    for (const nlohmann::json& entry : *poses) identity.poses.push_back(source_of(entry));
+    const auto scenery = metadata.root().find("static");
+    if (scenery == metadata.root().end()) return identity;
+    if (!scenery->is_array() || scenery->empty()) {
+        throw_bad_input("{}: 'static': expected a list of at least one file", file);
+    }
+    for (const nlohmann::json& entry : *scenery) identity.scenery.push_back(source_of(entry));
+    return identity;
+}
+
+std::string first_difference(const BakeIdentity& there, const BakeIdentity& wanted) {
+    const auto differ = [](const char* what, const auto& a, const auto& b) {
+        return a == b ? std::string() : fmt::format("{}: {} there, {} asked for", what, a, b);
+    };
+    const auto or_none = [](const std::string& text) { return text.empty() ? "none" : text; };
+    for (const std::string& difference :
+         {differ("baker", there.baker, wanted.baker),
+          differ("bounces", there.bounces, wanted.bounces),
+          differ("bands", there.layout.bands, wanted.layout.bands),
+          differ("channels", there.layout.channels, wanted.layout.channels),
+          differ("sampler", there.sampler, wanted.sampler),
+          differ("streams", there.streams, wanted.streams),
+          differ("transfer error", there.transfer_error, wanted.transfer_error),
+          differ("rays", there.rays, wanted.rays), differ("seed", there.seed, wanted.seed),
+          differ("normals", there.normals, wanted.normals),
+          differ("floor", or_none(there.floor), or_none(wanted.floor)),
+          differ("vertices", there.num_vertices, wanted.num_vertices),
+          differ("triangles", there.num_triangles, wanted.num_triangles),
+          differ("poses", there.num_poses(), wanted.num_poses()),
+          differ("origin", shown(there.origin), shown(wanted.origin)),
+          differ("static files", there.scenery.size(), wanted.scenery.size()),
+          differ("checksum of faces and albedo", hex(there.mesh_xxh3), hex(wanted.mesh_xxh3))}) {
+        if (!difference.empty()) return difference;
+    }
+    const std::string difference = first_difference("pose", there.poses, wanted.poses);
+    if (!difference.empty()) return difference;
+    return first_difference("static file", there.scenery, wanted.scenery);
+}
+
+uint64_t identity_checksum(const BakeIdentity& identity) {
+    const std::string text = manifest_text(identity);
+    return xxh3(text.data(), text.size());
+}
+
+}  // namespace paim

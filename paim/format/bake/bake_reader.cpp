@@ -1,0 +1,203 @@
+// Reads .bake directories.
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "paim/base/error.h"
+#include "paim/base/parallel.h"
+#include "paim/format/bake/bake_directory.h"
+#include "paim/format/bake/bake_manifest.h"
+#include "paim/format/container/mesh_sections.h"
+#include "paim/format/container/metadata.h"
+#include "paim/format/container/sections.h"
+
+namespace paim {
+
+namespace {
+
+const Section& require_planes(const ContainerReader& reader, Tag tag, uint32_t num_planes,
+                              uint32_t num_vertices, ScalarType type = ScalarType::f32) {
+    const Section& section = reader.require(tag, type);
+    const auto& shape = section.spec.shape;
+    if (shape[0] != 1 || shape[1] != num_planes || shape[2] != num_vertices) {
+        throw_bad_input("{}: section {}: {} x {} x {} values, expected {} x {}", reader.path(),
+                        tag.str(), shape[0], shape[1], shape[2], num_planes, num_vertices);
+    }
+    return section;
+}
+
+PoseStatistics read_statistics_of(const ContainerReader& reader, uint64_t identity_checksum,
+                                  uint32_t p, uint32_t bands) {
+    const Metadata metadata(reader.read_text(reader.require(section::kMetadata, ScalarType::u8)),
+                            reader.path());
+    const std::string bake = fmt::format("{:016x}", identity_checksum);
+    if (metadata.text("bake") != bake) {
+        throw_bad_input("{}: belongs to bake {}, expected {}", reader.path(), metadata.text("bake"),
+                        bake);
+    }
+    metadata.integer("pose", p, p);
+    constexpr double kMaxExact = 9007199254740992.0;  // 2^53
+    constexpr double kMax = std::numeric_limits<double>::max();
+    PoseStatistics statistics;
+    statistics.rays = static_cast<uint64_t>(metadata.number("rays", 0.0, kMaxExact));
+    statistics.blocked = static_cast<uint64_t>(metadata.number("blocked", 0.0, kMaxExact));
+    statistics.zero_normals =
+        metadata.integer("zero_normals", 0, std::numeric_limits<int32_t>::max());
+    statistics.above_target =
+        metadata.integer("above_target", 0, std::numeric_limits<int32_t>::max());
+    if (metadata.root().contains("back_hits")) {
+        statistics.back_hits = static_cast<uint64_t>(metadata.number("back_hits", 0.0, kMaxExact));
+    }
+    statistics.transfer_rms = metadata.numbers("transfer_rms", bands, 0.0, kMax);
+    statistics.noise_rms = metadata.numbers("noise_rms", bands, 0.0, kMax);
+    statistics.mesh.zero_area_faces = metadata.count("zero_area_faces");
+    statistics.mesh.coincident_faces = metadata.count("coincident_faces");
+    return statistics;
+}
+
+// What read_pose() checks, without the whole section in memory.
+void verify_planes(const ContainerReader& reader, const Section& section) {
+    reader.verify(section);
+    constexpr uint64_t kPiece = 1 << 18;  // 1 MB
+    const uint64_t num_values = section.spec.num_values();
+    std::vector<float> piece;
+    for (uint64_t first = 0; first < num_values; first += piece.size()) {
+        piece.resize(std::min(kPiece, num_values - first));
+        reader.read_range(section, first, piece.size(), piece.data());
+        check_finite(reader, section.spec.tag, piece, first);
+    }
+}
+
+}  // namespace
+
+BakeReader::BakeReader(std::filesystem::path directory) : directory_(std::move(directory)) {
+    // "x.bake/" is x.bake, also where its name is asked for.
+    if (!directory_.has_filename()) directory_ = directory_.parent_path();
+    if (!std::filesystem::is_directory(directory_)) {
+        throw_bad_input("{}: expected a .bake directory, got {}", directory_.string(),
+                        std::filesystem::exists(directory_) ? "a file" : "nothing of that name");
+    }
+    if (!std::filesystem::exists(directory_ / "manifest.json")) {
+        throw_bad_input("{}: expected a .bake directory, got one without manifest.json",
+                        directory_.string());
+    }
+    identity_ = read_manifest(directory_ / "manifest.json");
+    identity_checksum_ = identity_checksum(identity_);
+    const ContainerReader mesh(directory_ / "mesh.bin", section::kKindMesh);
+    topology_ = read_triangles(mesh, identity_.num_vertices);
+    albedo_ = read_albedo(mesh, identity_.num_vertices);
+    if (mesh_checksum(topology_, albedo_) != identity_.mesh_xxh3) {
+        throw_bad_input("{}: not the mesh that the manifest names", mesh.path());
+    }
+    if (!identity_.scenery.empty()) {
+        scenery_ = read_bake_scenery(directory_, identity_checksum_, identity_.layout);
+    }
+    uint32_t num_missing = 0;
+    uint32_t first_missing = 0;
+    for (uint32_t p = num_poses(); p-- > 0;) {
+        if (std::filesystem::exists(bake_pose_file(directory_, p))) continue;
+        ++num_missing;
+        first_missing = p;
+    }
+    if (num_missing > 0) {
+        throw_bad_input("{}: {} of {} poses are missing, the first is {}; bake them first",
+                        directory_.string(), num_missing, num_poses(), first_missing);
+    }
+    // The manifest's count of vertices is believed only once a file holds that many.
+    const ContainerReader pose(bake_pose_file(directory_, 0), section::kKindPose);
+    read_statistics_of(pose, identity_checksum_, 0, identity_.layout.bands);
+    require_planes(pose, section::kPositions, 3, identity_.num_vertices);
+    require_planes(pose, section::kTransfer, identity_.layout.num_planes(), identity_.num_vertices);
+}
+
+uint64_t BakeReader::size_bytes() const {
+    uint64_t total = std::filesystem::file_size(directory_ / "manifest.json") +
+                     std::filesystem::file_size(directory_ / "mesh.bin");
+    if (scenery_) total += std::filesystem::file_size(bake_scenery_file(directory_));
+    for (uint32_t p = 0; p < num_poses(); ++p) {
+        total += std::filesystem::file_size(bake_pose_file(directory_, p));
+    }
+    return total;
+}
+
+BakedPose BakeReader::read_pose(uint32_t p) const {
+    const ContainerReader reader(bake_pose_file(directory_, p), section::kKindPose);
+    const auto read = [&](Tag tag, uint32_t num_planes, ScalarType type = ScalarType::f32) {
+        return read_planes(reader, tag, num_planes, identity_.num_vertices, type);
+    };
+    BakedPose pose;
+    pose.statistics = read_statistics_of(reader, identity_checksum_, p, identity_.layout.bands);
+    pose.positions = read(section::kPositions, 3);
+    pose.normals = read(section::kNormals, 3);
+    pose.transfer = read(section::kTransfer, identity_.layout.num_planes());
+    pose.noise = read(section::kNoise, identity_.layout.num_planes(), ScalarType::f16);
+    return pose;
+}
+
+PoseStatistics read_bake_statistics(const std::filesystem::path& directory,
+                                    uint64_t identity_checksum, uint32_t p, uint32_t bands) {
+    const ContainerReader reader(bake_pose_file(directory, p), section::kKindPose);
+    return read_statistics_of(reader, identity_checksum, p, bands);
+}
+
+BakedScenery read_bake_scenery(const std::filesystem::path& directory, uint64_t identity_checksum,
+                               const TransferLayout& layout) {
+    const ContainerReader reader(bake_scenery_file(directory), section::kKindMesh);
+    BakedScenery scenery;
+    scenery.pose.statistics =
+        read_statistics_of(reader, identity_checksum, kSceneryPose, layout.bands);
+    const uint32_t num_vertices = count_vertices(reader, section::kPositions);
+    scenery.pose.positions = read_planes(reader, section::kPositions, 3, num_vertices);
+    scenery.pose.normals = read_planes(reader, section::kNormals, 3, num_vertices);
+    scenery.pose.transfer =
+        read_planes(reader, section::kTransfer, layout.num_planes(), num_vertices);
+    scenery.pose.noise =
+        read_planes(reader, section::kNoise, layout.num_planes(), num_vertices, ScalarType::f16);
+    scenery.topology = read_triangles(reader, num_vertices);
+    scenery.albedo = read_albedo(reader, num_vertices);
+    return scenery;
+}
+
+PoseStatistics BakeReader::total_statistics() const {
+    std::vector<PoseStatistics> poses(num_poses());
+    for (uint32_t p = 0; p < num_poses(); ++p) poses[p] = read_statistics(p);
+    return combine(poses);
+}
+
+void BakeReader::verify_all() const {
+    parallel_for(num_poses(), 1, [&](size_t index, size_t) {
+        const auto p = static_cast<uint32_t>(index);
+        const ContainerReader reader(bake_pose_file(directory_, p), section::kKindPose);
+        const auto verify = [&](Tag tag, uint32_t num_planes, ScalarType type = ScalarType::f32) {
+            verify_planes(reader,
+                          require_planes(reader, tag, num_planes, identity_.num_vertices, type));
+        };
+        read_statistics_of(reader, identity_checksum_, p, identity_.layout.bands);
+        verify(section::kPositions, 3);
+        verify(section::kNormals, 3);
+        verify(section::kTransfer, identity_.layout.num_planes());
+        verify(section::kNoise, identity_.layout.num_planes(), ScalarType::f16);
+    });
+}
+
+void BakeReader::read_position_rows(uint32_t p, uint64_t first, uint64_t count, float* out) const {
+    const ContainerReader reader(bake_pose_file(directory_, p), section::kKindPose);
+    reader.read_range(require_planes(reader, section::kPositions, 3, identity_.num_vertices), first,
+                      count, out);
+}
+
+void BakeReader::read_transfer_rows(uint32_t p, uint64_t first, uint64_t count, float* out) const {
+    const ContainerReader reader(bake_pose_file(directory_, p), section::kKindPose);
+    reader.read_range(require_planes(reader, section::kTransfer, identity_.layout.num_planes(),
+                                     identity_.num_vertices),
+                      first, count, out);
+}
+
+void BakeReader::read_noise_rows(uint32_t p, uint64_t first, uint64_t count, float* out) const {
+    const ContainerReader reader(bake_pose_file(directory_, p), section::kKindPose);
+    reader.read_range(require_planes(reader, section::kNoise, identity_.layout.num_planes(),
+                                     identity_.num_vertices, ScalarType::f16),
+                      first, count, out);
+}
+
+}  // namespace paim

@@ -1,0 +1,318 @@
+// Reads a section container.
+#include "paim/format/container/container_reader.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+#include "paim/base/check.h"
+#include "paim/base/error.h"
+#include "paim/base/half.h"
+#include "paim/base/hash.h"
+#include "paim/format/pack/zstd_codec.h"
+
+namespace paim {
+
+using container::Header;
+using container::TableEntry;
+
+std::string_view scalar_name(ScalarType type) {
+    switch (type) {
+        case ScalarType::u8:
+            return "u8";
+        case ScalarType::u32:
+            return "u32";
+        case ScalarType::f16:
+            return "f16";
+        case ScalarType::f32:
+            return "f32";
+        case ScalarType::f64:
+            return "f64";
+        case ScalarType::i8:
+            return "i8";
+        case ScalarType::i16:
+            return "i16";
+    }
+    return "unknown";
+}
+
+namespace {
+
+// Bytes that sections take or claim together, which may not be more than so many.
+class ByteBudget {
+  public:
+    explicit ByteBudget(uint64_t most) : most_(most), left_(most) {}
+    bool take(uint64_t size_bytes) {
+        if (size_bytes > left_) return false;
+        left_ -= size_bytes;
+        return true;
+    }
+    uint64_t most() const { return most_; }
+
+  private:
+    uint64_t most_, left_;
+};
+
+// a · b, or the largest number if that overflows.
+uint64_t saturating_product(uint64_t a, uint64_t b) {
+    uint64_t product = 0;
+    return __builtin_mul_overflow(a, b, &product) ? std::numeric_limits<uint64_t>::max() : product;
+}
+
+void check_header(const std::string& path, const Header& header, Tag kind, uint64_t size_bytes,
+                  Extent extent) {
+    if (header.magic != container::kMagic) throw_bad_input("{}: not a Paim file", path);
+    if (header.version != container::kVersion) {
+        throw_unsupported("{}: format version {}, expected {}", path, header.version,
+                          container::kVersion);
+    }
+    if (header.header_xxh3 != xxh3(&header, sizeof(header) - sizeof(header.header_xxh3))) {
+        throw_bad_input("{}: damaged: the header's checksum does not match", path);
+    }
+    if (header.kind != kind) {
+        throw_bad_input("{}: holds '{}', expected '{}'", path, header.kind.str(), kind.str());
+    }
+    const bool cut = size_bytes < header.file_size_bytes;
+    if (header.file_size_bytes != size_bytes && !(cut && extent == Extent::beginning)) {
+        throw_bad_input(
+            "{}: {} bytes, expected {}{}", path, size_bytes, header.file_size_bytes,
+            cut ? ": the file is cut short (paim-play --progressive plays what is there of a .paim)"
+                : "");
+    }
+    if (header.num_sections > container::kMaxSections ||
+        header.num_sections > (header.file_size_bytes - sizeof(Header)) / sizeof(TableEntry)) {
+        throw_bad_input("{}: {} sections do not fit in {} bytes", path, header.num_sections,
+                        header.file_size_bytes);
+    }
+    const uint64_t table_end = sizeof(Header) + header.num_sections * sizeof(TableEntry);
+    if (size_bytes < table_end) {
+        throw_bad_input("{}: {} bytes, expected at least the {} of header and section table", path,
+                        size_bytes, table_end);
+    }
+}
+
+Section check_entry(const std::string& path, const TableEntry& entry, uint64_t file_size_bytes,
+                    uint64_t table_end) {
+    const auto type = static_cast<ScalarType>(entry.type);
+    const uint64_t scalar_bytes = scalar_size_bytes(type);
+    const uint64_t num_values =
+        saturating_product(saturating_product(entry.shape[0], entry.shape[1]), entry.shape[2]);
+    const std::string name = entry.tag.str();
+    if (scalar_bytes == 0) {
+        throw_unsupported("{}: section {} {}: unknown value type {}", path, name, entry.index,
+                          entry.type);
+    }
+    if (entry.codec > SectionCodec::planes) {
+        throw_unsupported("{}: section {} {}: unknown codec {}", path, name, entry.index,
+                          static_cast<int>(entry.codec));
+    }
+    if (saturating_product(num_values, scalar_bytes) != entry.raw_size_bytes ||
+        (entry.codec == SectionCodec::none && entry.raw_size_bytes != entry.stored_size_bytes)) {
+        throw_bad_input("{}: section {} {}: {} bytes for {} x {} x {} values of {}", path, name,
+                        entry.index, entry.stored_size_bytes, entry.shape[0], entry.shape[1],
+                        entry.shape[2], scalar_name(type));
+    }
+    if (entry.offset < table_end || entry.offset > file_size_bytes ||
+        entry.stored_size_bytes > file_size_bytes - entry.offset) {
+        throw_bad_input("{}: section {} {}: bytes {} + {} lie outside the file's {}", path, name,
+                        entry.index, entry.offset, entry.stored_size_bytes, file_size_bytes);
+    }
+    return {{entry.tag, type, entry.index, entry.shape},
+            entry.offset,
+            entry.stored_size_bytes,
+            entry.xxh3,
+            entry.codec};
+}
+
+}  // namespace
+
+ContainerReader::ContainerReader(const std::filesystem::path& path, Tag kind, Extent extent)
+    : path_(path.string()), descriptor_(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {
+    if (descriptor_ < 0) throw_bad_input("{}: cannot open: {}", path_, std::strerror(errno));
+    try {
+        struct stat info {};
+        if (::fstat(descriptor_, &info) != 0 || !S_ISREG(info.st_mode)) {
+            throw_bad_input("{}: expected a regular file", path_);
+        }
+        file_size_bytes_ = static_cast<uint64_t>(info.st_size);
+        if (file_size_bytes_ < sizeof(Header)) {
+            throw_bad_input("{}: {} bytes, expected at least the {} of a header", path_,
+                            file_size_bytes_, sizeof(Header));
+        }
+        Header header;
+        read_bytes(0, &header, sizeof(header));
+        check_header(path_, header, kind, file_size_bytes_, extent);
+        std::vector<TableEntry> table(header.num_sections);
+        const uint64_t table_bytes = table.size() * sizeof(TableEntry);
+        read_bytes(sizeof(header), table.data(), table_bytes);
+        if (header.table_xxh3 != xxh3(table.data(), table_bytes)) {
+            throw_bad_input("{}: damaged: the section table's checksum does not match", path_);
+        }
+        check_table(table, header.file_size_bytes);
+    } catch (...) {
+        ::close(descriptor_);
+        throw;
+    }
+}
+
+void ContainerReader::check_table(const std::vector<TableEntry>& table, uint64_t whole_size_bytes) {
+    const uint64_t table_end = sizeof(Header) + table.size() * sizeof(TableEntry);
+    // Sections that share bytes would let a small file claim any amount of memory, and so would a
+    // header that claims any size: only what is there counts.
+    ByteBudget stored(file_size_bytes_ - table_end);
+    ByteBudget values(most_bytes_of_values(file_size_bytes_));
+    sections_.reserve(table.size());
+    for (const TableEntry& entry : table) {
+        sections_.push_back(check_entry(path_, entry, whole_size_bytes, table_end));
+        if (!holds(sections_.back())) continue;
+        if (!stored.take(entry.stored_size_bytes)) {
+            throw_bad_input("{}: sections overlap: more than {} bytes in all", path_,
+                            stored.most());
+        }
+        if (!values.take(entry.raw_size_bytes)) {
+            throw_bad_input("{}: sections claim more than {} bytes of values", path_,
+                            values.most());
+        }
+    }
+}
+
+ContainerReader::~ContainerReader() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+const Section* ContainerReader::find(Tag tag, uint32_t index) const {
+    const auto found = std::find_if(sections_.begin(), sections_.end(), [&](const Section& s) {
+        return s.spec.tag == tag && s.spec.index == index;
+    });
+    return found == sections_.end() ? nullptr : &*found;
+}
+
+const Section& ContainerReader::require(Tag tag, ScalarType type, uint32_t index) const {
+    const Section* section = find(tag, index);
+    if (section == nullptr)
+        throw_bad_input("{}: section {} {} is missing", path_, tag.str(), index);
+    if (section->spec.type != type) {
+        throw_bad_input("{}: holds {}, expected {}", label(*section),
+                        scalar_name(section->spec.type), scalar_name(type));
+    }
+    return *section;
+}
+
+std::string ContainerReader::label(const Section& section) const {
+    return fmt::format("{}: section {} {}", path_, section.spec.tag.str(), section.spec.index);
+}
+
+void ContainerReader::read_bytes(uint64_t offset, void* out, uint64_t size_bytes) const {
+    char* bytes = static_cast<char*>(out);
+    while (size_bytes > 0) {
+        const ssize_t got = ::pread(descriptor_, bytes, size_bytes, static_cast<off_t>(offset));
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) throw_bad_input("{}: cannot read: {}", path_, std::strerror(errno));
+        if (got == 0) throw_bad_input("{}: the file became shorter while it was read", path_);
+        bytes += got;
+        offset += static_cast<uint64_t>(got);
+        size_bytes -= static_cast<uint64_t>(got);
+    }
+}
+
+template <typename T>
+std::vector<T> ContainerReader::read_values(const Section& section, ScalarType type) const {
+    PAIM_CHECK(section.spec.type == type);
+    std::vector<T> values(section.spec.num_values());
+    if (section.codec == SectionCodec::zstd) {
+        const std::vector<uint8_t> stored = read_stored(section);
+        const std::span bytes(reinterpret_cast<uint8_t*>(values.data()), values.size() * sizeof(T));
+        if (!zstd_decompress(stored, bytes)) {
+            throw_bad_input("{}: holds no {} bytes of Zstandard", label(section), bytes.size());
+        }
+        return values;
+    }
+    if (section.codec != SectionCodec::none) {
+        throw_unsupported("{}: codec {} for {}", label(section), static_cast<int>(section.codec),
+                          scalar_name(type));
+    }
+    read_bytes(section.offset, values.data(), section.stored_size_bytes);
+    if (xxh3(values.data(), section.stored_size_bytes) != section.xxh3) {
+        throw_bad_input("{}: damaged: the checksum does not match", label(section));
+    }
+    return values;
+}
+
+std::vector<uint8_t> ContainerReader::read_stored(const Section& section) const {
+    std::vector<uint8_t> bytes(section.stored_size_bytes);
+    read_bytes(section.offset, bytes.data(), bytes.size());
+    if (xxh3(bytes.data(), bytes.size()) != section.xxh3) {
+        throw_bad_input("{}: damaged: the checksum does not match", label(section));
+    }
+    return bytes;
+}
+
+std::vector<uint8_t> ContainerReader::read_u8(const Section& section) const {
+    return read_values<uint8_t>(section, ScalarType::u8);
+}
+
+std::vector<uint32_t> ContainerReader::read_u32(const Section& section) const {
+    return read_values<uint32_t>(section, ScalarType::u32);
+}
+
+std::vector<float> ContainerReader::read_f32(const Section& section) const {
+    if (section.spec.type != ScalarType::f16) return read_values<float>(section, ScalarType::f32);
+    const auto halves = read_values<uint16_t>(section, ScalarType::f16);
+    std::vector<float> values(halves.size());
+    std::transform(halves.begin(), halves.end(), values.begin(), from_half);
+    return values;
+}
+
+std::vector<double> ContainerReader::read_f64(const Section& section) const {
+    return read_values<double>(section, ScalarType::f64);
+}
+
+std::string ContainerReader::read_text(const Section& section) const {
+    const auto bytes = read_u8(section);
+    return {bytes.begin(), bytes.end()};
+}
+
+void ContainerReader::read_range(const Section& section, uint64_t first, uint64_t count,
+                                 float* out) const {
+    if (section.codec != SectionCodec::none) {
+        throw_unsupported("{}: compressed, expected values as they are", label(section));
+    }
+    PAIM_CHECK_LE(first, section.spec.num_values());
+    PAIM_CHECK_LE(count, section.spec.num_values() - first);
+    if (section.spec.type == ScalarType::f16) {
+        std::vector<uint16_t> halves(count);
+        read_bytes(section.offset + first * sizeof(uint16_t), halves.data(),
+                   count * sizeof(uint16_t));
+        std::transform(halves.begin(), halves.end(), out, from_half);
+        return;
+    }
+    PAIM_CHECK(section.spec.type == ScalarType::f32);
+    read_bytes(section.offset + first * sizeof(float), out, count * sizeof(float));
+}
+
+void ContainerReader::verify(const Section& section) const {
+    StreamingHash hash;
+    std::vector<char> buffer(std::min<uint64_t>(section.stored_size_bytes, 1 << 20));
+    for (uint64_t done = 0; done < section.stored_size_bytes;) {
+        const uint64_t size_bytes =
+            std::min<uint64_t>(buffer.size(), section.stored_size_bytes - done);
+        read_bytes(section.offset + done, buffer.data(), size_bytes);
+        hash.update(buffer.data(), size_bytes);
+        done += size_bytes;
+    }
+    if (hash.digest() != section.xxh3) {
+        throw_bad_input("{}: damaged: the checksum does not match", label(section));
+    }
+}
+
+void ContainerReader::verify_all() const {
+    for (const Section& section : sections_) verify(section);
+}
+
+}  // namespace paim

@@ -1,0 +1,46 @@
+// Names of the sections of .paim and .bake files.
+#pragma once
+
+#include "paim/format/container/container.h"
+
+namespace paim::section {
+
+constexpr Tag kKindAnimation("ANIM");
+constexpr Tag kKindMesh("MESH");
+constexpr Tag kKindPose("POSE");
+
+constexpr Tag kMetadata("META");   // u8 [n]: JSON text
+constexpr Tag kTriangles("TRIS");  // u32 [F][3]
+constexpr Tag kAlbedo("ALBD");     // f32 [1 or V][3]
+
+// .paim: mean, components, weights and spectrum of geometry and of transfer.
+constexpr Tag kMean[2] = {Tag("GMEA"), Tag("TMEA")};  // f32, i16 or i8 [planes][N]
+constexpr Tag kComponent[2] = {Tag("GCMP"),
+                               Tag("TCMP")};             // f32, f16, i16 or i8 [planes][N], index k
+constexpr Tag kWeights[2] = {Tag("GWGT"), Tag("TWGT")};  // f32 or i16 [K][P]
+constexpr Tag kSpectrum[2] = {Tag("GSPC"), Tag("TSPC")};  // f64 or f32 [n]
+// Only where values, or weights, are integers.
+constexpr Tag kSteps[2] = {Tag("GSTP"), Tag("TSTP")};        // f32 [planes]
+constexpr Tag kWeightSteps[2] = {Tag("GWST"), Tag("TWST")};  // f32 [K]
+
+// .paim: clustered transfer, whose mean and components then have a column for every row of a basis.
+constexpr Tag kClusters("CIDX");             // i16 [V]
+constexpr Tag kClusterScales("CSCL");        // f32 [clusters][1 + components]
+constexpr Tag kClusterCoefficients("CCOE");  // f32, i16 or i8 [V], index j
+
+// .paim: scenery, all four or none.
+constexpr Tag kSceneryTriangles("STRI");  // u32 [F][3]
+constexpr Tag kSceneryPositions("SPOS");  // f32, i16 or i8 [3][S]
+constexpr Tag kSceneryAlbedo("SALB");     // f32 [1 or S][3]
+constexpr Tag kSceneryTransfer("STRN");   // f32, i16 or i8 [planes][S]
+// Of integers, f32 [planes].
+constexpr Tag kSceneryPositionSteps("SPST");
+constexpr Tag kSceneryTransferSteps("STST");
+
+// .bake poses and scenery.
+constexpr Tag kPositions("POSN");  // f32 [3][V]
+constexpr Tag kNormals("NRML");    // f32 [3][V]
+constexpr Tag kTransfer("TRNF");   // f32 [planes][V]
+constexpr Tag kNoise("NOIS");      // f16 [planes][V]
+
+}  // namespace paim::section

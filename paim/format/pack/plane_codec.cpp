@@ -1,0 +1,275 @@
+// Planes of small integers as bytes.
+//
+// The contents of the frame: the planes' headers, all digits, the planes with the same magnitude one
+// after the other, then gaps, low and high bytes of all exceptions.
+#include "paim/format/pack/plane_codec.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "paim/base/check.h"
+#include "paim/format/pack/plane_packing.h"
+#include "paim/format/pack/plane_reconstruct.h"
+
+namespace paim {
+
+namespace {
+
+constexpr size_t kHeaderBytes = 6;
+// What a byte and a plane's exceptions may take, of each point.
+constexpr uint64_t kMostBytesPerValue = 4;
+
+using Counts = std::array<uint32_t, 256>;
+
+Counts count_bytes(std::span<const uint8_t> bytes) {
+    Counts counts{};
+    for (const uint8_t byte : bytes) ++counts[byte];
+    return counts;
+}
+
+// About how many bits an entropy coder without memory makes of bytes that are so frequent, its table
+// included.
+double cost_bits(const Counts& counts) {
+    constexpr double kTableBits = 5.0;  // a symbol
+    double total = 0.0, bits = 0.0;
+    size_t num_symbols = 0;
+    for (const uint32_t count : counts) {
+        if (count == 0) continue;
+        total += count;
+        bits += kTableBits - count * std::log2(count);
+        ++num_symbols;
+    }
+    if (num_symbols <= 1) return 16.0 * static_cast<double>(num_symbols);
+    // Huffman codes have at least one bit a symbol where there are two of them.
+    return std::max(bits + total * std::log2(total), total);
+}
+
+double cost_bits(const PackedPlane& plane) {
+    return cost_bits(count_bytes(plane.digits)) + cost_bits(count_bytes(plane.gaps)) +
+           cost_bits(count_bytes(plane.lows)) + cost_bits(count_bytes(plane.highs));
+}
+
+// About how many bits residuals take, however they are packed: numbers up to 31 in zigzag are symbols,
+// larger ones share a symbol with those of the same first three bits, and the others are as they are.
+template <typename Integer>
+double entropy_bits(std::span<const Integer> residuals) {
+    constexpr uint32_t kSmall = 32;
+    Counts counts{};
+    double plain_bits = 0.0;
+    for (const int32_t r : residuals) {
+        const uint32_t code = zigzag(r);
+        if (code < kSmall) {
+            ++counts[code];
+        } else {
+            const auto shift = static_cast<uint32_t>(std::bit_width(code)) - 3;
+            ++counts[kSmall + 4 * shift + ((code >> shift) & 3)];
+            plain_bits += shift;
+        }
+    }
+    return cost_bits(counts) + plain_bits;
+}
+
+template <typename Integer>
+PackedPlane best_plane(std::span<const Integer> values, const PlanePredictor& predictor) {
+    Prediction prediction = Prediction::none;
+    std::vector<Integer> residuals(values.begin(), values.end()), other(values.size());
+    double least = entropy_bits(values);
+    for (const Prediction p : {Prediction::mean, Prediction::parallelograms}) {
+        if (!predictor.has_mesh()) break;
+        predictor.subtract(p, values, std::span(other));
+        const double bits = entropy_bits(std::span<const Integer>(other));
+        if (bits >= least) continue;
+        least = bits;
+        prediction = p;
+        residuals.swap(other);
+    }
+    int32_t largest = 0;
+    for (const int32_t r : residuals) largest = std::max(largest, std::abs(r));
+    PackedPlane best;
+    least = std::numeric_limits<double>::infinity();
+    for (const uint8_t magnitude : kMagnitudes) {
+        PackedPlane plane = pack(prediction, magnitude, std::span<const Integer>(residuals));
+        // And what a little more time is worth, so that few exceptions are chosen before many.
+        constexpr double kBitsPerByte = 0.2, kBitsPerException = 0.4;
+        const double bits = cost_bits(plane) +
+                            kBitsPerByte * static_cast<double>(plane.digits.size()) +
+                            kBitsPerException * static_cast<double>(plane.gaps.size());
+        if (bits < least) {
+            least = bits;
+            best = std::move(plane);
+        }
+        if (magnitude >= largest) break;
+    }
+    return best;
+}
+
+// Bytes, and where their statistics change so much that new tables pay.
+class Contents {
+  public:
+    void append(std::span<const uint8_t> some) {
+        if (some.empty()) return;
+        const Counts counts = count_bytes(some);
+        Counts both = counts;
+        for (size_t j = 0; j < both.size(); ++j) both[j] += counts_[j];
+        const double bits = cost_bits(counts), bits_of_both = cost_bits(both);
+        // A block takes a while to begin: about as long as so many bytes.
+        constexpr double kBlockBits = 8.0 * 25.0;
+        if (bits_ + bits + kBlockBits < bits_of_both) {
+            block_ends.push_back(bytes.size());
+            counts_ = counts;
+            bits_ = bits;
+        } else {
+            counts_ = both;
+            bits_ = bits_of_both;
+        }
+        bytes.insert(bytes.end(), some.begin(), some.end());
+    }
+
+    std::vector<uint8_t> bytes;
+    std::vector<size_t> block_ends;
+
+  private:
+    Counts counts_{};
+    double bits_ = 0.0;
+};
+
+void append_header(const PlaneHeader& header, std::vector<uint8_t>& bytes) {
+    bytes.push_back(
+        static_cast<uint8_t>(static_cast<uint32_t>(header.prediction) | (header.wide ? 4u : 0u)));
+    bytes.push_back(header.magnitude);
+    for (int shift = 0; shift < 32; shift += 8) {
+        bytes.push_back(static_cast<uint8_t>(header.num_exceptions >> shift));
+    }
+}
+
+// False if no plane has such a header.
+bool parse_header(const uint8_t* bytes, size_t num_points, bool has_mesh, PlaneHeader& header) {
+    header.prediction = static_cast<Prediction>(bytes[0] & 3u);
+    header.wide = (bytes[0] & 4u) != 0;
+    header.magnitude = bytes[1];
+    header.num_exceptions = 0;
+    for (int j = 0; j < 4; ++j) header.num_exceptions |= uint32_t{bytes[2 + j]} << (8 * j);
+    return bytes[0] < 8 && header.prediction <= Prediction::parallelograms &&
+           (header.prediction == Prediction::none || has_mesh) &&
+           std::find(kMagnitudes.begin(), kMagnitudes.end(), header.magnitude) !=
+               kMagnitudes.end() &&
+           header.num_exceptions <= num_points;
+}
+
+// The contents of a section's frame as planes to undo; false if they are none.
+template <typename Integer>
+bool parse(std::span<const uint8_t> contents, const StoredPlanes<Integer>& section, bool has_mesh,
+           std::vector<PlaneSource<Integer>>& planes) {
+    const size_t num_points = section.out.size() / section.num_planes;
+    const size_t first = planes.size();
+    for (size_t j = 0; j < section.num_planes; ++j) {
+        PlaneSource<Integer> plane;
+        if (!parse_header(contents.data() + kHeaderBytes * j, num_points, has_mesh, plane.header)) {
+            return false;
+        }
+        plane.out = section.out.data() + j * num_points;
+        planes.push_back(plane);
+    }
+    const std::span mine = std::span(planes).subspan(first);
+    size_t place = kHeaderBytes * section.num_planes;
+    const auto take = [&](size_t num_bytes, const uint8_t*& bytes) {
+        if (num_bytes > contents.size() - place) return false;
+        bytes = contents.data() + place;
+        place += num_bytes;
+        return true;
+    };
+    for (const uint8_t magnitude : kMagnitudes) {
+        for (PlaneSource<Integer>& plane : mine) {
+            if (plane.header.magnitude == magnitude &&
+                !take(digit_bytes(magnitude, num_points), plane.digits)) {
+                return false;
+            }
+        }
+    }
+    for (PlaneSource<Integer>& plane : mine) {
+        if (!take(plane.header.num_exceptions, plane.gaps)) return false;
+    }
+    for (PlaneSource<Integer>& plane : mine) {
+        if (!take(plane.header.num_exceptions, plane.lows)) return false;
+    }
+    for (PlaneSource<Integer>& plane : mine) {
+        if (plane.header.wide && !take(plane.header.num_exceptions, plane.highs)) return false;
+    }
+    return place == contents.size();
+}
+
+template <typename Integer>
+std::vector<uint8_t> encode(std::span<const Integer> values, size_t num_planes,
+                            const PlanePredictor& predictor, Effort effort) {
+    const size_t num_points = values.size() / num_planes;
+    std::vector<PackedPlane> planes;
+    std::vector<uint8_t> headers;
+    for (size_t j = 0; j < num_planes; ++j) {
+        planes.push_back(best_plane(values.subspan(j * num_points, num_points), predictor));
+        append_header(planes.back().header, headers);
+    }
+    Contents contents;
+    contents.append(headers);
+    for (const uint8_t magnitude : kMagnitudes) {
+        for (const PackedPlane& plane : planes) {
+            if (plane.header.magnitude == magnitude) contents.append(plane.digits);
+        }
+    }
+    for (const PackedPlane& plane : planes) contents.append(plane.gaps);
+    for (const PackedPlane& plane : planes) contents.append(plane.lows);
+    for (const PackedPlane& plane : planes) contents.append(plane.highs);
+    return zstd_compress_noise(contents.bytes, contents.block_ends, effort);
+}
+
+}  // namespace
+
+std::vector<uint8_t> encode_planes(const StoredValues& values, size_t num_planes,
+                                   const PlanePredictor& predictor, Effort effort) {
+    PAIM_CHECK(!values.holds_floats());
+    PAIM_CHECK(num_planes > 0);
+    PAIM_CHECK_EQ(values.size() % num_planes, 0u);
+    if (values.holds_i8()) {
+        const auto& integers = std::get<std::vector<int8_t>>(values.values());
+        return encode(std::span(integers), num_planes, predictor, effort);
+    }
+    const auto& integers = std::get<std::vector<int16_t>>(values.values());
+    return encode(std::span(integers), num_planes, predictor, effort);
+}
+
+template <typename Integer>
+bool decode_planes(std::span<const StoredPlanes<Integer>> sections, const PlanePredictor& predictor,
+                   Workspace& workspace) {
+    size_t num_points = 0, num_bytes = 0;
+    for (const StoredPlanes<Integer>& section : sections) {
+        PAIM_CHECK(section.num_planes > 0);
+        num_points = section.out.size() / section.num_planes;
+        PAIM_CHECK_EQ(num_points * section.num_planes, section.out.size());
+        PAIM_CHECK_EQ(num_points * sections[0].num_planes, sections[0].out.size());
+        const uint64_t least = kHeaderBytes * uint64_t{section.num_planes};
+        const uint64_t most = least + kMostBytesPerValue * uint64_t{section.out.size()};
+        const auto size = zstd_content_size(section.bytes);
+        if (!size || *size > most || *size < least) return false;
+        num_bytes += *size;
+    }
+    auto* contents = reinterpret_cast<uint8_t*>(workspace.contents.resize(num_bytes));
+    std::vector<PlaneSource<Integer>> planes;
+    for (const StoredPlanes<Integer>& section : sections) {
+        const std::span some(contents, *zstd_content_size(section.bytes));
+        if (!zstd_decompress(section.bytes, some) ||
+            !parse(std::span<const uint8_t>(some), section, predictor.has_mesh(), planes)) {
+            return false;
+        }
+        contents += some.size();
+    }
+    return undo_planes(std::span(planes), predictor, num_points, workspace.rows);
+}
+
+template bool decode_planes(std::span<const StoredPlanes<int8_t>>, const PlanePredictor&,
+                            Workspace&);
+template bool decode_planes(std::span<const StoredPlanes<int16_t>>, const PlanePredictor&,
+                            Workspace&);
+
+}  // namespace paim

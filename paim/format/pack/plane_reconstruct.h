@@ -1,0 +1,35 @@
+// Planes from packed residuals: many planes at once.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "paim/format/pack/plane_packing.h"
+#include "paim/format/pack/plane_predictor.h"
+#include "paim/format/pack/workspace.h"
+
+namespace paim {
+
+// A plane in a file, and where it goes.
+template <typename Integer>
+struct PlaneSource {
+    PlaneHeader header;  // valid
+    // Any bytes: [digit_bytes()]; of each exception, see PackedPlane.
+    const uint8_t* digits = nullptr;
+    const uint8_t* gaps = nullptr;
+    const uint8_t* lows = nullptr;
+    const uint8_t* highs = nullptr;
+    Integer* out = nullptr;  // [N]
+};
+
+// Every plane's `out` = what PlanePredictor::add() makes of its residuals. False if an exception lies
+// outside of its plane or a value is the lowest of its integers, which files do not use: what is out
+// then is anything.
+// planes     are taken in the order that suits, so that it may become another
+// predictor  of N points, unless no plane is predicted
+// rows       to work in: up to 64 bytes a point
+template <typename Integer>
+bool undo_planes(std::span<PlaneSource<Integer>> planes, const PlanePredictor& predictor,
+                 size_t num_points, Buffer& rows);
+
+}  // namespace paim

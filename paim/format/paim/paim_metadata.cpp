@@ -1,0 +1,62 @@
+// The JSON of a .paim.
+#include "paim/format/paim/paim_metadata.h"
+
+#include <nlohmann/json.hpp>
+
+#include "paim/base/error.h"
+
+namespace paim {
+
+namespace {
+
+constexpr const char* kSingularIndices[2] = {"geometry_singular_indices",
+                                             "transfer_singular_indices"};
+
+}  // namespace
+
+std::string paim_metadata(const Model& model) {
+    nlohmann::ordered_json json;
+    json["name"] = model.name;
+    json["num_vertices"] = model.topology.num_vertices;
+    json["num_poses"] = model.num_poses();
+    json["frames_per_second"] = model.frames_per_second;
+    if (const Vec3d& o = model.origin; !o.isZero(0.0)) json["origin"] = {o.x(), o.y(), o.z()};
+    json["transfer_kind"] = "diffuse";
+    json["bands"] = model.layout.bands;
+    json["channels"] = model.layout.channels;
+    if (model.vertex_order == VertexOrder::local) json["vertex_order"] = "local";
+    if (!model.clusters.empty()) {
+        json["clusters"] = model.clusters.num_clusters;
+        json["cluster_components"] = model.clusters.num_components;
+    }
+    json["geometry_components"] = model.geometry.num_components;
+    json["transfer_components"] = model.transfer.num_components;
+    for (const Part part : {Part::geometry, Part::transfer}) {
+        const std::vector<uint32_t>& indices = model.part(part).singular_indices;
+        if (!indices.empty()) json[kSingularIndices[static_cast<size_t>(part)]] = indices;
+    }
+    json["provenance"] =
+        nlohmann::ordered_json::parse(model.provenance_json.empty() ? "{}" : model.provenance_json);
+    return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+std::vector<uint32_t> read_singular_indices(const Metadata& metadata, Part part,
+                                            uint32_t num_components, size_t num_singular_values) {
+    const char* const key = kSingularIndices[static_cast<size_t>(part)];
+    std::vector<uint32_t> indices;
+    if (!metadata.root().contains(key)) return indices;
+    // None can be above the last value; of no values there are none.
+    const double last =
+        num_singular_values > 0 ? static_cast<double>(num_singular_values) - 1.0 : 0;
+    for (const double number : metadata.numbers(key, num_components, 0.0, last)) {
+        const auto index = static_cast<uint32_t>(number);
+        if (index != number || (!indices.empty() && index <= indices.back())) {
+            throw_bad_input("{}: metadata: '{}': expected ascending indices, got {}",
+                            metadata.file(), key, number);
+        }
+        indices.push_back(index);
+    }
+    return indices;
+}
+
+}  // namespace paim

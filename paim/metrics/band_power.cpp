@@ -1,0 +1,71 @@
+// How much light there is in each band: what errors of the transfer are weighted with.
+// Based on: Dror, Willsky and Adelson 2004 (see the header)
+#include "paim/metrics/band_power.h"
+
+#include <cmath>
+#include <filesystem>
+
+#include "paim/base/check.h"
+#include "paim/base/error.h"
+#include "paim/image/exr.h"
+#include "paim/light/environment.h"
+
+namespace paim {
+
+namespace {
+
+// Which file a map that is no light came from is not known to the light.
+EnvironmentLight read_light(const std::filesystem::path& path) {
+    Image image = read_exr(path);
+    try {
+        return EnvironmentLight(std::move(image));
+    } catch (const Error& error) {
+        throw Error(error.code(), fmt::format("{}: {}", path.string(), error.what()));
+    }
+}
+
+LightSpectrum measured(const std::filesystem::path& path) {
+    const LightCoefficients light =
+        read_light(path).coefficients(Vec3f::Zero(), static_cast<int>(sh::kMaxBands));
+    LightSpectrum spectrum{path.filename().string(), {}, 0.0};
+    for (int l = 0; l < sh::kMaxBands; ++l) {
+        double sum = 0.0;
+        for (int m = -l; m <= l; ++m) {
+            const auto i = static_cast<size_t>(sh::index(l, m));
+            sum += light.values[i].cast<double>().squaredNorm();
+        }
+        spectrum.weights.push_back(sum / (3.0 * (2.0 * l + 1.0)));
+    }
+    const double first = spectrum.weights[0];
+    if (!(first > 0.0)) throw_bad_input("{}: expected light, got a black map", path.string());
+    for (double& weight : spectrum.weights) weight /= first;
+    return spectrum;
+}
+
+}  // namespace
+
+double LightSpectrum::weight(uint32_t band) const {
+    if (band < weights.size()) return weights[band];
+    return decay > 0.0 ? std::pow(band + 1.0, -decay) : 0.0;
+}
+
+LightSpectrum LightSpectrum::flat(uint32_t bands) {
+    return {"flat", std::vector<double>(bands, 1.0), 0.0};
+}
+
+LightSpectrum LightSpectrum::natural() {
+    return {"natural", {}, 2.0};
+}
+
+LightSpectrum parse_light_spectrum(std::string_view text, uint32_t bands) {
+    PAIM_CHECK(bands >= 1 && bands <= static_cast<uint32_t>(sh::kMaxBands));
+    if (text == "flat") return LightSpectrum::flat(bands);
+    if (text == "natural") return LightSpectrum::natural();
+    const std::filesystem::path path(text);
+    if (!path.has_extension()) {
+        throw_usage("light spectrum: expected flat, natural or an OpenEXR file, got '{}'", text);
+    }
+    return measured(path);
+}
+
+}  // namespace paim

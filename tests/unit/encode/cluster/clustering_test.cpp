@@ -1,0 +1,235 @@
+// The parts of clustering: projection, seeds, subspaces, assignment, empty clusters, neighbours.
+#include "compressor/encode/cluster/clustering.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+
+#include <set>
+
+#include "compressor/encode/cluster/cluster_members.h"
+#include "compressor/encode/cluster/cluster_seeding.h"
+#include "compressor/encode/cluster/cluster_subspaces.h"
+#include "compressor/encode/cluster/point_projection.h"
+#include "paim/base/seed.h"
+
+namespace paim {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXf;
+
+MatrixXf random_matrix(Index rows, Index columns, uint64_t seed) {
+    RandomStream random(seed);
+    return MatrixXf::NullaryExpr(rows, columns,
+                                 [&] { return static_cast<float>(random.uniform() - 0.5); });
+}
+
+double distance(const MatrixXf& columns, Index a, Index b) {
+    return (columns.col(a) - columns.col(b)).cast<double>().norm();
+}
+
+// --- projection
+
+TEST(PointProjection, KeepsDistancesOfPointsThatHaveFewDimensions) {
+    // 12 of 300 dimensions: the random projection finds them all, to the rounding of floats.
+    const MatrixXf matrix = random_matrix(3000, 12, 1) * random_matrix(12, 300, 2);
+    const MatrixXf projected = project_points(MatrixPoints(matrix, 10), 24, 1);
+    EXPECT_LE(projected.rows(), 24);
+    const MatrixXf columns = matrix.transpose();
+    for (Index v = 1; v < 200; ++v) {
+        // 300 products of floats, of unit order: 2^-24 √300 each way, with room for the largest.
+        EXPECT_NEAR(distance(projected, 0, v) / distance(columns, 0, v), 1.0, 1e-5);
+    }
+}
+
+TEST(PointProjection, FindsThePrincipalDirections) {
+    MatrixXf matrix = random_matrix(2000, 120, 3);
+    for (Index c = 0; c < 120; ++c) matrix.col(c) *= std::pow(0.9f, static_cast<float>(c));
+    const MatrixXf projected = project_points(MatrixPoints(matrix, 6), 32, 1);
+    ASSERT_EQ(projected.rows(), 32);
+    Eigen::MatrixXd centred = matrix.cast<double>();
+    centred.rowwise() -= centred.colwise().mean().eval();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(centred.transpose() * centred);
+    const double left = solver.eigenvalues().head(120 - 32).sum();
+    const double left_here = centred.squaredNorm() - projected.cast<double>().squaredNorm();
+    // Halko, Martinsson and Tropp, theorem 10.5: at most 1 + 32/15 in the mean, with 16 columns
+    // beyond 32. Measured: 1.19.
+    EXPECT_LT(left_here, 1.5 * left);
+    EXPECT_GT(left_here, 0.99 * left);
+}
+
+TEST(PointProjection, OfFewDimensionsIsARotation) {
+    const MatrixXf matrix = random_matrix(500, 30, 4);
+    const MatrixXf projected = project_points(MatrixPoints(matrix, 3), 64, 1);
+    ASSERT_EQ(projected.rows(), 30);
+    const MatrixXf columns = matrix.transpose();
+    for (Index v = 1; v < 100; ++v) {
+        EXPECT_NEAR(distance(projected, 0, v), distance(columns, 0, v), 1e-5);
+    }
+}
+
+// --- seeds
+
+TEST(ClusterSeeding, SpreadsOverSeparateGroups) {
+    // 20 groups, 1000 apart and 1 wide: by the second draw within a group a chance of 10^-6 is due.
+    MatrixXf points = random_matrix(2, 2000, 5);
+    for (Index v = 0; v < 2000; ++v) points(0, v) += 1000.0f * static_cast<float>(v % 20);
+    const std::vector<uint32_t> seeds = seed_clusters(points, 20, 1);
+    std::set<uint32_t> groups;
+    for (const uint32_t v : seeds) groups.insert(v % 20);
+    EXPECT_EQ(groups.size(), 20u);
+}
+
+TEST(ClusterSeeding, TakesNoPointTwice) {
+    MatrixXf points = random_matrix(3, 7, 6).replicate(1, 50);
+    EXPECT_EQ(seed_clusters(points, 100, 1).size(), 7u);
+    EXPECT_EQ(seed_clusters(MatrixXf::Ones(3, 9), 4, 1).size(), 1u);
+    EXPECT_TRUE(seed_clusters(MatrixXf(3, 0), 4, 1).empty());
+}
+
+// --- members
+
+TEST(ClusterMembers, AreThePointsOfEachClusterInOrder) {
+    const ClusterMembers members({2, 0, 2, 2, 0}, 4);
+    EXPECT_EQ(members.size(1), 0u);
+    EXPECT_EQ(std::vector<uint32_t>(members.of(0).begin(), members.of(0).end()),
+              (std::vector<uint32_t>{1, 4}));
+    EXPECT_EQ(std::vector<uint32_t>(members.of(2).begin(), members.of(2).end()),
+              (std::vector<uint32_t>{0, 2, 3}));
+}
+
+TEST(ClusterMembers, EmptyClustersTakePartOfTheWorst) {
+    // Cluster 0 is a point twice over; cluster 2 two groups of points far apart.
+    MatrixXf points(1, 6);
+    points << 5, 5, -10, -11, 10, 11;
+    std::vector<uint32_t> cluster{0, 0, 2, 2, 2, 2};
+    EXPECT_EQ(fill_empty_clusters(points, {0, 0, 100, 121, 100, 121}, 3, cluster), 0u);
+    EXPECT_EQ(cluster[2], cluster[3]);
+    EXPECT_EQ(cluster[4], cluster[5]);
+    EXPECT_NE(cluster[2], cluster[4]);
+    EXPECT_EQ(cluster[0], 0u);
+}
+
+TEST(ClusterMembers, EqualPointsCannotFillEmptyClusters) {
+    std::vector<uint32_t> cluster{1, 1, 1};
+    EXPECT_EQ(fill_empty_clusters(MatrixXf::Ones(2, 3), {1, 1, 1}, 3, cluster), 2u);
+    EXPECT_EQ(drop_empty_clusters(3, cluster), 1u);
+    EXPECT_EQ(cluster, (std::vector<uint32_t>{0, 0, 0}));
+}
+
+// --- subspaces and assignment
+
+TEST(ClusterSubspaces, AreThePrincipalDirectionsOfTheMembers) {
+    MatrixXf points = random_matrix(20, 3000, 7);
+    for (Index j = 0; j < 20; ++j) points.row(j) *= std::pow(0.5f, static_cast<float>(j));
+    const std::vector<uint32_t> cluster(3000, 0);
+    const ClusterMembers members(cluster, 1);
+    ClusterSubspaces subspaces(20, 1, 3);
+    subspaces.fit(points, members, 1);
+    Eigen::MatrixXd centred = points.cast<double>();
+    const Eigen::VectorXd mean = centred.rowwise().mean();
+    centred.colwise() -= mean;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(centred * centred.transpose());
+    EXPECT_LT((subspaces.columns().col(0).cast<double>() - mean).norm(), 1e-7);
+    for (Index k = 0; k < 3; ++k) {
+        // Four steps of 3 directions, spectrum falling by 4: the third is off by 4^-4 at most.
+        const double cosine =
+            solver.eigenvectors().col(19 - k).dot(subspaces.columns().col(1 + k).cast<double>());
+        EXPECT_GT(std::abs(cosine), 1.0 - 1.0 / 256.0);
+    }
+    // The trace of the projection onto the fit is what it has of the points: 1 + K.
+    double leverages = 0.0;
+    for (Index v = 0; v < 3000; ++v) leverages += subspaces.leverage(0, points.col(v));
+    EXPECT_NEAR(leverages, 4.0, 1e-3);
+}
+
+struct Assigned {
+    MatrixXf points = random_matrix(10, 700, 8);
+    std::vector<uint32_t> before;
+    ClusterSubspaces subspaces{10, 7, 2};
+    std::vector<uint32_t> after;
+    std::vector<float> distance;
+
+    Assigned(float neighbour_cost, const PointGraph* graph) {
+        for (uint32_t v = 0; v < 700; ++v) before.push_back(v % 7);
+        subspaces.fit(points, ClusterMembers(before, 7), 1);
+        after = before;
+        assign_points(points, subspaces, neighbour_cost, graph, after, distance);
+    }
+
+    // By definition, in double.
+    double squared_distance(Index v, Index c) const {
+        const Eigen::MatrixXd columns = subspaces.columns().middleCols(3 * c, 3).cast<double>();
+        const Eigen::VectorXd x = points.col(v).cast<double>() - columns.col(0);
+        return x.squaredNorm() - (columns.rightCols(2).transpose() * x).squaredNorm();
+    }
+};
+
+TEST(ClusterAssignment, IsToTheNearestSubspaceAsTheDefinitionSays) {
+    const Assigned assigned(0.0f, nullptr);
+    uint32_t num_moved = 0;
+    for (Index v = 0; v < 700; ++v) {
+        const auto at = static_cast<size_t>(v);
+        const auto cost = [&](uint32_t c) {
+            const double own = 1.0 - assigned.subspaces.leverage(c, assigned.points.col(v));
+            return assigned.squared_distance(v, c) / (c == assigned.before[at] ? own : 1.0);
+        };
+        for (uint32_t c = 0; c < 7; ++c) {
+            // Ten products of floats below 1.
+            EXPECT_LE(cost(assigned.after[at]), cost(c) + 1e-5);
+        }
+        EXPECT_NEAR(assigned.distance[at], assigned.squared_distance(v, assigned.after[at]), 1e-5);
+        num_moved += assigned.after[at] != assigned.before[at];
+    }
+    EXPECT_GT(num_moved, 100u);
+}
+
+TEST(ClusterAssignment, NeighboursDrawPointsToTheirCluster) {
+    // Each point has two neighbours, both in the cluster after its own.
+    PointGraph graph{{0}, {}};
+    for (uint32_t v = 0; v < 700; ++v) {
+        graph.neighbour.push_back((v + 1) % 700);
+        graph.neighbour.push_back((v + 8) % 700);
+        graph.first.push_back(static_cast<uint32_t>(graph.neighbour.size()));
+    }
+    const Assigned assigned(100.0f, &graph);
+    for (size_t v = 0; v < 700; ++v) {
+        ASSERT_EQ(assigned.after[v], (assigned.before[v] + 1) % 7);
+        // Without what neighbours cost; 200 in float are right to 2^-17.
+        EXPECT_NEAR(assigned.distance[v],
+                    assigned.squared_distance(static_cast<Index>(v), assigned.after[v]), 2e-4);
+    }
+}
+
+// --- all together
+
+TEST(Clustering, CoherenceShortensBorders) {
+    // A line of points whose values wander slowly, under noise.
+    MatrixXf points = 2.0f * random_matrix(6, 1200, 9);
+    PointGraph graph{{0}, {}};
+    for (uint32_t v = 0; v < 1200; ++v) {
+        points(0, v) += std::sin(0.02f * static_cast<float>(v));
+        points(1, v) += std::cos(0.03f * static_cast<float>(v));
+        if (v > 0) graph.neighbour.push_back(v - 1);
+        if (v < 1199) graph.neighbour.push_back(v + 1);
+        graph.first.push_back(static_cast<uint32_t>(graph.neighbour.size()));
+    }
+    ClusteringOptions options;
+    options.num_clusters = 8;
+    options.assumed_components = 2;
+    const auto num_borders = [&](float coherence) {
+        options.coherence = coherence;
+        const Clustering clustering = cluster_points(points, options, &graph);
+        EXPECT_GT(clustering.num_clusters, 1u);
+        uint32_t count = 0;
+        for (size_t v = 1; v < 1200; ++v) {
+            count += clustering.cluster[v] != clustering.cluster[v - 1];
+        }
+        return count;
+    };
+    EXPECT_LT(2 * num_borders(1.0f), num_borders(0.0f));
+}
+
+}  // namespace
+}  // namespace paim

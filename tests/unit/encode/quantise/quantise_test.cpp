@@ -1,0 +1,206 @@
+// Quantised components against what they decode to, against closed forms, and at their limits.
+#include "compressor/encode/quantise/quantise.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "paim/base/error.h"
+#include "tests/unit/encode/quantise/random_factors.h"
+
+namespace paim {
+namespace {
+
+constexpr uint32_t kAll = 1000;  // more components than there are
+
+std::vector<double> alike(const Scores& scores) {
+    return std::vector<double>(scores.num_planes, 1.0);
+}
+
+double decoded(const Scores& scores, const Quantiser& quantiser) {
+    return decoded_error(model_of(quantise(scores, quantiser), scores.num_points), scores,
+                         quantiser.plane_weight);
+}
+
+TEST(Quantise, ErrorIsThatOfWhatIsDecoded) {
+    const Scores scores = random_scores();
+    const std::vector<double> weights{1.0, 4.0, 0.25, 0.01};
+    for (const double step : {0.3, 0.05, 0.004}) {
+        for (const uint32_t kept : {0u, 2u, kAll}) {
+            const Quantiser quantiser{step, kept, weights};
+            const double stated = quantised_error(scores, quantiser);
+            const double found = decoded(scores, quantiser);
+            // Weights are least squares, so that rounding them only adds: P weights of a component
+            // cost what P of its 1600 values do, 0.75 % of P step²/12 each on average. Floats:
+            // 2^-24 of values near 1 is nothing beside a step.
+            EXPECT_GE(found, 0.99999 * stated) << step << " " << kept;
+            EXPECT_LE(found, 1.03 * stated) << step << " " << kept;
+        }
+    }
+}
+
+TEST(Quantise, FineStepsCostATwelfthOfTheirSquare) {
+    const Scores scores = random_scores({5000, 4, 12, {1.0, 1.0, 1.0}});
+    const double step = 1e-3;
+    const double values = 4.0 * 20000.0;
+    const double error = quantised_error(scores, {step, kAll, alike(scores)});
+    // The square of a uniform error has a relative deviation of √0.8: 0.3 % of 80000, five times
+    // that. The dead zone moves one value of 10000 by at most 0.1 step.
+    EXPECT_NEAR(error / (12.0 * values * step * step / 12.0), 1.0, 0.016);
+}
+
+TEST(Quantise, StepsOfPlanesWeighAlike) {
+    const Scores scores = random_scores();
+    const std::vector<double> weights{1.0, 4.0, 0.25, 0.01};
+    const Quantiser quantiser{0.01, kAll, weights};
+    const LowRankMatrix matrix = quantise(scores, quantiser);
+    const std::vector<float> expected{0.01f, 0.005f, 0.02f, 0.1f};
+    ASSERT_EQ(matrix.steps.size(), 4u);
+    for (uint32_t j = 0; j < 4; ++j) EXPECT_FLOAT_EQ(matrix.steps[j], expected[j]);
+    // So that each plane has about as much of the error: 1600 squares, deviation 2.3 %.
+    const Model model = model_of(matrix, scores.num_points);
+    const double share = quantised_error(scores, quantiser) / 4.0;
+    for (uint32_t j = 0; j < 4; ++j) {
+        std::vector<double> one(4, 0.0);
+        one[j] = weights[j];
+        EXPECT_NEAR(decoded_error(model, scores, one) / share, 1.0, 0.15) << j;
+    }
+}
+
+TEST(Quantise, ComponentsWeakerThanTheStepVanish) {
+    const Scores scores = random_scores({400, 4, 12, {1.0, 0.059, 0.02, 0.5}});
+    const Quantiser quantiser{0.1, kAll, alike(scores)};
+    const LowRankMatrix matrix = quantise(scores, quantiser);
+    EXPECT_EQ(matrix.num_components, 2u);
+    ASSERT_EQ(matrix.components.size(), 2u);
+    EXPECT_EQ(matrix.weight_steps.size(), 2u);
+    EXPECT_EQ(matrix.weights.size(), 2u * 12);
+    EXPECT_NEAR(decoded(scores, quantiser) / quantised_error(scores, quantiser), 1.0, 0.02);
+    EXPECT_EQ(quantise(scores, {10.0, kAll, alike(scores)}).num_components, 0u);
+}
+
+// A weight that costs as much as a value of its component would be zero in all poses.
+TEST(Quantise, ComponentsWithoutWeightsAreDropped) {
+    Scores scores = random_scores({400, 1, 64, {1.0, 1.0}});
+    std::fill(scores.components[1].begin(), scores.components[1].end(), 0.0f);
+    scores.components[1][7] = 0.1f;
+    const LowRankMatrix matrix = quantise(scores, {0.1, kAll, alike(scores)});
+    EXPECT_EQ(matrix.num_components, 1u);
+}
+
+TEST(Quantise, WeightsAreMultiplesOfStepsThatCostAsMuchAsAValue) {
+    const Scores scores = random_scores();
+    const LowRankMatrix matrix = quantise(scores, {0.02, kAll, alike(scores)});
+    ASSERT_EQ(matrix.num_components, 3u);
+    for (uint32_t k = 0; k < 3; ++k) {
+        double squares = 0.0;
+        matrix.components[k].for_each(0, matrix.num_rows(),
+                                      [&](size_t, float q) { squares += double{q} * double{q}; });
+        const float step = matrix.weight_steps[k];
+        EXPECT_NEAR(double{step} * double{step} * squares / 12.0, 1.0, 1e-6);
+        for (uint32_t p = 0; p < 12; ++p) {
+            const float weight = matrix.weights[k * 12 + p];
+            EXPECT_EQ(weight, std::nearbyint(weight / step) * step);
+        }
+    }
+}
+
+// Columns of integers that are sums of two others: what is left of a pivot is rounding.
+TEST(Quantise, IntegersThatDependOnEachOtherHaveOrdinaryWeights) {
+    for (uint32_t trial = 0; trial < 40; ++trial) {
+        Scores scores = random_scores({300 + trial, 1, 12, {1.0, 1.0, 1.0, 1.0, 1.0}});
+        RandomStream random(trial);
+        const auto integer = [&](double count) { return std::floor(count * random.uniform()); };
+        std::vector<double> a(5), b(5);
+        for (double& x : a) x = 1.0 + integer(20.0);
+        for (double& x : b) x = integer(9.0);
+        for (size_t n = 0; n < scores.mean.size(); ++n) {
+            const double x = integer(7.0) - 3.0;
+            const double y = integer(5.0) - 2.0;
+            for (size_t k = 0; k < 5; ++k) {
+                scores.components[k][n] =
+                    static_cast<float>(a[k] * x + b[k] * y + 0.9 * (random.uniform() - 0.5));
+            }
+        }
+        const Quantiser quantiser{1.0, kAll, {1.0}};
+        const LowRankMatrix matrix = quantise(scores, quantiser);
+        ASSERT_EQ(matrix.num_components, 5u);
+        for (const float weight : matrix.weights) {
+            // The shares of five components, each at most √12 in a pose.
+            EXPECT_LE(std::abs(weight), 40.0f) << trial;
+        }
+        // Rounding adds step²/12 · P for each of 5 · 12 weights, 60; five times that where they
+        // round alike; and no more than a weight's whole step, 12 times that.
+        const double rounding = decoded(scores, quantiser) - quantised_error(scores, quantiser);
+        EXPECT_LE(rounding, 12.0 * 300.0) << trial;
+    }
+}
+
+TEST(Quantise, LargestStepIsTheLargest) {
+    const Scores scores = random_scores({2000, 4, 12, {1.0, 0.5, 0.25}});
+    const Quantiser any{1.0, kAll, alike(scores)};
+    const double all = quantised_error(scores, {100.0, kAll, alike(scores)});
+    for (const double share : {1e-1, 1e-3, 1e-6}) {
+        Quantiser found = any;
+        found.step = largest_step(scores, any, share * all);
+        EXPECT_LE(quantised_error(scores, found), share * all);
+        // Errors of steps next to each other differ by 0.5 % as 32000 values happen to be rounded.
+        found.step *= 1.03;
+        EXPECT_GT(quantised_error(scores, found), share * all);
+    }
+}
+
+TEST(Quantise, LargestStepKnowsItsLimits) {
+    Scores scores = random_scores();
+    const Quantiser any{1.0, kAll, alike(scores)};
+    EXPECT_EQ(largest_step(scores, any, 0.0), 0.0);
+    // Anything is good enough: the largest value is one step.
+    EXPECT_NEAR(largest_step(scores, any, 1e9), 1.0, 1e-3);
+    std::fill(scores.mean.begin(), scores.mean.end(), 0.0f);
+    for (auto& component : scores.components) std::fill(component.begin(), component.end(), 0.0f);
+    EXPECT_EQ(largest_step(scores, any, 0.0), 1.0);
+    const LowRankMatrix nothing = quantise(scores, any);
+    EXPECT_EQ(nothing.num_components, 0u);
+    EXPECT_EQ(quantised_error(scores, any), 0.0);
+}
+
+TEST(Quantise, SmallestStepFitsItsBits) {
+    const Scores scores = random_scores();
+    for (const Precision precision : {Precision::i8, Precision::i16}) {
+        Quantiser quantiser{1.0, kAll, {1.0, 4.0, 0.25, 0.01}};
+        quantiser.step = smallest_step(scores, quantiser, precision);
+        const LowRankMatrix matrix = quantise(scores, quantiser);
+        float largest = 0.0f;
+        for (size_t r = 0; r < matrix.num_rows(); ++r) {
+            largest = std::max(largest, std::abs(matrix.mean[r]));
+            for (const auto& component : matrix.components) {
+                largest = std::max(largest, std::abs(component[r]));
+            }
+        }
+        // Within 0.01 % of the largest.
+        EXPECT_LE(largest, static_cast<float>(largest_integer(precision)));
+        EXPECT_GE(largest, 0.9998f * static_cast<float>(largest_integer(precision)));
+        EXPECT_EQ(matrix.mean.holds_i8(), precision == Precision::i8);
+        if (precision == Precision::i8) continue;
+        quantiser.step *= 0.999;
+        try {
+            quantise(scores, quantiser);
+            FAIL() << "fits";
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ExitCode::unsupported);
+        }
+    }
+}
+
+TEST(Quantise, OnePoseIsAMean) {
+    Scores scores = random_scores({50, 2, 1, {}});
+    const Quantiser quantiser{0.01, kAll, alike(scores)};
+    const LowRankMatrix matrix = quantise(scores, quantiser);
+    EXPECT_EQ(matrix.num_components, 0u);
+    EXPECT_EQ(matrix.num_poses, 1u);
+    // Floats of the decoded mean, 2^-24 of 1, beside errors of 0.003.
+    EXPECT_NEAR(decoded(scores, quantiser) / quantised_error(scores, quantiser), 1.0, 1e-4);
+}
+
+}  // namespace
+}  // namespace paim

@@ -1,0 +1,82 @@
+// Scores with random components, and slow sums of what matrices decode to.
+#pragma once
+
+#include <Eigen/QR>
+
+#include <cmath>
+
+#include "compressor/encode/quantise/scaled_factors.h"
+#include "paim/base/seed.h"
+#include "paim/codec/component_planes.h"
+#include "paim/codec/model.h"
+
+namespace paim {
+
+struct ScoresShape {
+    uint32_t num_points = 400;
+    uint32_t num_planes = 4;
+    uint32_t num_poses = 12;
+    std::vector<double> sizes{1.0, 0.5, 0.25};  // largest value of each component
+};
+
+// Values are uniform in ± the size of their component; the mean has ± 1.
+inline Scores random_scores(const ScoresShape& shape = {}) {
+    RandomStream random(3);
+    const auto number = [&](double size) {
+        return static_cast<float>(size * (2.0 * random.uniform() - 1.0));
+    };
+    Scores scores;
+    scores.num_points = shape.num_points;
+    scores.num_planes = shape.num_planes;
+    const size_t num_rows = size_t{shape.num_points} * shape.num_planes;
+    for (size_t r = 0; r < num_rows; ++r) scores.mean.push_back(number(1.0));
+    for (const double size : shape.sizes) {
+        auto& component = scores.components.emplace_back();
+        for (size_t r = 0; r < num_rows; ++r) component.push_back(number(size));
+    }
+    // Orthogonal to the constant and to each other, of unit RMS.
+    const auto num_poses = static_cast<Eigen::Index>(shape.num_poses);
+    const auto count = static_cast<Eigen::Index>(shape.sizes.size());
+    Eigen::MatrixXd columns(num_poses, 1 + count);
+    for (double& x : columns.reshaped()) x = random.uniform() - 0.5;
+    columns.col(0).setOnes();
+    const Eigen::MatrixXd q = Eigen::HouseholderQR<Eigen::MatrixXd>(columns).householderQ() *
+                              Eigen::MatrixXd::Identity(num_poses, 1 + count);
+    scores.weights = std::sqrt(shape.num_poses) * q.rightCols(count).transpose();
+    for (const double size : shape.sizes) scores.singular_values.push_back(size);
+    return scores;
+}
+
+// One plane over all poses, [N][P].
+inline Eigen::MatrixXd exact_plane(const Scores& scores, uint32_t j) {
+    const auto column = [&](const std::vector<float>& values) {
+        return Eigen::Map<const Eigen::VectorXf>(scores.plane(values, j).data(), scores.num_points)
+            .cast<double>();
+    };
+    Eigen::MatrixXd plane = column(scores.mean) * Eigen::RowVectorXd::Ones(scores.weights.cols());
+    for (uint32_t k = 0; k < scores.num_components(); ++k) {
+        plane += column(scores.components[k]) * scores.weights.row(k);
+    }
+    return plane;
+}
+
+// Weighted squares of what the transfer of a model decodes to beside the scores.
+inline double decoded_error(const Model& model, const Scores& scores,
+                            const std::vector<double>& plane_weight) {
+    double sum = 0.0;
+    for (uint32_t j = 0; j < scores.num_planes; ++j) {
+        const Eigen::MatrixXd decoded = decode_plane(model, Part::transfer, j).cast<double>();
+        sum += plane_weight[j] * (decoded - exact_plane(scores, j)).squaredNorm();
+    }
+    return sum;
+}
+
+// A model that holds this transfer and nothing else.
+inline Model model_of(LowRankMatrix transfer, uint32_t num_vertices) {
+    Model model;
+    model.topology.num_vertices = num_vertices;
+    model.transfer = std::move(transfer);
+    return model;
+}
+
+}  // namespace paim

@@ -1,0 +1,110 @@
+// Components that vanish among others that do not: what is left keeps its own singular values.
+#include <gtest/gtest.h>
+
+#include "compressor/encode/quantise/quantise.h"
+#include "paim/base/error.h"
+#include "paim/format/container/metadata.h"
+#include "paim/format/paim/paim_file.h"
+#include "paim/format/paim/paim_metadata.h"
+#include "paim/metrics/singular_value_error.h"
+#include "tests/example_model.h"
+#include "tests/temporary_directory.h"
+#include "tests/unit/encode/quantise/random_factors.h"
+
+namespace paim {
+namespace {
+
+// The second and third of four components are below half a step.
+LowRankMatrix quantised() {
+    Scores scores = random_scores({400, 4, 12, {1.0, 0.05, 0.05, 0.5}});
+    scores.singular_values = {8.0, 4.0, 2.0, 1.0, 0.5};
+    return quantise(scores, {0.1, 1000, std::vector<double>(4, 1.0)});
+}
+
+// A file whose transfer is that, of one band and grey.
+Model example_of(LowRankMatrix transfer) {
+    Model model = make_example_model();
+    model.layout = {TransferKind::diffuse, 2, 1};
+    model.topology = {400, {}};
+    model.geometry = {};
+    model.geometry.num_points = 400;
+    model.geometry.num_planes = 3;
+    model.geometry.num_poses = 12;
+    model.geometry.mean = std::vector<float>(1200, 0.0f);
+    model.scenery = {};
+    model.albedo = {};
+    model.transfer = std::move(transfer);
+    return model;
+}
+
+TEST(VanishedComponent, OthersKeepTheirSingularValues) {
+    const LowRankMatrix matrix = quantised();
+    ASSERT_EQ(matrix.num_components, 2u);
+    EXPECT_EQ(matrix.singular_values.size(), 5u);
+    EXPECT_EQ(matrix.singular_indices, (std::vector<uint32_t>{0, 3}));
+    EXPECT_DOUBLE_EQ(theory_error(matrix), 6.5 / 15.5);
+    EXPECT_DOUBLE_EQ(energy_error(matrix), std::sqrt(20.25 / 85.25));
+}
+
+TEST(VanishedComponent, FirstOnesNeedNoIndices) {
+    Scores scores = random_scores({400, 4, 12, {1.0, 0.5, 0.05}});
+    const LowRankMatrix some = quantise(scores, {0.1, 1000, std::vector<double>(4, 1.0)});
+    EXPECT_EQ(some.num_components, 2u);
+    EXPECT_TRUE(some.singular_indices.empty());
+    EXPECT_DOUBLE_EQ(theory_error(some), theory_error(some.singular_values, 2));
+    EXPECT_DOUBLE_EQ(energy_error(some), energy_error(some.singular_values, 2));
+    const LowRankMatrix none = quantise(scores, {10.0, 1000, std::vector<double>(4, 1.0)});
+    EXPECT_TRUE(none.singular_indices.empty());
+    EXPECT_DOUBLE_EQ(theory_error(none), 1.0);
+}
+
+// Had the last one the second value, it would come before the geometry's.
+TEST(VanishedComponent, OthersAreWhereTheirEnergyPutsThem) {
+    Model model = example_of(quantised());
+    model.geometry.num_components = 1;
+    model.geometry.singular_values = {3.0, 3.0};
+    model.transfer.singular_values = {8.0, 7.9, 7.9, 1.0};
+    const std::vector<ComponentId> expected{
+        {Part::geometry, 0}, {Part::transfer, 0}, {Part::transfer, 1}};
+    // Shares 0.5, 0.34 and 0.005. The second value would have 0.33.
+    EXPECT_EQ(component_order(model), expected);
+    model.geometry.singular_values = {1.0, 2.0, 2.0};  // 0.11
+    EXPECT_EQ(component_order(model)[1], (ComponentId{Part::geometry, 0}));
+}
+
+TEST(VanishedComponent, FilesSayWhichAreLeft) {
+    const TemporaryDirectory directory;
+    const Model model = example_of(quantised());
+    write_paim(directory / "x.paim", model);
+    const Model read = read_paim(directory / "x.paim");
+    EXPECT_EQ(read.transfer.singular_indices, model.transfer.singular_indices);
+    EXPECT_TRUE(read.geometry.singular_indices.empty());
+    EXPECT_NEAR(theory_error(read.transfer), 6.5 / 15.5, 1e-7);  // of floats
+    const std::string metadata = paim_metadata(model);
+    EXPECT_NE(metadata.find("transfer_singular_indices"), std::string::npos);
+    EXPECT_EQ(metadata.find("geometry_singular_indices"), std::string::npos);
+}
+
+TEST(VanishedComponent, IndicesThatMakeNoSenseAreRefused) {
+    const auto read = [](const std::string& indices, size_t num_values) {
+        const Metadata metadata("{\"transfer_singular_indices\":" + indices + "}", "x.paim");
+        return read_singular_indices(metadata, Part::transfer, 2, num_values);
+    };
+    EXPECT_EQ(read("[0,3]", 4), (std::vector<uint32_t>{0, 3}));
+    for (const char* bad : {"[0,4]", "[3,0]", "[1,1]", "[-1,2]", "[0,1.5]", "[0]", "[0,1,2]",
+                            "[0,\"1\"]", "3", "[0,null]"}) {
+        try {
+            read(bad, 4);
+            ADD_FAILURE() << bad;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ExitCode::bad_input) << bad;
+            EXPECT_NE(std::string(error.what()).find("x.paim"), std::string::npos);
+        }
+    }
+    EXPECT_THROW(read("[0,1]", 0), Error);
+    const Metadata silent("{}", "x.paim");
+    EXPECT_TRUE(read_singular_indices(silent, Part::transfer, 2, 4).empty());
+}
+
+}  // namespace
+}  // namespace paim

@@ -1,0 +1,93 @@
+// What stands still is within a target as well, and no finer than that.
+#include "compressor/encode/search/quantise_scenery.h"
+
+#include <gtest/gtest.h>
+
+#include "compressor/encode/search/target_encode.h"
+#include "paim/base/error.h"
+#include "paim/format/paim/paim_file.h"
+#include "tests/temporary_directory.h"
+#include "tests/unit/encode/search/target_bake.h"
+
+namespace paim {
+namespace {
+
+class QuantiseScenery : public testing::Test {
+  protected:
+    QuantiseScenery() { options_.precision = Precision::i16; }
+
+    BakeReader bake(double scenery_noise) const {
+        TargetBake numbers;
+        numbers.scenery_noise = scenery_noise;
+        return write_target_bake(directory_ / "x.bake", numbers);
+    }
+
+    // Reads the file again.
+    Model encode(const BakeReader& bake, double error) const {
+        EncodeTarget target;
+        target.transfer_error = error;
+        target.spectrum = LightSpectrum::flat(4);
+        encode_to_target(bake, options_, target, output_);
+        return read_paim(output_);
+    }
+
+    const TemporaryDirectory directory_;
+    const std::filesystem::path output_ = directory_ / "x.paim";
+    EncodeOptions options_;
+};
+
+TEST_F(QuantiseScenery, IsAsCoarseAsTheTargetAllows) {
+    const BakeReader bake = this->bake(0.001);
+    for (const double error : {0.1, 0.02}) {
+        const Model model = encode(bake, error);
+        EXPECT_FALSE(model.scenery.transfer.values.holds_floats());
+        EXPECT_FALSE(model.scenery.positions.values.holds_floats());
+        const ModelError measured = measure_model(model, bake, LightSpectrum::flat(4));
+        // Steps end within 0.5 % of the largest that are good, and errors of rounding are those of
+        // 6400 and 1200 values.
+        EXPECT_LE(measured.scenery->transfer.total(), error);
+        EXPECT_GT(measured.scenery->transfer.total(), 0.93 * error);
+        // Of the animation's diagonal, not the scenery's, which is twice as long.
+        const double distance = error * kGeometryPerTransferError * measured.geometry.diagonal;
+        EXPECT_LE(measured.scenery->geometry.rms(), distance * (1.0 + 1e-6));
+        EXPECT_GT(measured.scenery->geometry.rms(), 0.9 * distance);
+        const ErrorStatement stated = read_error_statement(model, output_);
+        EXPECT_EQ(stated.errors.back().name, "scenery_position_worst");
+        EXPECT_EQ(stated.errors.back().value, measured.scenery->geometry.worst());
+    }
+}
+
+TEST_F(QuantiseScenery, IsWithinTheTargetWithNoiseOfItsOwn) {
+    const BakeReader bake = this->bake(0.02);
+    const Model model = encode(bake, 0.08);
+    const ModelError measured = measure_model(model, bake, LightSpectrum::flat(4));
+    EXPECT_GT(measured.scenery->transfer.bake_noise, 0.02);
+    EXPECT_LE(measured.scenery->transfer.total(), 0.08);
+    EXPECT_GT(measured.scenery->transfer.total(), 0.07);
+}
+
+TEST_F(QuantiseScenery, IsRefusedByNameWhereItsNoiseIsTooLarge) {
+    const BakeReader bake = this->bake(0.1);
+    try {
+        encode(bake, 0.02);
+        ADD_FAILURE() << "not refused";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ExitCode::threshold_exceeded);
+        EXPECT_NE(std::string(error.what()).find("of the scenery the bake's noise leaves"),
+                  std::string::npos)
+            << error.what();
+    }
+    EXPECT_FALSE(std::filesystem::exists(output_));
+}
+
+// Floats stay what they are, in the order that the animation has.
+TEST_F(QuantiseScenery, LeavesFloatsAsTheyAre) {
+    options_.precision = Precision::f32;
+    const BakeReader bake = this->bake(0.001);
+    const ModelError measured = measure_model(encode(bake, 0.02), bake, LightSpectrum::flat(4));
+    EXPECT_EQ(measured.scenery->geometry.worst(), 0.0);
+    EXPECT_EQ(measured.scenery->transfer.deviation, 0.0);
+}
+
+}  // namespace
+}  // namespace paim

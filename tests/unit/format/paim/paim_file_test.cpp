@@ -1,0 +1,451 @@
+// .paim files: round trip, order of components, cuts at 50 places, numbers that make no sense.
+#include "paim/format/paim/paim_file.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "paim/base/error.h"
+#include "paim/base/file.h"
+#include "paim/format/container/container_reader.h"
+#include "paim/format/container/sections.h"
+#include "tests/example_model.h"
+#include "tests/temporary_directory.h"
+
+namespace paim {
+namespace {
+
+void expect_equal(const LowRankMatrix& a, const LowRankMatrix& b) {
+    EXPECT_EQ(a.num_planes, b.num_planes);
+    EXPECT_EQ(a.num_components, b.num_components);
+    EXPECT_EQ(a.precision, b.precision);
+    EXPECT_EQ(a.mean, b.mean);
+    EXPECT_EQ(a.components, b.components);
+    EXPECT_EQ(a.weights, b.weights);
+    EXPECT_EQ(a.singular_values, b.singular_values);
+}
+
+TEST(PaimFile, RoundTrips) {
+    const TemporaryDirectory directory;
+    for (const uint32_t channels : {1u, 3u}) {
+        Model model = make_example_model(3, channels);
+        if (channels == 3) model.albedo.values.assign(4, Vec3f(0.1f, 0.2f, 0.3f));
+        write_paim(directory / "x.paim", model);
+        const Model read = read_paim(directory / "x.paim");
+        EXPECT_EQ(read.topology, model.topology);
+        EXPECT_EQ(read.albedo.values, model.albedo.values);
+        EXPECT_EQ(read.layout, model.layout);
+        EXPECT_EQ(read.name, model.name);
+        EXPECT_EQ(read.provenance_json, model.provenance_json);
+        EXPECT_EQ(read.frames_per_second, model.frames_per_second);
+        expect_equal(read.geometry, model.geometry);
+        expect_equal(read.transfer, model.transfer);
+        EXPECT_EQ(std::filesystem::file_size(directory / "x.paim"), paim_size_bytes(model));
+    }
+}
+
+// With weights that are integers, too, as the encoder makes them.
+Model packed_example(bool clustered) {
+    Model model = clustered ? make_clustered_example(3, 3, 2, true)
+                            : quantise_example(make_example_model(3, 3));
+    model.vertex_order = VertexOrder::local;
+    LowRankMatrix& matrix = model.transfer;
+    matrix.weight_steps = {0.25f, 0.0f, 1e-3f};
+    for (size_t j = 0; j < matrix.weights.size(); ++j) {
+        const float step = matrix.weight_steps[j / matrix.num_poses];
+        const auto q = static_cast<int32_t>(j * 977 % 4001) - 2000;
+        matrix.weights[j] = step * static_cast<float>(q);
+    }
+    return model;
+}
+
+TEST(PaimFile, RoundTripsIntegersAndClusters) {
+    const TemporaryDirectory directory;
+    for (const bool clustered : {false, true}) {
+        Model model = packed_example(clustered);
+        model.scenery =
+            clustered ? make_quantised_scenery(model.layout) : make_example_scenery(model.layout);
+        write_paim(directory / "x.paim", model);
+        const Model read = read_paim(directory / "x.paim");
+        EXPECT_EQ(std::filesystem::file_size(directory / "x.paim"), paim_size_bytes(model));
+        // Triangles may be turned.
+        ASSERT_EQ(read.topology.triangles.size(), model.topology.triangles.size());
+        for (size_t t = 0; t < read.topology.triangles.size(); ++t) {
+            Triangle turned = read.topology.triangles[t];
+            const auto first =
+                std::find(turned.begin(), turned.end(), model.topology.triangles[t][0]);
+            std::rotate(turned.begin(), first, turned.end());
+            EXPECT_EQ(turned, model.topology.triangles[t]);
+        }
+        for (const Part part : {Part::geometry, Part::transfer}) {
+            const LowRankMatrix &a = read.part(part), &b = model.part(part);
+            EXPECT_EQ(a.precision, Precision::i16);
+            EXPECT_EQ(a.num_points, b.num_points);
+            EXPECT_EQ(a.steps, b.steps);
+            EXPECT_EQ(a.mean, b.mean);
+            EXPECT_EQ(a.components, b.components);
+            EXPECT_EQ(a.weights, b.weights);
+            EXPECT_EQ(a.weight_steps, b.weight_steps);
+            for (size_t k = 0; k < b.singular_values.size(); ++k) {
+                EXPECT_FLOAT_EQ(static_cast<float>(a.singular_values[k]),
+                                static_cast<float>(b.singular_values[k]));
+            }
+        }
+        EXPECT_EQ(read.clusters.num_clusters, model.clusters.num_clusters);
+        EXPECT_EQ(read.clusters.num_components, model.clusters.num_components);
+        EXPECT_EQ(read.clusters.cluster, model.clusters.cluster);
+        EXPECT_EQ(read.clusters.coefficients, model.clusters.coefficients);
+        EXPECT_EQ(read.clusters.scales, model.clusters.scales);
+        EXPECT_EQ(read.vertex_order, VertexOrder::local);
+        EXPECT_EQ(read.scenery.positions, model.scenery.positions);
+        EXPECT_EQ(read.scenery.transfer, model.scenery.transfer);
+        EXPECT_EQ(read.scenery.topology.triangles.size(), 2u);
+    }
+}
+
+// Whatever a compressed file's bytes are, and even where all checksums are right: a model that can be
+// played, or a clear error.
+TEST(PaimFile, SurvivesAnyByteOfCompressedSections) {
+    const TemporaryDirectory directory;
+    for (const bool clustered : {false, true}) {
+        write_paim(directory / "x.paim", packed_example(clustered));
+        const auto whole = read_file(directory / "x.paim", 1 << 20);
+        const ContainerReader reader(directory / "x.paim", section::kKindAnimation);
+        int refused = 0, read = 0;
+        for (size_t s = 0; s < reader.sections().size(); ++s) {
+            const Section& damaged = reader.sections()[s];
+            for (uint64_t place = 0; place < damaged.stored_size_bytes; ++place) {
+                std::vector<SectionPlan> plans;
+                for (const Section& section : reader.sections()) {
+                    plans.emplace_back(section.spec, section.codec, section.stored_size_bytes);
+                }
+                ContainerWriter writer(directory / "y.paim", section::kKindAnimation, plans);
+                for (size_t j = 0; j < plans.size(); ++j) {
+                    const Section& section = reader.sections()[j];
+                    std::vector<char> bytes(
+                        whole.begin() + static_cast<ptrdiff_t>(section.offset),
+                        whole.begin() +
+                            static_cast<ptrdiff_t>(section.offset + section.stored_size_bytes));
+                    if (j == s) bytes[place] = static_cast<char>(bytes[place] ^ (1 << (place % 8)));
+                    writer.append(j, bytes.data(), bytes.size());
+                }
+                writer.commit();
+                try {
+                    const Model model = read_paim(directory / "y.paim");
+                    for (const uint32_t cluster : model.clusters.cluster) {
+                        ASSERT_LT(cluster, model.clusters.num_clusters);
+                    }
+                    ++read;
+                } catch (const Error& error) {
+                    EXPECT_TRUE(error.code() == ExitCode::bad_input ||
+                                error.code() == ExitCode::unsupported)
+                        << error.what();
+                    EXPECT_NE(std::string(error.what()).find("y.paim"), std::string::npos);
+                    ++refused;
+                }
+            }
+        }
+        EXPECT_GT(refused, 300);  // frames and shapes
+        EXPECT_GT(read, 30);      // numbers that are merely others
+    }
+}
+
+TEST(PaimFile, TakesNoMemoryForVerticesThatNothingIsClaimedOf) {
+    const TemporaryDirectory directory;
+    const auto path = directory / "x.paim";
+    Model model = packed_example(false);
+    write_paim(path, model);
+    // Without the mean of the geometry, and two thousand million vertices.
+    const auto bytes = read_file(path, 1 << 20);
+    const ContainerReader reader(path, section::kKindAnimation);
+    std::string metadata = reader.read_text(reader.require(section::kMetadata, ScalarType::u8));
+    const std::string count = "\"num_vertices\": 4";
+    metadata.replace(metadata.find(count), count.size(), "\"num_vertices\": 2147483647");
+    std::vector<SectionPlan> plans{SectionSpec{
+        section::kMetadata, ScalarType::u8, 0, {1, 1, static_cast<uint32_t>(metadata.size())}}};
+    std::vector<std::string> contents{metadata};
+    for (const Section& section : reader.sections()) {
+        if (section.spec.tag == section::kMetadata || section.spec.tag == section::kMean[0])
+            continue;
+        plans.emplace_back(section.spec, section.codec, section.stored_size_bytes);
+        contents.emplace_back(bytes.data() + section.offset, section.stored_size_bytes);
+    }
+    ContainerWriter writer(path, section::kKindAnimation, plans);
+    for (size_t j = 0; j < plans.size(); ++j) {
+        writer.append(j, contents[j].data(), contents[j].size());
+    }
+    writer.commit();
+    try {
+        read_paim(path);
+        ADD_FAILURE() << "read a file without positions";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("GMEA 0 is missing"), std::string::npos)
+            << error.what();
+    }
+}
+
+TEST(PaimFile, RefusesClaimsOfFarMoreValuesThanBytes) {
+    const TemporaryDirectory directory;
+    const auto path = directory / "x.paim";
+    ContainerWriter writer(path, section::kKindAnimation,
+                           {SectionPlan({Tag("TMEA"), ScalarType::i8, 0, {1, 1u << 15, 1u << 15}},
+                                        SectionCodec::planes, 3)});
+    writer.append(0, "abc", 3);
+    writer.commit();
+    try {
+        const ContainerReader reader(path, section::kKindAnimation);
+        ADD_FAILURE() << "opened a file of a gigabyte of claims";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("sections claim more than"), std::string::npos)
+            << error.what();
+    }
+}
+
+// Scenery alone is reason enough to pack a file; its values are integers times a step a plane.
+TEST(PaimFile, KeepsSceneryOfIntegers) {
+    const TemporaryDirectory directory;
+    Model model = make_example_model(3, 3);
+    model.scenery = make_quantised_scenery(model.layout);
+    write_paim(directory / "x.paim", model);
+    const Scenery read = read_paim(directory / "x.paim").scenery;
+    EXPECT_EQ(read.positions, model.scenery.positions);
+    EXPECT_EQ(read.transfer, model.scenery.transfer);
+    EXPECT_TRUE(read.transfer.values.holds_i8());
+    const std::vector<float> floats = read.transfer.floats();
+    ASSERT_EQ(floats.size(), size_t{4} * model.layout.num_planes());
+    // Value 2 of plane 5: so many steps of 6 hundredths.
+    EXPECT_EQ(floats[4 * 5 + 2], (6.0f / 100.0f) * read.transfer.values[4 * 5 + 2]);
+}
+
+// What predicts them takes 40 bytes a vertex, whatever they are packed to.
+TEST(PaimFile, RefusesMoreVerticesThanASmallFileMayHave) {
+    const TemporaryDirectory directory;
+    Model model = quantise_example(make_example_model(1));
+    model.topology = {2'000'000, {}};
+    const auto empty = [&](LowRankMatrix& matrix) {
+        matrix.num_points = model.topology.num_vertices;
+        matrix.num_components = 0;
+        matrix.mean = std::vector<int8_t>(matrix.num_rows());
+        matrix.components.clear();
+        matrix.weights.clear();
+    };
+    empty(model.geometry);
+    empty(model.transfer);
+    try {
+        write_paim(directory / "x.paim", model);
+        ADD_FAILURE() << "written";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ExitCode::unsupported);
+        EXPECT_NE(std::string(error.what()).find("2000000 vertices and"), std::string::npos)
+            << error.what();
+    }
+    EXPECT_FALSE(std::filesystem::exists(directory / "x.paim"));
+}
+
+TEST(PaimFile, KeepsScenery) {
+    const TemporaryDirectory directory;
+    for (const uint32_t channels : {1u, 3u}) {
+        Model model = make_example_model(3, channels);
+        EXPECT_TRUE(model.scenery.empty());
+        const uint64_t without = paim_size_bytes(model);
+        model.scenery = make_example_scenery(model.layout);
+        write_paim(directory / "x.paim", model);
+        const Model read = read_paim(directory / "x.paim");
+        EXPECT_EQ(read.scenery.topology, model.scenery.topology);
+        EXPECT_EQ(read.scenery.albedo.values, model.scenery.albedo.values);
+        EXPECT_EQ(read.scenery.positions, model.scenery.positions);
+        EXPECT_EQ(read.scenery.transfer, model.scenery.transfer);
+        expect_equal(read.transfer, model.transfer);
+        EXPECT_EQ(std::filesystem::file_size(directory / "x.paim"), paim_size_bytes(model));
+        EXPECT_GT(paim_size_bytes(model), without);
+    }
+}
+
+// The file with all of its sections but one.
+void drop_section(const std::filesystem::path& path, Tag tag) {
+    const auto bytes = read_file(path, 1 << 20);
+    const ContainerReader reader(path, section::kKindAnimation);
+    std::vector<Section> kept;
+    std::vector<SectionPlan> specs;
+    for (const Section& section : reader.sections()) {
+        if (section.spec.tag == tag) continue;
+        kept.push_back(section);
+        specs.push_back(section.spec);
+    }
+    ContainerWriter writer(path, section::kKindAnimation, specs);
+    for (size_t j = 0; j < kept.size(); ++j) {
+        writer.append(j, bytes.data() + kept[j].offset, kept[j].stored_size_bytes);
+    }
+    writer.commit();
+}
+
+TEST(PaimFile, SceneryIsWholeOrAbsent) {
+    const TemporaryDirectory directory;
+    const auto path = directory / "x.paim";
+    Model model = make_example_model();
+    model.scenery = make_example_scenery(model.layout);
+    const std::vector<Tag> tags{section::kSceneryTriangles, section::kSceneryPositions,
+                                section::kSceneryAlbedo, section::kSceneryTransfer};
+    for (const Tag tag : tags) {
+        write_paim(path, model);
+        drop_section(path, tag);
+        try {
+            read_paim(path);
+            ADD_FAILURE() << "read a file without " << tag.str();
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ExitCode::bad_input);
+            EXPECT_NE(std::string(error.what()).find(tag.str()), std::string::npos) << error.what();
+        }
+    }
+    write_paim(path, model);
+    for (const Tag tag : tags) drop_section(path, tag);
+    EXPECT_TRUE(read_paim(path).scenery.empty());
+}
+
+TEST(PaimFile, KeepsTheOriginToTheLastDigit) {
+    const TemporaryDirectory directory;
+    Model model = make_example_model();
+    EXPECT_EQ(model.origin, Vec3d::Zero());
+    const uint64_t size_bytes = paim_size_bytes(model);
+    model.origin = Vec3d(1.0 / 3.0, -1e30, 0x1.fffffffffffffp-40);
+    write_paim(directory / "x.paim", model);
+    EXPECT_EQ(read_paim(directory / "x.paim").origin, model.origin);
+    // Zero is not written, so that ordinary files are what they were before there was an origin.
+    model.origin = Vec3d::Zero();
+    write_paim(directory / "x.paim", model);
+    EXPECT_EQ(read_paim(directory / "x.paim").origin, Vec3d::Zero());
+    EXPECT_EQ(std::filesystem::file_size(directory / "x.paim"), size_bytes);
+}
+
+TEST(PaimFile, HalfComponentsAreRoundedToNearest) {
+    const TemporaryDirectory directory;
+    Model model = make_example_model();
+    model.transfer.precision = Precision::f16;
+    write_paim(directory / "x.paim", model);
+    const Model read = read_paim(directory / "x.paim");
+    EXPECT_EQ(read.transfer.precision, Precision::f16);
+    EXPECT_EQ(read.geometry.components, model.geometry.components);
+    for (size_t j = 0; j < model.transfer.num_rows(); ++j) {
+        const float exact = model.transfer.components[1][j];
+        // Half floats have 11 significant bits: half a unit in the last place is at most 2^-11 of
+        // the value; below 2^-14 they are subnormal, with steps of 2^-24.
+        EXPECT_LE(std::abs(read.transfer.components[1][j] - exact),
+                  std::max(std::abs(exact) * 0x1p-11f, 0x1p-25f));
+    }
+}
+
+TEST(PaimFile, HoldsStillAnimationsWithoutComponents) {
+    const TemporaryDirectory directory;
+    Model model = make_example_model(2, 1, 5, 0);
+    write_paim(directory / "x.paim", model);
+    const Model read = read_paim(directory / "x.paim");
+    EXPECT_EQ(read.num_poses(), 5u);
+    EXPECT_TRUE(read.transfer.components.empty());
+}
+
+TEST(PaimFile, OrdersComponentsByShareOfEnergy) {
+    Model model = make_example_model();
+    model.geometry.singular_values = {10.0, 1.0, 0.1};  // shares 0.99, 0.0099, 0.000099
+    model.transfer.singular_values = {1.0, 0.5, 0.25};  // shares 0.76, 0.19, 0.048
+    const std::vector<ComponentId> expected{{Part::geometry, 0}, {Part::transfer, 0},
+                                            {Part::transfer, 1}, {Part::transfer, 2},
+                                            {Part::geometry, 1}, {Part::geometry, 2}};
+    EXPECT_EQ(component_order(model), expected);
+}
+
+TEST(PaimFile, RefusesCutsAtFiftyPlaces) {
+    const TemporaryDirectory directory;
+    write_paim(directory / "x.paim", make_example_model(5));
+    const auto whole = read_file(directory / "x.paim", 1 << 20);
+    for (size_t cut = 0; cut < 50; ++cut) {
+        const size_t length = whole.size() * cut / 50;
+        write_file(directory / "cut.paim", {whole.data(), length});
+        try {
+            read_paim(directory / "cut.paim");
+            ADD_FAILURE() << "read a file cut at " << length;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ExitCode::bad_input);
+            EXPECT_NE(std::string(error.what()).find("cut.paim"), std::string::npos);
+        }
+    }
+}
+
+// What reading this model's file says.
+std::string complaint(const Model& model) {
+    const TemporaryDirectory directory;
+    write_paim(directory / "x.paim", model);
+    try {
+        read_paim(directory / "x.paim");
+        return "nothing";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ExitCode::bad_input);
+        return error.what();
+    }
+}
+
+TEST(PaimFile, RefusesContentsThatCannotBePlayed) {
+    Model model = make_example_model();
+    model.topology.triangles[1][2] = 4;
+    EXPECT_NE(complaint(model).find("triangle 1: vertex 4, expected 0 to 3"), std::string::npos);
+
+    model = make_example_model();
+    std::vector<float> values = model.transfer.components[0].floats();
+    values[5] = std::nanf("");
+    model.transfer.components[0] = std::move(values);
+    EXPECT_NE(complaint(model).find("section TCMP: value 5 is nan"), std::string::npos)
+        << complaint(model);
+
+    model = make_example_model();
+    model.geometry.singular_values = {1.0, 2.0, 0.5};
+    EXPECT_NE(complaint(model).find("descending"), std::string::npos);
+
+    model = make_example_model();
+    model.albedo.values.resize(3, Vec3f::Zero());
+    EXPECT_NE(complaint(model).find("expected 1 or 4 colours"), std::string::npos);
+
+    model = make_example_model();
+    model.provenance_json = std::string(100, '[') + std::string(100, ']');
+    model.provenance_json = "{\"a\": " + model.provenance_json + "}";
+    EXPECT_NE(complaint(model).find("nested more than 16 deep"), std::string::npos);
+
+    model = make_example_model(2, 1, 2, 3);  // three components of two poses
+    EXPECT_NE(complaint(model).find("'geometry_components': expected 0 to 2, got 3"),
+              std::string::npos);
+
+    const auto with_scenery = [] {
+        Model whole = make_example_model();
+        whole.scenery = make_example_scenery(whole.layout);
+        return whole;
+    };
+    model = with_scenery();
+    model.scenery.topology.triangles[1][0] = 4;
+    EXPECT_NE(complaint(model).find("triangle 1: vertex 4, expected 0 to 3"), std::string::npos);
+    model = with_scenery();
+    std::vector<float> positions = model.scenery.positions.floats();
+    positions[7] = std::nanf("");
+    model.scenery.positions = positions;
+    EXPECT_NE(complaint(model).find("section SPOS: value 7 is nan"), std::string::npos);
+    model = with_scenery();
+    std::vector<float> transfer = model.scenery.transfer.floats();
+    transfer[3] = std::numeric_limits<float>::infinity();
+    model.scenery.transfer = transfer;
+    EXPECT_NE(complaint(model).find("section STRN: value 3 is inf"), std::string::npos);
+    model = with_scenery();
+    model.scenery = make_quantised_scenery(model.layout);
+    model.scenery.transfer.steps[1] = -1.0f;
+    EXPECT_NE(complaint(model).find("steps: expected numbers from 0 to 1.04e+34, got -1"),
+              std::string::npos)
+        << complaint(model);
+    model = with_scenery();
+    model.scenery.albedo.values.resize(3);
+    EXPECT_NE(complaint(model).find("expected 1 or 4 colours"), std::string::npos);
+
+    model = make_example_model();
+    model.layout.bands = 3;  // says 9 planes, holds 4
+    EXPECT_NE(complaint(model).find("expected 9 x 4"), std::string::npos) << complaint(model);
+}
+
+}  // namespace
+}  // namespace paim
