@@ -92,7 +92,7 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
         if (name == "BAKE" || name == "--help" || name == "--version" || option == verify) continue;
         verify->excludes(option);
     }
-    app.add_option("--light-spectrum", options.light_spectrum,
+    app.add_option("--light-spectrum", options.band_power,
                    "What errors of the transfer are weighted with: 'flat' (random light of the "
                    "bake's bands), 'natural' (real light on average) or an environment map "
                    "(OpenEXR); default: what the file's errors are of")

@@ -27,16 +27,16 @@ struct Comparison {
     bool within() const { return !stated || measured.value <= *stated * (1.0 + kRounding); }
 };
 
-LightSpectrum choose_spectrum(const AnalyzeOptions& options, const ErrorStatement& statement,
-                              uint32_t bands) {
-    if (!options.light_spectrum.empty()) {
-        return parse_light_spectrum(options.light_spectrum, bands);
+BandPower choose_band_power(const AnalyzeOptions& options, const ErrorStatement& statement,
+                            uint32_t bands) {
+    if (!options.band_power.empty()) {
+        return parse_band_power(options.band_power, bands);
     }
-    if (statement.light_spectrum != "flat" && statement.light_spectrum != "natural") {
+    if (statement.band_power != "flat" && statement.band_power != "natural") {
         throw_usage("{}: its errors are those under {}; give this file with --light-spectrum",
-                    options.verify.string(), statement.light_spectrum);
+                    options.verify.string(), statement.band_power);
     }
-    return parse_light_spectrum(statement.light_spectrum, bands);
+    return parse_band_power(statement.band_power, bands);
 }
 
 std::vector<Comparison> compare(const ModelError& error, const ErrorStatement& statement,
@@ -54,8 +54,8 @@ std::vector<Comparison> compare(const ModelError& error, const ErrorStatement& s
     return comparisons;
 }
 
-void print_json(const AnalyzeOptions& options, const ModelError& error,
-                const LightSpectrum& spectrum, const std::vector<Comparison>& comparisons) {
+void print_json(const AnalyzeOptions& options, const ModelError& error, const BandPower& spectrum,
+                const std::vector<Comparison>& comparisons) {
     nlohmann::ordered_json json;
     json["paim"] = options.verify.string();
     json["bake"] = options.bake_directory.string();
@@ -78,7 +78,7 @@ void print_json(const AnalyzeOptions& options, const ModelError& error,
     fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
-void print_text(const AnalyzeOptions& options, const LightSpectrum& spectrum,
+void print_text(const AnalyzeOptions& options, const BandPower& spectrum,
                 const std::vector<Comparison>& comparisons) {
     fmt::print("{} against {}, light spectrum {}\n", options.verify.string(),
                options.bake_directory.string(), spectrum.name);
@@ -98,12 +98,11 @@ void verify(const AnalyzeOptions& options) {
     const Model model = read_paim(options.verify);
     const ErrorStatement statement = read_error_statement(model, options.verify);
     const BakeReader bake(options.bake_directory);
-    const LightSpectrum spectrum =
-        choose_spectrum(options, statement, bake.identity().layout.bands);
+    const BandPower spectrum = choose_band_power(options, statement, bake.identity().layout.bands);
     bake.verify_all();
     const ModelError error = measure_model(model, bake, spectrum);
     const std::vector<Comparison> comparisons =
-        compare(error, statement, spectrum.name == statement.light_spectrum);
+        compare(error, statement, spectrum.name == statement.band_power);
     if (options.json) {
         print_json(options, error, spectrum, comparisons);
     } else {

@@ -54,7 +54,7 @@ Kind kind_of(const std::string& text, const Kind (&kinds)[N], const char* (*name
 }
 
 // The default of --rays where the rays are those a vertex may take at most.
-constexpr uint32_t kMostRays = 16384;
+constexpr uint32_t kMaxRays = 16384;
 
 void add_input_options(CLI::App& app, CompressOptions& options) {
     app.add_option(
@@ -73,7 +73,7 @@ void add_bake_options(CLI::App& app, CompressOptions& options, RawOptions& raw) 
     app.add_option("--rays", raw.rays,
                    fmt::format("Rays per vertex and pose, even, 2 to 16777216; more rays, less "
                                "noise; with --transfer-error the most (then {})",
-                               kMostRays))
+                               kMaxRays))
         ->check(cli::in_range(uint32_t{2}, uint32_t{1} << 24))
         ->default_str(std::to_string(options.bake.rays));
     app.add_option(
@@ -211,7 +211,7 @@ void apply(const RawOptions& raw, CompressOptions& options) {
                 "--transfer-error: expected more than 0 and less than 1 (or 100%), got '{}'",
                 raw.transfer_error);
         }
-        options.bake.rays = kMostRays;
+        options.bake.rays = kMaxRays;
     }
     if (raw.rays) options.bake.rays = *raw.rays;
     options.bake.sampler = kind_of(raw.sampler, kSamplerKinds, &sampler_name);
@@ -240,7 +240,7 @@ void apply(const RawOptions& raw, CompressOptions& options) {
     needs_no_target("--geometry-components", raw.geometry_components, defaults.geometry_components);
     needs_no_target("--transfer-components", raw.transfer_components, defaults.transfer_components);
     needs_no_target("--auto-transfer-error", raw.auto_transfer_error, defaults.auto_transfer_error);
-    options.light_spectrum = raw.target.light_spectrum;
+    options.band_power = raw.target.band_power;
     options.encode.precision = raw.precision == "f16" ? Precision::f16 : Precision::f32;
     if (options.target && options.target->codec == CodecChoice::cpca && raw.precision != "auto") {
         throw_usage("--codec cpca: goes with --precision auto, floats are coded as svd");

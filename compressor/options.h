@@ -32,7 +32,7 @@ struct CompressOptions {
     std::filesystem::path bake_directory;  // of `encode`
     EncodeOptions encode;
     std::optional<EncodeTarget> target;  // without its spectrum
-    std::string light_spectrum;          // flat, natural or a file
+    std::string band_power;              // flat, natural or a file
 
     std::filesystem::path output;
     int num_threads = 0;

@@ -154,7 +154,7 @@ ordered_json bake(const CompressOptions& options, const std::filesystem::path& d
     json["bounces"] = options.bake.bounces;
     json["channels"] = baked_layout.channels;
     json["rays_traced"] = summary.total.rays;
-    json["rays_blocked"] = summary.total.blocked;
+    json["rays_blocked"] = summary.total.occluded;
     json["vertices_without_normal"] = summary.total.zero_normals;
     json["relative_noise"] = noise;
     json["mesh"] = mesh_json(topology, summary.total.mesh);
@@ -167,9 +167,9 @@ ordered_json bake(const CompressOptions& options, const std::filesystem::path& d
         const double traced = static_cast<double>(num_vertices) * (last - first + 1.0) -
                               static_cast<double>(summary.total.zero_normals);
         fmt::print(
-            "  {:.0f} rays a vertex, {:.1f} % blocked; estimated noise {:.2f} % of the transfer\n",
+            "  {:.0f} rays a vertex, {:.1f} % occluded; estimated noise {:.2f} % of the transfer\n",
             traced > 0.0 ? static_cast<double>(summary.total.rays) / traced : 0.0,
-            summary.total.rays > 0 ? 100.0 * static_cast<double>(summary.total.blocked) /
+            summary.total.rays > 0 ? 100.0 * static_cast<double>(summary.total.occluded) /
                                          static_cast<double>(summary.total.rays)
                                    : 0.0,
             100.0 * noise);
@@ -212,14 +212,14 @@ ordered_json bake(const CompressOptions& options, const std::filesystem::path& d
 }
 
 // Before anything long begins.
-void check_light_spectrum(const CompressOptions& options, uint32_t bands) {
-    if (options.target) parse_light_spectrum(options.light_spectrum, bands);
+void check_band_power(const CompressOptions& options, uint32_t bands) {
+    if (options.target) parse_band_power(options.band_power, bands);
 }
 
 ordered_json encode_target_to(const CompressOptions& options, const EncodeOptions& encode_options,
                               const BakeReader& reader) {
     EncodeTarget target = *options.target;
-    target.spectrum = parse_light_spectrum(options.light_spectrum, reader.identity().layout.bands);
+    target.spectrum = parse_band_power(options.band_power, reader.identity().layout.bands);
     const auto say = [&](const char* step) {
         if (!options.quiet && !options.json) fmt::print(stderr, "{} ...\n", step);
     };
@@ -240,7 +240,7 @@ ordered_json encode_to(const CompressOptions& options, const std::filesystem::pa
     EncodeOptions encode_options = options.encode;
     encode_options.name = options.output.stem().string();
     check_memory(reader, encode_options);
-    check_light_spectrum(options, reader.identity().layout.bands);
+    check_band_power(options, reader.identity().layout.bands);
     reader.verify_all();
     if (options.target) return encode_target_to(options, encode_options, reader);
     cli::Progress encoding("encoding", "rows", num_rows_to_read(reader, encode_options),
@@ -250,9 +250,9 @@ ordered_json encode_to(const CompressOptions& options, const std::filesystem::pa
     encoding.finish();
     std::optional<ModelError> error;
     if (options.encode.measure) {
-        error = state_errors(options.output, reader,
-                             LightSpectrum::flat(reader.identity().layout.bands),
-                             encode_options.memory_bytes);
+        error =
+            state_errors(options.output, reader, BandPower::flat(reader.identity().layout.bands),
+                         encode_options.memory_bytes);
     }
     ordered_json json;
     json["paim"] = options.output.string();
@@ -303,7 +303,7 @@ void run(const CompressOptions& options) {
             break;
         case CompressOptions::Command::bake_and_encode: {
             check_paim_output(options.output);
-            check_light_spectrum(options, options.bake.bands);
+            check_band_power(options, options.bake.bands);
             std::filesystem::path directory = options.output;
             directory.replace_extension(".bake");
             json["bake"] = bake(options, directory);

@@ -60,7 +60,7 @@ void add_target_options(CLI::App& app, RawTarget& raw) {
         "to play")
         ->check(CLI::IsMember({"size", "speed"}))
         ->capture_default_str();
-    add("--light-spectrum", raw.light_spectrum,
+    add("--light-spectrum", raw.band_power,
         "What errors are weighted by: 'flat' light has as much of every band, 'natural' has less "
         "of "
         "high ones, or a lat-long EXR file: like that one")
@@ -76,7 +76,7 @@ std::optional<EncodeTarget> parse_target(const RawTarget& raw) {
         needs(raw.max_decode_cost.has_value(), "--max-decode-cost");
         needs(raw.codec != "auto", "--codec");
         needs(raw.prefer != "size", "--prefer");
-        needs(raw.light_spectrum != "flat", "--light-spectrum");
+        needs(raw.band_power != "flat", "--light-spectrum");
         return std::nullopt;
     }
     EncodeTarget target;

@@ -17,7 +17,7 @@ struct RawTarget {
     std::optional<uint32_t> max_decode_cost;
     std::string codec = "auto";
     std::string prefer = "size";
-    std::string light_spectrum = "flat";
+    std::string band_power = "flat";
 
     bool asked() const { return !max_error.empty() || !max_size.empty(); }
 };

@@ -79,7 +79,7 @@ class CpuFrame {
             return;
         }
         decode_positions(model_, frame.time, frame.limits, pose_);
-        cluster_light_->light_products(frame.time, frame.limits, light, products_);
+        cluster_light_->basis_radiance(frame.time, frame.limits, light, products_);
         shade_clusters(model_.clusters, products_, frame.limits.cluster_components, model_.albedo,
                        radiance_);
     }

@@ -11,8 +11,8 @@
 #include "paim/base/hash.h"
 #include "paim/codec/sequence_bounds.h"
 #include "paim/format/container/container_reader.h"
-#include "paim/format/paim/paim_file.h"
 #include "paim/format/container/sections.h"
+#include "paim/format/paim/paim_file.h"
 
 namespace paim::player {
 

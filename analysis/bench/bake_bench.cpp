@@ -57,13 +57,13 @@ void bake(benchmark::State& state, Bare bare, uint32_t num_vertices, uint32_t nu
         },
         [&] { statistics = baker.bake(octopus.topology(), pose, 0).statistics; });
     // Otherwise it was not the same work.
-    PAIM_CHECK_EQ(bare_blocked, statistics.blocked);
+    PAIM_CHECK_EQ(bare_blocked, statistics.occluded);
     PAIM_CHECK_EQ(uint64_t{num_vertices} * num_rays, statistics.rays);
     const auto rays_total = static_cast<double>(statistics.rays);
-    state.counters["blocked"] = static_cast<double>(statistics.blocked) / rays_total;
+    state.counters["occluded"] = static_cast<double>(statistics.occluded) / rays_total;
     state.counters["ns_per_ray"] = 1e9 * state.counters["ours_cpu_s"] / rays_total;
     state.counters["scene_cpu_s"] =
-        timed([&] { const Scene built(octopus.topology(), pose.positions); }).cpu_s;
+        timed([&] { const RayScene built(octopus.topology(), pose.positions); }).cpu_s;
 }
 
 // The same bake on one thread and on several: ratio_wall is how many times faster they are

@@ -42,7 +42,7 @@ uint64_t BareScene::count_blocked(const RayList& rays, size_t origins_per_piece)
     std::atomic<uint64_t> total{0};
     parallel_for(rays.origins.size(), origins_per_piece, [&](size_t begin, size_t end) {
         embree::Context context;
-        uint64_t num_blocked = 0;
+        uint64_t num_occluded = 0;
         const Vec3f* direction = rays.directions.data() + begin * rays.per_origin;
         for (size_t v = begin; v < end; ++v) {
             const Vec3f& origin = rays.origins[v];
@@ -61,10 +61,10 @@ uint64_t BareScene::count_blocked(const RayList& rays, size_t origins_per_piece)
                 ray.id = 0;
                 ray.flags = 0;
                 context.occluded(impl_->scene, ray);
-                num_blocked += ray.tfar < 0.0f ? 1 : 0;
+                num_occluded += ray.tfar < 0.0f ? 1 : 0;
             }
         }
-        total += num_blocked;
+        total += num_occluded;
     });
     return total;
 }
@@ -74,7 +74,7 @@ uint64_t BareScene::count_blocked_by_packets(const RayList& rays, size_t origins
     std::atomic<uint64_t> total{0};
     parallel_for(rays.origins.size(), origins_per_piece, [&](size_t begin, size_t end) {
         embree::Context context;
-        uint64_t num_blocked = 0;
+        uint64_t num_occluded = 0;
         alignas(64) int valid[kPacket];
         std::fill_n(valid, kPacket, -1);
         RTCRay16 packet{};
@@ -92,10 +92,10 @@ uint64_t BareScene::count_blocked_by_packets(const RayList& rays, size_t origins
                     packet.tfar[j] = std::numeric_limits<float>::infinity();
                 }
                 context.occluded(valid, impl_->scene, packet);
-                for (const float tfar : packet.tfar) num_blocked += tfar < 0.0f ? 1 : 0;
+                for (const float tfar : packet.tfar) num_occluded += tfar < 0.0f ? 1 : 0;
             }
         }
-        total += num_blocked;
+        total += num_occluded;
     });
     return total;
 }

@@ -18,14 +18,14 @@ struct RayList {
     uint32_t per_origin = 0;
 };
 
-// The same acceleration structure as paim::Scene: same flags, same build quality.
+// The same acceleration structure as paim::RayScene: same flags, same build quality.
 class BareScene {
   public:
     BareScene(const Topology& topology, std::span<const Vec3f> positions);
     ~BareScene();
 
     // Traces all rays on as many threads, in pieces of `origins_per_piece`. returns how many are
-    // blocked
+    // occluded
     uint64_t count_blocked(const RayList& rays, size_t origins_per_piece) const;
 
     // The same by rtcOccluded16; rays.per_origin is a multiple of 16.

@@ -180,7 +180,7 @@ void light_clusters(benchmark::State& state, uint32_t num_vertices, uint32_t num
     std::vector<Vec3f> products, radiance;
     measure(state, model, bytes_written(model, 3), [&](double time) {
         decode_positions(model, time, {}, pose);
-        cluster_light.light_products(time, {}, light, products);
+        cluster_light.basis_radiance(time, {}, light, products);
         shade_clusters(model.clusters, products, model.clusters.num_components, model.albedo,
                        radiance);
         benchmark::DoNotOptimize(pose.positions.data());

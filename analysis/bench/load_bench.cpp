@@ -15,9 +15,9 @@
 #include "paim/base/parallel.h"
 #include "paim/base/seed.h"
 #include "paim/format/container/container_reader.h"
-#include "paim/format/paim/paim_file.h"
 #include "paim/format/container/sections.h"
 #include "paim/format/pack/zstd_codec.h"
+#include "paim/format/paim/paim_file.h"
 #include "paim/mesh/cache_order.h"
 
 namespace paim::bench {
@@ -47,7 +47,7 @@ Topology torus(uint32_t num_rings, uint32_t num_sides) {
 // rms         of the waves, in steps
 // roughness   waves around the torus: components without much energy are rough
 template <typename Integer>
-StoredValues waves(const LocalOrder& order, uint32_t num_sides, uint32_t num_planes, double rms,
+StoredValues waves(const CacheOrder& order, uint32_t num_sides, uint32_t num_planes, double rms,
                    double roughness, uint64_t seed) {
     RandomStream random(stream_key(seed, 3, num_planes));
     const auto num_vertices = order.topology.num_vertices;
@@ -62,8 +62,8 @@ StoredValues waves(const LocalOrder& order, uint32_t num_sides, uint32_t num_pla
             const double x = side * (v % num_sides), y = ring * (v / num_sides);
             const double wave = std::sin(across * x + phase) + std::cos(along * y - phase);
             const double value = rms * wave + random.uniform() - 0.5;
-            constexpr double kMost = std::numeric_limits<Integer>::max();
-            values.push_back(static_cast<Integer>(std::lround(std::clamp(value, -kMost, kMost))));
+            constexpr double kMax = std::numeric_limits<Integer>::max();
+            values.push_back(static_cast<Integer>(std::lround(std::clamp(value, -kMax, kMax))));
         }
     }
     return values;
@@ -71,7 +71,7 @@ StoredValues waves(const LocalOrder& order, uint32_t num_sides, uint32_t num_pla
 
 // Amplitudes fall from a quarter of the range to about two steps.
 template <typename Integer>
-LowRankMatrix wave_matrix(const LocalOrder& order, uint32_t num_sides, uint32_t num_planes,
+LowRankMatrix wave_matrix(const CacheOrder& order, uint32_t num_sides, uint32_t num_planes,
                           uint32_t num_components) {
     LowRankMatrix matrix;
     matrix.num_points = order.topology.num_vertices;
@@ -94,10 +94,10 @@ LowRankMatrix wave_matrix(const LocalOrder& order, uint32_t num_sides, uint32_t 
 
 template <typename Integer>
 Model wave_model(uint32_t num_rings, uint32_t num_sides, uint32_t num_components) {
-    const LocalOrder order = local_order(torus(num_rings, num_sides));
+    const CacheOrder order = cache_order(torus(num_rings, num_sides));
     Model model;
     model.topology = order.topology;
-    model.vertex_order = VertexOrder::local;
+    model.vertex_order = VertexOrder::cache;
     model.layout = {TransferKind::diffuse, kBands, 1};
     model.geometry = wave_matrix<Integer>(order, num_sides, 3, num_components);
     model.transfer =

@@ -4,7 +4,7 @@
 //           Self-Intersection, Ray Tracing Gems, 2019 (one of the ways that are compared)
 //
 // The truth is the limit of an offset that vanishes: double precision against every triangle, from
-// 10⁻⁹ of the shortest edge above the vertex. A ray is wrongly blocked (leaked) if it is blocked
+// 10⁻⁹ of the shortest edge above the vertex. A ray is wrongly occluded (leaked) if it is occluded
 // there but not in truth, and wrongly open the other way round. The truth is asked for where the
 // ways disagree; on all of a million rays over these meshes it never differed from ways that agree.
 //   paim-ray-offsets [OBJ]...      shapes of paim-poses, then one pose a file
@@ -98,7 +98,7 @@ std::vector<Way> ways_of(const Topology& topology, const Pose& pose) {
 }
 
 void measure(const std::string& name, const Topology& topology, const Pose& pose) {
-    const Scene scene(topology, pose.positions);
+    const RayScene scene(topology, pose.positions);
     const std::vector<Way> ways = ways_of(topology, pose);
     const auto edges = ray_offsets(topology, pose.positions, {1.0, 0.0});
     const size_t num_vertices = pose.positions.size();
@@ -111,9 +111,9 @@ void measure(const std::string& name, const Topology& topology, const Pose& pose
             });
     };
     std::vector<std::atomic<uint64_t>> leaked(ways.size()), escaped(ways.size());
-    std::atomic<uint64_t> num_rays{0}, num_blocked{0};
+    std::atomic<uint64_t> num_rays{0}, num_occluded{0};
     parallel_for(num_vertices, 8, [&](size_t begin, size_t end) {
-        std::vector<float> blocked(ways.size());
+        std::vector<float> occluded(ways.size());
         for (size_t v = begin; v < end; ++v) {
             const Vec3f& normal = pose.normals[v];
             if (normal.isZero(0.0f)) continue;
@@ -124,24 +124,25 @@ void measure(const std::string& name, const Topology& topology, const Pose& pose
                 const Vec3f d = cosine_direction(normal, random);
                 for (size_t w = 0; w < ways.size(); ++w) {
                     const Vec3f from = ways[w].starts[v] + ways[w].along_rays[v] * d;
-                    scene.blocked(from, &d.x(), &d.y(), &d.z(), 1, &blocked[w]);
+                    scene.occluded(from, &d.x(), &d.y(), &d.z(), 1, &occluded[w]);
                 }
-                const bool agreed = std::equal(blocked.begin() + 1, blocked.end(), blocked.begin());
-                const bool truth = agreed ? blocked[0] != 0.0f : is_blocked(start, d);
+                const bool agreed =
+                    std::equal(occluded.begin() + 1, occluded.end(), occluded.begin());
+                const bool truth = agreed ? occluded[0] != 0.0f : is_blocked(start, d);
                 ++num_rays;
-                num_blocked += truth ? 1 : 0;
+                num_occluded += truth ? 1 : 0;
                 for (size_t w = 0; w < ways.size(); ++w) {
-                    if (blocked[w] != 0.0f && !truth) ++leaked[w];
-                    if (blocked[w] == 0.0f && truth) ++escaped[w];
+                    if (occluded[w] != 0.0f && !truth) ++leaked[w];
+                    if (occluded[w] == 0.0f && truth) ++escaped[w];
                 }
             }
         }
     });
-    fmt::print("{}: {} vertices, {} triangles, {} rays, {} blocked\n", name, num_vertices,
-               topology.triangles.size(), num_rays.load(), num_blocked.load());
+    fmt::print("{}: {} vertices, {} triangles, {} rays, {} occluded\n", name, num_vertices,
+               topology.triangles.size(), num_rays.load(), num_occluded.load());
     for (size_t w = 0; w < ways.size(); ++w) {
         const double per_million = 1e6 / static_cast<double>(num_rays.load());
-        fmt::print("  {:14} wrongly blocked {:9.1f}  wrongly open {:9.1f}  per million\n",
+        fmt::print("  {:14} wrongly occluded {:9.1f}  wrongly open {:9.1f}  per million\n",
                    ways[w].name, static_cast<double>(leaked[w]) * per_million,
                    static_cast<double>(escaped[w]) * per_million);
     }

@@ -51,7 +51,7 @@ ordered_json describe_paim(const std::filesystem::path& path) {
         json["scenery_vertices"] = model.scenery.topology.num_vertices;
         json["scenery_triangles"] = model.scenery.topology.triangles.size();
     }
-    json["vertex_order"] = model.vertex_order == VertexOrder::local ? "local" : "baked";
+    json["vertex_order"] = model.vertex_order == VertexOrder::cache ? "local" : "baked";
     json["transfer_codec"] = model.clusters.empty() ? "svd" : "cpca";
     if (!model.clusters.empty()) {
         json["clusters"] = model.clusters.num_clusters;
@@ -94,7 +94,7 @@ ordered_json describe_bake(const std::filesystem::path& path) {
     const PoseStatistics total = bake.total_statistics();
     json["size_bytes"] = bake.size_bytes();
     json["rays_traced"] = total.rays;
-    json["rays_blocked"] = total.blocked;
+    json["rays_blocked"] = total.occluded;
     json["vertices_without_normal"] = total.zero_normals;
     if (identity.transfer_error > 0.0) {
         json["vertices_above_transfer_error"] = total.above_target;

@@ -16,7 +16,7 @@ using nlohmann::ordered_json;
 namespace {
 
 // Long lists are thinned out to so many rows, the first and the last among them.
-constexpr size_t kMostRows = 20;
+constexpr size_t kMaxRows = 20;
 
 std::optional<ErrorStatement> find_statement(const Model& model,
                                              const std::filesystem::path& path) {
@@ -33,7 +33,7 @@ ordered_json describe_prefixes(const std::filesystem::path& path) {
     ordered_json json;
     json["file"] = path.string();
     json["size_bytes"] = size_bytes;
-    json["light_spectrum"] = errors.light_spectrum;
+    json["light_spectrum"] = errors.band_power;
     json["transfer_error_of_whole_file"] = errors.transfer_stated ? "stated" : "unknown";
     json["position_rms_of_whole_file"] = errors.position_stated ? "stated" : "unknown";
     json["prefixes"] = ordered_json::array();
@@ -56,7 +56,7 @@ std::string prefixes_as_text(const ordered_json& description) {
     const ordered_json& prefixes = description["prefixes"];
     std::string text = fmt::format("{:>12}{:>9}{:>10}{:>10}{:>16}{:>14}\n", "bytes", "of file",
                                    "geometry", "transfer", "transfer error", "position RMS");
-    const size_t num_rows = std::min(prefixes.size(), kMostRows);
+    const size_t num_rows = std::min(prefixes.size(), kMaxRows);
     for (size_t row = 0; row < num_rows; ++row) {
         const size_t last = prefixes.size() - 1;
         const ordered_json& prefix = prefixes[num_rows > 1 ? row * last / (num_rows - 1) : 0];

@@ -15,10 +15,10 @@
 #include <vector>
 
 #include "analysis/bench/synthetic_points.h"
-#include "compressor/encode/data/bake_rows.h"
 #include "compressor/encode/cluster/clustered_pca.h"
 #include "compressor/encode/cluster/clustering.h"
 #include "compressor/encode/cluster/point_projection.h"
+#include "compressor/encode/data/bake_rows.h"
 #include "paim/base/error.h"
 
 namespace paim {

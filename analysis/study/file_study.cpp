@@ -40,7 +40,7 @@ class Study {
         options.memory_bytes = 4'000'000'000;
         EncodeTarget target = setting.target;
         target.transfer_error = error;
-        target.spectrum = LightSpectrum::flat(bake_.identity().layout.bands);
+        target.spectrum = BandPower::flat(bake_.identity().layout.bands);
         const TargetSummary summary = encode_to_target(bake_, options, target, file_);
         const ModelError measured = measure_model(read_paim(file_), bake_, target.spectrum);
         const Candidate& chosen = summary.chosen();

@@ -8,10 +8,10 @@
 
 #include "analysis/study/baked_matrices.h"
 #include "analysis/study/studies.h"
-#include "compressor/encode/noise/component_noise.h"
 #include "compressor/encode/encode.h"
-#include "compressor/encode/svd/principal_components.h"
+#include "compressor/encode/noise/component_noise.h"
 #include "compressor/encode/noise/shrinkage.h"
+#include "compressor/encode/svd/principal_components.h"
 #include "paim/metrics/pose_space.h"
 #include "paim/metrics/transfer_error.h"
 
@@ -32,8 +32,8 @@ struct Case {
     const TransferLayout& layout;
     std::string label;  // rays and streams
     VectorXd mean;
-    MatrixXd scores;  // [rows][K] A'V
-    MatrixXd v;       // [P][K]
+    MatrixXd factors;  // [rows][K] A'V
+    MatrixXd v;        // [P][K]
     VectorXd singular_values;
 };
 
@@ -45,8 +45,7 @@ double expected_error(const Case& c, Index num_components, const MatrixXf& appro
     const MatrixXd kept = orthonormal_pose_space(
         {weights.data(), static_cast<size_t>(weights.size())}, static_cast<uint32_t>(poses));
     TransferErrorMeter meter(c.layout, static_cast<uint32_t>(vertices),
-                             static_cast<uint32_t>(poses), LightSpectrum::flat(c.layout.bands),
-                             kept);
+                             static_cast<uint32_t>(poses), BandPower::flat(c.layout.bands), kept);
     for (uint32_t plane = 0; plane < c.layout.num_planes(); ++plane) {
         const Index first = static_cast<Index>(plane) * vertices;
         meter.add(plane, c.baked.transfer.middleRows(first, vertices),
@@ -68,20 +67,20 @@ void print(const Case& c, const char* method, Index num_components, const Matrix
 // Mean and the first K components, each multiplied by a factor.
 MatrixXf rebuild(const Case& c, const VectorXd& factors, Index num_components) {
     const MatrixXd kept =
-        c.scores.leftCols(num_components) * factors.head(num_components).asDiagonal();
+        c.factors.leftCols(num_components) * factors.head(num_components).asDiagonal();
     return ((kept * c.v.leftCols(num_components).transpose()).colwise() + c.mean).cast<float>();
 }
 
 MatrixXf rebuild_shrunk(const Case& c, const Shrinkage& shrinkage, Index num_components) {
-    std::vector<std::vector<float>> scores(static_cast<size_t>(num_components));
-    MatrixXd kept(c.scores.rows(), num_components);
+    std::vector<std::vector<float>> factors(static_cast<size_t>(num_components));
+    MatrixXd kept(c.factors.rows(), num_components);
     for (Index k = 0; k < num_components; ++k) {
-        const Eigen::VectorXf column = c.scores.col(k).cast<float>();
-        scores[static_cast<size_t>(k)].assign(column.begin(), column.end());
+        const Eigen::VectorXf column = c.factors.col(k).cast<float>();
+        factors[static_cast<size_t>(k)].assign(column.begin(), column.end());
     }
-    shrinkage.apply(0, scores);
+    shrinkage.apply(0, factors);
     for (Index k = 0; k < num_components; ++k) {
-        const auto& column = scores[static_cast<size_t>(k)];
+        const auto& column = factors[static_cast<size_t>(k)];
         kept.col(k) = Eigen::Map<const Eigen::VectorXf>(column.data(), kept.rows()).cast<double>();
     }
     return ((kept * c.v.leftCols(num_components).transpose()).colwise() + c.mean).cast<float>();
@@ -92,7 +91,7 @@ MatrixXf rebuild_shrunk(const Case& c, const Shrinkage& shrinkage, Index num_com
 // √((y² − β − 1)² − 4β) / y².
 VectorXd gavish_donoho(const Case& c, const ComponentNoise& noise) {
     const double white = noise.noise.sum() / static_cast<double>(noise.noise.cols());
-    const double beta = static_cast<double>(c.v.rows()) / static_cast<double>(c.scores.rows());
+    const double beta = static_cast<double>(c.v.rows()) / static_cast<double>(c.factors.rows());
     return c.singular_values.unaryExpr([&](double s) {
         const double y2 = white > 0.0 ? s * s / white : 0.0;
         if (white <= 0.0) return 1.0;
@@ -113,7 +112,7 @@ void study_bake(const BakedMatrices& baked, const TransferLayout& layout,
            {}};
     const MatrixXd values = baked.transfer.cast<double>();
     c.mean = values.rowwise().mean();
-    c.scores = (values.colwise() - c.mean) * c.v;
+    c.factors = (values.colwise() - c.mean) * c.v;
     c.singular_values = Eigen::Map<const VectorXd>(components.singular_values.data(), rank);
 
     print(c, "bake", rank, baked.transfer);

@@ -53,8 +53,8 @@ void study(const HardMatrix& hard) {
     const LeftVectors left(rows, components, rank);
     const double length = std::sqrt(static_cast<double>(hard.matrix.rows()));
     MatrixXd u(hard.matrix.rows(), static_cast<Index>(rank)), plain = u;
-    left.project(hard.matrix, [&](Index first, const VectorXd&, const MatrixXd& scores) {
-        u.middleRows(first, scores.rows()) = scores / length;
+    left.project(hard.matrix, [&](Index first, const VectorXd&, const MatrixXd& factors) {
+        u.middleRows(first, factors.rows()) = factors / length;
     });
     const LongMatrix exact_centred = centred_reference(hard.matrix);
     const MatrixXd centred = exact_centred.cast<double>();

@@ -31,7 +31,7 @@ BakeIdentity bake_identity(const PoseSource& source, const BakeOptions& options,
 
 // Bakes poses first … last (inclusive), and scenery, that are not there yet.
 // on_pose   called after each pose, found or baked, with its number
-// Errors: those of BakeWriter, of the source and of Scene. Finished poses stay whatever happens.
+// Errors: those of BakeWriter, of the source and of RayScene. Finished poses stay whatever happens.
 BakeSummary bake_sequence(const PoseSource& source, const BakeOptions& options,
                           const std::string& normals, const std::filesystem::path& directory,
                           uint32_t first, uint32_t last,

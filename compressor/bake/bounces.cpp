@@ -25,7 +25,7 @@ class RowCache {
         }
         std::atomic<uint64_t> used{0};
         parallel_for(scene.num_vertices, kVerticesPerPiece, [&](size_t begin, size_t end) {
-            HitRow row;
+            TransportRow row;
             for (size_t v = begin; v < end; ++v) {
                 for (size_t half = 0; half < 2; ++half) {
                     // Which rows are kept may differ from run to run, what they hold does not.
@@ -39,7 +39,7 @@ class RowCache {
         });
     }
 
-    const HitRow& row(size_t v, size_t half, HitRow& scratch) const {
+    const TransportRow& row(size_t v, size_t half, TransportRow& scratch) const {
         if (is_kept_[half][v]) return rows_[half][v];
         scene_.make_row(v, half, scratch);
         return scratch;
@@ -47,7 +47,7 @@ class RowCache {
 
   private:
     const BounceScene& scene_;
-    std::vector<HitRow> rows_[2];
+    std::vector<TransportRow> rows_[2];
     std::vector<uint8_t> is_kept_[2];
 };
 
@@ -71,7 +71,7 @@ void outgoing(const BounceScene& scene, const std::vector<float>& own,
 }
 
 // Σ weight · values over the hits of a row. values [V + S][C], sums [C]
-void sum_hits(const HitRow& row, const float* values, std::vector<double>& sums) {
+void sum_hits(const TransportRow& row, const float* values, std::vector<double>& sums) {
     std::fill(sums.begin(), sums.end(), 0.0);
     for (const HitWeight& hit : row) {
         const float* of_hit = values + hit.vertex * sums.size();
@@ -91,10 +91,10 @@ void gather(const BounceScene& scene, const RowCache& rows, size_t half,
     const size_t num_coefficients = scene.layout.num_coefficients();
     const size_t of_channel = (scene.num_vertices + scene.num_scenery_vertices) * num_coefficients;
     parallel_for(scene.num_vertices, kVerticesPerPiece, [&](size_t begin, size_t end) {
-        HitRow scratch;
+        TransportRow scratch;
         std::vector<double> sums(num_coefficients);
         for (size_t v = begin; v < end; ++v) {
-            const HitRow& row = rows.row(v, half, scratch);
+            const TransportRow& row = rows.row(v, half, scratch);
             for (size_t channel = 0; channel < scene.layout.channels; ++channel) {
                 sum_hits(row, source.data() + channel * of_channel, sums);
                 for (size_t i = 0; i < num_coefficients; ++i) {

@@ -35,7 +35,7 @@ struct BounceScene {
         nullptr;  // of at least the number of bounces; null: no scenery
     // Row of one half of a vertex; indices from V on are the scenery's. Called from several
     // threads, possibly more than once for a row, and always with the same answer.
-    std::function<void(size_t v, size_t half, HitRow& row)> make_row;
+    std::function<void(size_t v, size_t half, TransportRow& row)> make_row;
 };
 
 // Adds num_bounces bounces. Each half bounces its own light with its own rays, so that half their

@@ -17,27 +17,27 @@ constexpr size_t kRaysPerFlush = 32 * kBatch;
 
 }  // namespace
 
-HalfTracer::HalfTracer(const sh::BatchBasis& basis)
+SplitTracer::SplitTracer(const sh::BatchBasis& basis)
     : basis_(basis), lanes_(static_cast<size_t>(basis.bands() * basis.bands()) * kSumLanes) {}
 
-void HalfTracer::trace(const Scene& scene, const Vec3f& origin, const Vec3f& normal,
-                       const DirectionSampler& sampler, uint64_t key, HalfSums& sums) {
+void SplitTracer::trace(const RayScene& scene, const Vec3f& origin, const Vec3f& normal,
+                        const DirectionSampler& sampler, uint64_t key, SplitEstimate& sums) {
     sampler.generate(normal, key, rays_);
-    blocked_.resize(rays_.num_rays);
-    sums.num_blocked += scene.blocked(origin, rays_.x.data(), rays_.y.data(), rays_.z.data(),
-                                      rays_.num_rays, blocked_.data());
+    occluded_.resize(rays_.num_rays);
+    sums.num_occluded += scene.occluded(origin, rays_.x.data(), rays_.y.data(), rays_.z.data(),
+                                        rays_.num_rays, occluded_.data());
     sums.num_points += sampler.num_points();
     sums.num_rays += rays_.num_rays;
 }
 
-void HalfTracer::add(HalfSums& sums) {
+void SplitTracer::add(SplitEstimate& sums) {
     open_weights_ = rays_.weights;  // padding keeps its weight of zero
-    for (size_t j = 0; j < rays_.num_rays; ++j) open_weights_[j] *= 1.0f - blocked_[j];
+    for (size_t j = 0; j < rays_.num_rays; ++j) open_weights_[j] *= 1.0f - occluded_[j];
     accumulate(rays_.weights, sums.all);
     accumulate(open_weights_, sums.open);
 }
 
-void HalfTracer::accumulate(std::span<const float> weights, std::vector<double>& sums) {
+void SplitTracer::accumulate(std::span<const float> weights, std::vector<double>& sums) {
     for (size_t first = 0; first < weights.size(); first += kRaysPerFlush) {
         std::fill(lanes_.begin(), lanes_.end(), 0.0f);
         const size_t end = std::min(weights.size(), first + kRaysPerFlush);
@@ -53,28 +53,28 @@ void HalfTracer::accumulate(std::span<const float> weights, std::vector<double>&
     }
 }
 
-void estimate_halves(std::span<const HalfSums, 2> halves, std::span<const double> unoccluded,
-                     std::span<double> estimates) {
+void estimate_split(std::span<const SplitEstimate, 2> halves, std::span<const double> unoccluded,
+                    std::span<double> estimates) {
     const size_t num_coefficients = halves[0].all.size();
     PAIM_CHECK_EQ(estimates.size(), 2 * num_coefficients);
     const uint64_t num_rays = halves[0].num_rays + halves[1].num_rays;
-    const uint64_t num_blocked = halves[0].num_blocked + halves[1].num_blocked;
-    if (!unoccluded.empty() && num_blocked == 0) {
+    const uint64_t num_occluded = halves[0].num_occluded + halves[1].num_occluded;
+    if (!unoccluded.empty() && num_occluded == 0) {
         for (const size_t h : {size_t{0}, size_t{1}}) {
             std::copy(unoccluded.begin(), unoccluded.end(),
                       estimates.begin() + static_cast<std::ptrdiff_t>(h * num_coefficients));
         }
         return;
     }
-    if (num_blocked == num_rays) {
+    if (num_occluded == num_rays) {
         std::fill(estimates.begin(), estimates.end(), 0.0);
         return;
     }
     for (size_t h = 0; h < 2; ++h) {
-        const HalfSums& half = halves[h];
-        const HalfSums& other = halves[1 - h];
+        const SplitEstimate& half = halves[h];
+        const SplitEstimate& other = halves[1 - h];
         const double c = unoccluded.empty() ? 0.0
-                                            : 1.0 - static_cast<double>(other.num_blocked) /
+                                            : 1.0 - static_cast<double>(other.num_occluded) /
                                                         static_cast<double>(other.num_rays);
         for (size_t i = 0; i < num_coefficients; ++i) {
             const double lobe = unoccluded.empty() ? 0.0 : unoccluded[i];

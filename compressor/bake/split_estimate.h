@@ -13,34 +13,35 @@
 namespace paim {
 
 // Running sums over the rays of one half.
-struct HalfSums {
-    explicit HalfSums(size_t num_coefficients) : all(num_coefficients), open(num_coefficients) {}
+struct SplitEstimate {
+    explicit SplitEstimate(size_t num_coefficients)
+        : all(num_coefficients), open(num_coefficients) {}
 
-    std::vector<double> all;   // [C] Σ weight · y_i
-    std::vector<double> open;  // [C] the same over rays that are not blocked
-    uint64_t num_points = 0;   // of the sampler
-    uint64_t num_rays = 0;     // of these, above the horizon and traced
-    uint64_t num_blocked = 0;  // of these
+    std::vector<double> all;    // [C] Σ weight · y_i
+    std::vector<double> open;   // [C] the same over rays that are not occluded
+    uint64_t num_points = 0;    // of the sampler
+    uint64_t num_rays = 0;      // of these, above the horizon and traced
+    uint64_t num_occluded = 0;  // of these
 };
 
 // Traces the rays of one half and adds them up. One for each thread and half.
-class HalfTracer {
+class SplitTracer {
   public:
-    explicit HalfTracer(const sh::BatchBasis& basis);
+    explicit SplitTracer(const sh::BatchBasis& basis);
 
     // Traces and counts; the sums are left alone until add().
-    void trace(const Scene& scene, const Vec3f& origin, const Vec3f& normal,
-               const DirectionSampler& sampler, uint64_t key, HalfSums& sums);
+    void trace(const RayScene& scene, const Vec3f& origin, const Vec3f& normal,
+               const DirectionSampler& sampler, uint64_t key, SplitEstimate& sums);
 
     // Adds the rays that were traced last to the sums.
-    void add(HalfSums& sums);
+    void add(SplitEstimate& sums);
 
   private:
     void accumulate(std::span<const float> weights, std::vector<double>& sums);
 
     const sh::BatchBasis& basis_;
     RaySet rays_;
-    std::vector<float> blocked_;       // [rays] 1 or 0
+    std::vector<float> occluded_;      // [rays] 1 or 0
     std::vector<float> open_weights_;  // [padded rays]
     std::vector<float> lanes_;         // [C][kSumLanes]
 };
@@ -53,10 +54,10 @@ class HalfTracer {
 // *other* half: open vertices (c = 1) get the closed form exactly, closed ones (c = 0) exactly
 // zero, and in between the unoccluded part, whose integral is known, carries no noise of its own.
 // Half the difference of the two estimates is the standard error of their mean.
-// halves       both, whether their sums were added up or (all open or all blocked) not
-// unoccluded   [C] the transfer if nothing is blocked; empty: c = 0
+// halves       both, whether their sums were added up or (all open or all occluded) not
+// unoccluded   [C] the transfer if nothing is occluded; empty: c = 0
 // estimates    [2][C]
-void estimate_halves(std::span<const HalfSums, 2> halves, std::span<const double> unoccluded,
-                     std::span<double> estimates);
+void estimate_split(std::span<const SplitEstimate, 2> halves, std::span<const double> unoccluded,
+                    std::span<double> estimates);
 
 }  // namespace paim

@@ -9,9 +9,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "compressor/bake/split_estimate.h"
 #include "compressor/bake/noise_target.h"
 #include "compressor/bake/ray_offset.h"
+#include "compressor/bake/split_estimate.h"
 #include "paim/base/check.h"
 #include "paim/base/parallel.h"
 #include "paim/mesh/planes.h"
@@ -55,7 +55,7 @@ std::vector<double> cosine_lobe_by_coefficient(uint32_t bands) {
     return lobe;
 }
 
-using Halves = std::array<HalfSums, 2>;
+using Halves = std::array<SplitEstimate, 2>;
 
 }  // namespace
 
@@ -76,7 +76,7 @@ class TransferBaker::PoseBake {
           offsets_(ray_offsets(topology, pose.positions)),
           lobe_(cosine_lobe_by_coefficient(options_.bands)),
           num_rays_(topology.num_vertices),
-          num_blocked_(topology.num_vertices),
+          num_occluded_(topology.num_vertices),
           num_batches_(topology.num_vertices, 0),
           noise_energy_(topology.num_vertices) {
         for (auto& half : halves_) half.resize(lobe_.size() * topology.num_vertices, 0.0f);
@@ -95,12 +95,12 @@ class TransferBaker::PoseBake {
 
   private:
     struct Workspace {
-        HalfTracer tracers[2];
+        SplitTracer tracers[2];
         std::vector<double> unoccluded;  // [C]
         std::vector<double> estimates;   // [2][C]
 
         Workspace(const sh::BatchBasis& basis, size_t num_coefficients)
-            : tracers{HalfTracer(basis), HalfTracer(basis)},
+            : tracers{SplitTracer(basis), SplitTracer(basis)},
               unoccluded(num_coefficients),
               estimates(2 * num_coefficients) {}
     };
@@ -119,10 +119,10 @@ class TransferBaker::PoseBake {
             work.tracers[h].trace(scene_, origin, normal, batch, key, halves[h]);
         }
         const uint64_t num_rays = halves[0].num_rays + halves[1].num_rays;
-        const uint64_t num_blocked = halves[0].num_blocked + halves[1].num_blocked;
+        const uint64_t num_occluded = halves[0].num_occluded + halves[1].num_occluded;
         const bool has_closed_form = options_.sampler == SamplerKind::cosine;
         const bool needs_no_sums =
-            is_only_batch && (num_blocked == num_rays || (num_blocked == 0 && has_closed_form));
+            is_only_batch && (num_occluded == num_rays || (num_occluded == 0 && has_closed_form));
         if (needs_no_sums) return;
         for (size_t h = 0; h < 2; ++h) work.tracers[h].add(halves[h]);
     }
@@ -136,7 +136,7 @@ class TransferBaker::PoseBake {
             for (size_t i = 0; i < num_coefficients(); ++i) work.unoccluded[i] *= lobe_[i];
             unoccluded = work.unoccluded;
         }
-        estimate_halves(std::span<const HalfSums, 2>(halves), unoccluded, work.estimates);
+        estimate_split(std::span<const SplitEstimate, 2>(halves), unoccluded, work.estimates);
         double energy = 0.0;
         for (size_t i = 0; i < num_coefficients(); ++i) {
             const double a = work.estimates[i];
@@ -148,7 +148,7 @@ class TransferBaker::PoseBake {
         noise_energy_[v] = energy;
         ++num_batches_[v];
         num_rays_[v] = halves[0].num_rays + halves[1].num_rays;
-        num_blocked_[v] = halves[0].num_blocked + halves[1].num_blocked;
+        num_occluded_[v] = halves[0].num_occluded + halves[1].num_occluded;
     }
 
     void bake_at_once() {
@@ -156,7 +156,7 @@ class TransferBaker::PoseBake {
             Workspace work(baker_.basis_, num_coefficients());
             for (size_t v = begin; v < end; ++v) {
                 if (!has_normal(v)) continue;
-                Halves halves{HalfSums(num_coefficients()), HalfSums(num_coefficients())};
+                Halves halves{SplitEstimate(num_coefficients()), SplitEstimate(num_coefficients())};
                 shoot(v, *baker_.batches_[0], true, halves, work);
                 estimate(v, halves, work);
             }
@@ -177,8 +177,8 @@ class TransferBaker::PoseBake {
         for (size_t v = begin; v < end; ++v) {
             if (has_normal(v)) active.push_back(static_cast<uint32_t>(v));
         }
-        std::vector<Halves> sums(
-            end - begin, Halves{HalfSums(num_coefficients()), HalfSums(num_coefficients())});
+        std::vector<Halves> sums(end - begin, Halves{SplitEstimate(num_coefficients()),
+                                                     SplitEstimate(num_coefficients())});
         for (const auto& batch : baker_.batches_) {
             if (active.empty()) break;
             parallel_for(active.size(), kVerticesPerPiece, [&](size_t first, size_t last) {
@@ -211,9 +211,9 @@ class TransferBaker::PoseBake {
         scene.num_scenery_vertices = scenery_.topology.num_vertices;
         scene.scenery_albedo = scenery_.albedo;
         scene.scenery_terms = &baker_.scenery_terms_;
-        scene.make_row = [&](size_t v, size_t half, HitRow& row) {
+        scene.make_row = [&](size_t v, size_t half, TransportRow& row) {
             row.clear();
-            if (num_blocked_[v] == 0) return;
+            if (num_occluded_[v] == 0) return;
             const Vec3f& normal = pose_.normals[v];
             const Vec3f origin = ray_origin(v);
             const uint64_t key =
@@ -247,7 +247,8 @@ class TransferBaker::PoseBake {
         baked.noise = std::move(halves_[1]);
         PoseStatistics& statistics = baked.statistics;
         statistics.rays = std::accumulate(num_rays_.begin(), num_rays_.end(), uint64_t{0});
-        statistics.blocked = std::accumulate(num_blocked_.begin(), num_blocked_.end(), uint64_t{0});
+        statistics.occluded =
+            std::accumulate(num_occluded_.begin(), num_occluded_.end(), uint64_t{0});
         for (size_t v = 0; v < topology_.num_vertices; ++v) {
             statistics.zero_normals += has_normal(v) ? 0 : 1;
         }
@@ -266,14 +267,14 @@ class TransferBaker::PoseBake {
     const uint32_t p_;
     const Albedo& albedo_;
     const StaticMesh& scenery_;
-    const Scene scene_;
+    const RayScene scene_;
     const std::vector<float> offsets_;
     const std::vector<double> lobe_;  // [C]
     // [planes][V] the estimates of both halves; until light bounces of one channel
     std::array<std::vector<float>, 2> halves_;
-    std::vector<uint64_t> num_rays_;     // [V]
-    std::vector<uint64_t> num_blocked_;  // [V]
-    std::vector<uint8_t> num_batches_;   // [V] of rays
+    std::vector<uint64_t> num_rays_;      // [V]
+    std::vector<uint64_t> num_occluded_;  // [V]
+    std::vector<uint8_t> num_batches_;    // [V] of rays
     uint64_t num_all_back_hits_ = 0;
     std::vector<double> noise_energy_;  // [V] Σ_i (half the difference of the halves)²
     uint32_t num_above_target_ = 0;

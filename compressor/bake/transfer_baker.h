@@ -37,7 +37,7 @@ class TransferBaker {
 
     // pose     positions [V] finite, normals [V] unit or zero (transfer 0)
     // p        the pose's number, which keys the random streams
-    // Deterministic on any number of threads. Errors: those of Scene.
+    // Deterministic on any number of threads. Errors: those of RayScene.
     BakedPose bake(const Topology& topology, const Pose& pose, uint32_t p) const;
 
     // Three channels where light bounces off colours, one otherwise.

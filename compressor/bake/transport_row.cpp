@@ -10,8 +10,8 @@ void HitTracer::trace(const Vec3f& origin, const Vec3f& normal, const DirectionS
     sampler.generate(normal, key, rays_);
     num_points_ += sampler.num_points();
     hits_.resize(rays_.num_rays);
-    scene_.first_hits(origin, rays_.x.data(), rays_.y.data(), rays_.z.data(), rays_.num_rays,
-                      hits_.data());
+    scene_.intersect(origin, rays_.x.data(), rays_.y.data(), rays_.z.data(), rays_.num_rays,
+                     hits_.data());
     for (size_t j = 0; j < hits_.size(); ++j) {
         const Hit& hit = hits_[j];
         if (hit.triangle == kNoTriangle) continue;
@@ -30,7 +30,7 @@ void HitTracer::trace(const Vec3f& origin, const Vec3f& normal, const DirectionS
     }
 }
 
-void HitTracer::end(HitRow& row) {
+void HitTracer::end(TransportRow& row) {
     // Stable, so that sums have one order.
     std::stable_sort(shares_.begin(), shares_.end(),
                      [](const HitWeight& a, const HitWeight& b) { return a.vertex < b.vertex; });

@@ -19,13 +19,13 @@ struct HitWeight {
 // A row of the matrix that takes radiance from vertices to a vertex: Σ weight · radiance(vertex) is
 // the mean over its rays of the radiance that they hit, interpolated on the triangles. Sorted by
 // vertex.
-using HitRow = std::vector<HitWeight>;
+using TransportRow = std::vector<HitWeight>;
 
 // Traces one row.
 class HitTracer {
   public:
     // topology, positions  of all that the scene holds, in its order; they and the scene stay
-    HitTracer(const Scene& scene, const Topology& topology, std::span<const Vec3f> positions)
+    HitTracer(const RayScene& scene, const Topology& topology, std::span<const Vec3f> positions)
         : scene_(scene), topology_(topology), positions_(positions) {}
 
     // Adds a batch of rays to the row. Triangles hit from behind take a ray's light away and give
@@ -33,13 +33,13 @@ class HitTracer {
     void trace(const Vec3f& origin, const Vec3f& normal, const DirectionSampler& sampler,
                uint64_t key);
 
-    void end(HitRow& row);
+    void end(TransportRow& row);
 
     // Rays of the row that hit a triangle from behind.
     uint32_t num_back_hits() const { return num_back_hits_; }
 
   private:
-    const Scene& scene_;
+    const RayScene& scene_;
     const Topology& topology_;
     std::span<const Vec3f> positions_;
     RaySet rays_;

@@ -7,13 +7,13 @@
 #include <algorithm>
 
 #include "compressor/encode/data/bake_rows.h"
-#include "compressor/encode/noise/component_noise.h"
-#include "compressor/encode/memory/memory_plan.h"
 #include "compressor/encode/data/playable_scenery.h"
-#include "compressor/encode/svd/principal_components.h"
 #include "compressor/encode/data/provenance.h"
+#include "compressor/encode/memory/memory_plan.h"
+#include "compressor/encode/noise/component_noise.h"
 #include "compressor/encode/noise/shrinkage.h"
 #include "compressor/encode/state_errors.h"
+#include "compressor/encode/svd/principal_components.h"
 #include "paim/base/file.h"
 #include "paim/format/paim/paim_file.h"
 #include "paim/metrics/singular_value_error.h"
@@ -38,16 +38,16 @@ LowRankMatrix start_matrix(const BakeReader& bake, const RowSource& rows,
 }
 
 // shrinkage  of the components, or none
-void stream(PaimWriter& writer, Part part, const RowSource& rows,
+void stream(PaimWriter& writer, Attribute attribute, const RowSource& rows,
             const PrincipalComponents& components, uint32_t num_components,
             const Shrinkage* shrinkage, uint32_t num_in_flight) {
     uint64_t first = 0;
     const auto append = [&](EncodedRows& block) {
         if (shrinkage != nullptr) shrinkage->apply(first, block.components);
         first += block.mean.size();
-        writer.append_mean(part, block.mean);
+        writer.append_mean(attribute, block.mean);
         for (uint32_t k = 0; k < num_components; ++k) {
-            writer.append_component({part, k}, block.components[k]);
+            writer.append_component({attribute, k}, block.components[k]);
         }
     };
     for_each_encoded_block(rows, components, num_components, append, num_in_flight);
@@ -154,9 +154,9 @@ EncodeSummary encode(const BakeReader& bake, const EncodeOptions& options,
                                options.memory_bytes, output.string());
     }
     PaimWriter writer(output, model);
-    stream(writer, Part::geometry, geometry_rows, geometry, summary.geometry_components, nullptr,
-           in_flight);
-    stream(writer, Part::transfer, transfer_rows, transfer, summary.transfer_components,
+    stream(writer, Attribute::geometry, geometry_rows, geometry, summary.geometry_components,
+           nullptr, in_flight);
+    stream(writer, Attribute::transfer, transfer_rows, transfer, summary.transfer_components,
            summary.shrunk ? &shrinkage : nullptr, in_flight);
     writer.commit();
     summary.size_bytes = paim_size_bytes(model);

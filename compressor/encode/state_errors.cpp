@@ -54,7 +54,7 @@ void check_measuring_memory(const EncodeSize& bake, const TransferLayout& layout
 }
 
 ModelError state_errors(const std::filesystem::path& file, const BakeReader& bake,
-                        const LightSpectrum& spectrum, uint64_t memory_bytes) {
+                        const BandPower& spectrum, uint64_t memory_bytes) {
     check_measuring_memory(std::filesystem::file_size(file), bake.identity().num_vertices,
                            bake.num_poses(), bake_size(bake).scenery_bytes, memory_bytes,
                            file.string());

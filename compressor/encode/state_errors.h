@@ -29,6 +29,6 @@ void check_measuring_memory(const EncodeSize& bake, const TransferLayout& layout
 // the errors in its provenance ("measured"). The whole model is in memory meanwhile.
 // Errors: unsupported as check_measuring_memory() (the file stays as it is); output failed.
 ModelError state_errors(const std::filesystem::path& file, const BakeReader& bake,
-                        const LightSpectrum& spectrum, uint64_t memory_bytes);
+                        const BandPower& spectrum, uint64_t memory_bytes);
 
 }  // namespace paim

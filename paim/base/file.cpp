@@ -73,7 +73,8 @@ bool is_temporary_name(const std::string& name) {
         rest.remove_suffix(text.size());
         return true;
     };
-    return take(".tmp") && take_digits() && take("-") && take_digits() && take(".") && !rest.empty();
+    return take(".tmp") && take_digits() && take("-") && take_digits() && take(".") &&
+           !rest.empty();
 }
 
 AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {

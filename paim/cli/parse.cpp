@@ -71,7 +71,8 @@ uint64_t parse_bytes(const std::string& text, const std::string& option) {
     }
     double value = 0.0;
     if (!parse_number(number, value) || value * unit < 1.0 || value * unit >= 0x1p63) {
-        throw_usage("{}: expected bytes such as 1000000, 300K, 512M or 1.5G, got '{}'", option, text);
+        throw_usage("{}: expected bytes such as 1000000, 300K, 512M or 1.5G, got '{}'", option,
+                    text);
     }
     return static_cast<uint64_t>(value * unit);
 }

@@ -15,10 +15,10 @@ namespace paim {
 
 namespace {
 
-static_assert(RowTable::kNarrow == kNarrowTile);
+static_assert(BasisTable::kNarrow == kNarrowTile);
 
-float combine_plain(const RowCombination& combination, size_t v, size_t plane) {
-    const RowTable& table = combination.table;
+float sum_plain(const BasisSum& combination, size_t v, size_t plane) {
+    const BasisTable& table = combination.table;
     const float* row =
         table.values.data() + plane +
         size_t{combination.cluster[v]} * combination.rows_per_cluster * table.padded_planes;
@@ -56,9 +56,9 @@ void store_planes(const float* sums, size_t count, size_t num_planes, size_t str
 
 // sums[v − first] = planes [plane, plane + W) of at most kVertices vertices, as far as there are any.
 template <int W>
-void sum_tile(const RowCombination& combination, size_t first, size_t count, size_t plane,
+void sum_tile(const BasisSum& combination, size_t first, size_t count, size_t plane,
               void (*add_rows)(const RowBlock&, float*), const VectorKernels& use, float* sums) {
-    const RowTable& table = combination.table;
+    const BasisTable& table = combination.table;
     RowBlock block;
     block.count = count;
     block.stride = table.padded_planes;
@@ -81,8 +81,8 @@ void sum_tile(const RowCombination& combination, size_t first, size_t count, siz
 }
 
 template <int W>
-void combine_tile(const RowCombination& combination, size_t first, size_t count, size_t plane,
-                  void (*add_rows)(const RowBlock&, float*), const VectorKernels& use, float* out) {
+void store_tile(const BasisSum& combination, size_t first, size_t count, size_t plane,
+                void (*add_rows)(const RowBlock&, float*), const VectorKernels& use, float* out) {
     std::array<float, kVertices * W> sums;
     sum_tile<W>(combination, first, count, plane, add_rows, use, sums.data());
     const size_t num_vertices = combination.cluster.size();
@@ -90,7 +90,7 @@ void combine_tile(const RowCombination& combination, size_t first, size_t count,
                     num_vertices, out + plane * num_vertices + first);
 }
 
-void check(const RowCombination& combination, size_t first, size_t count) {
+void check(const BasisSum& combination, size_t first, size_t count) {
     const size_t num_vertices = combination.cluster.size();
     PAIM_CHECK(first <= num_vertices && count <= num_vertices - first);
     PAIM_CHECK(combination.coefficients.size() < combination.rows_per_cluster);
@@ -101,7 +101,7 @@ void check(const RowCombination& combination, size_t first, size_t count) {
 
 }  // namespace
 
-void RowTable::assign(std::span<const float> rows, std::span<const float> scales) {
+void BasisTable::assign(std::span<const float> rows, std::span<const float> scales) {
     const size_t num_rows = scales.size();
     PAIM_CHECK(num_rows > 0);
     num_planes = static_cast<uint32_t>(rows.size() / num_rows);
@@ -116,7 +116,7 @@ void RowTable::assign(std::span<const float> rows, std::span<const float> scales
     }
 }
 
-void RowTable::assign(std::span<const Vec3f> rows) {
+void BasisTable::assign(std::span<const Vec3f> rows) {
     num_planes = 3;
     padded_planes = kNarrowTile;
     values.resize(rows.size() * kNarrowTile);
@@ -127,15 +127,15 @@ void RowTable::assign(std::span<const Vec3f> rows) {
     }
 }
 
-void combine(const RowCombination& combination, size_t first, size_t count, std::span<float> out,
-             VectorUnit unit) {
-    const RowTable& table = combination.table;
+void weighted_sum(const BasisSum& combination, size_t first, size_t count, std::span<float> out,
+                  VectorUnit unit) {
+    const BasisTable& table = combination.table;
     check(combination, first, count);
     PAIM_CHECK_EQ(out.size(), table.num_planes * combination.cluster.size());
     if (unit == VectorUnit::plain) {
         for (size_t plane = 0; plane < table.num_planes; ++plane) {
             for (size_t v = first; v < first + count; ++v) {
-                out[plane * combination.cluster.size() + v] = combine_plain(combination, v, plane);
+                out[plane * combination.cluster.size() + v] = sum_plain(combination, v, plane);
             }
         }
         return;
@@ -144,35 +144,34 @@ void combine(const RowCombination& combination, size_t first, size_t count, std:
     for (size_t v = first; v < first + count; v += kVertices) {
         const size_t some = std::min(kVertices, first + count - v);
         if (table.padded_planes == kNarrowTile) {
-            combine_tile<kNarrowTile>(combination, v, some, 0, use.combine_narrow, use, out.data());
+            store_tile<kNarrowTile>(combination, v, some, 0, use.sum_narrow, use, out.data());
             continue;
         }
         size_t plane = 0;
         for (; plane + kWidestTile <= table.padded_planes; plane += kWidestTile) {
-            combine_tile<kWidestTile>(combination, v, some, plane, use.combine_widest, use,
-                                      out.data());
+            store_tile<kWidestTile>(combination, v, some, plane, use.sum_widest, use, out.data());
         }
         if (plane < table.padded_planes) {
-            combine_tile<kWideTile>(combination, v, some, plane, use.combine_wide, use, out.data());
+            store_tile<kWideTile>(combination, v, some, plane, use.sum_wide, use, out.data());
         }
     }
 }
 
-void combine_by_vertex(const RowCombination& combination, size_t first, size_t count,
-                       std::span<float> out, VectorUnit unit) {
+void weighted_sum_by_vertex(const BasisSum& combination, size_t first, size_t count,
+                            std::span<float> out, VectorUnit unit) {
     check(combination, first, count);
     PAIM_CHECK_EQ(combination.table.padded_planes, uint32_t{kNarrowTile});
     PAIM_CHECK_EQ(out.size(), count * kNarrowTile);
     if (unit == VectorUnit::plain) {
         for (size_t j = 0; j < out.size(); ++j) {
-            out[j] = combine_plain(combination, first + j / kNarrowTile, j % kNarrowTile);
+            out[j] = sum_plain(combination, first + j / kNarrowTile, j % kNarrowTile);
         }
         return;
     }
     const VectorKernels& use = vector_kernels(unit);
     for (size_t v = 0; v < count; v += kVertices) {
         sum_tile<kNarrowTile>(combination, first + v, std::min(kVertices, count - v), 0,
-                              use.combine_narrow, use, out.data() + v * kNarrowTile);
+                              use.sum_narrow, use, out.data() + v * kNarrowTile);
     }
 }
 

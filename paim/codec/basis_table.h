@@ -29,8 +29,8 @@ struct LineAllocator {
     bool operator==(const LineAllocator&) const { return true; }
 };
 
-// Bases of clusters as combine() wants them: rows of padded planes.
-struct RowTable {
+// Bases of clusters as weighted_sum() wants them: rows of padded planes.
+struct BasisTable {
     static constexpr size_t kNarrow = 4;  // padded planes of a table of few
 
     uint32_t num_planes = 0;
@@ -47,8 +47,8 @@ struct RowTable {
 };
 
 // What every vertex of a cluster is made from.
-struct RowCombination {
-    const RowTable& table;
+struct BasisSum {
+    const BasisTable& table;
     std::span<const uint32_t> cluster;           // [V]
     std::span<const StoredValues> coefficients;  // [components] of [V]
     uint32_t rows_per_cluster;                   // the components may be fewer than it has
@@ -57,12 +57,12 @@ struct RowCombination {
 // Vertex v of [first, first + count) in every plane, at out[plane · V + v], V = cluster.size():
 //   (row(v, 0) + coefficients[0][v] · row(v, 1)) + coefficients[1][v] · row(v, 2) …
 // where row(v, j) is row cluster[v] · rows_per_cluster + j of the table.
-void combine(const RowCombination& combination, size_t first, size_t count, std::span<float> out,
-             VectorUnit unit = best_vector_unit());
+void weighted_sum(const BasisSum& combination, size_t first, size_t count, std::span<float> out,
+                  VectorUnit unit = best_vector_unit());
 
-// The same values, of a table of at most RowTable::kNarrow planes (checked), each vertex's together:
+// The same values, of a table of at most BasisTable::kNarrow planes (checked), each vertex's together:
 // at out[(v − first) · kNarrow + plane], zero beyond the planes.
-void combine_by_vertex(const RowCombination& combination, size_t first, size_t count,
-                       std::span<float> out, VectorUnit unit = best_vector_unit());
+void weighted_sum_by_vertex(const BasisSum& combination, size_t first, size_t count,
+                            std::span<float> out, VectorUnit unit = best_vector_unit());
 
 }  // namespace paim

@@ -14,21 +14,22 @@ namespace paim {
 namespace {
 
 // out[plane][v], all planes of the table
-void combine_all(const VertexClusters& clusters, const RowTable& table, uint32_t num_components,
+void combine_all(const VertexClusters& clusters, const BasisTable& table, uint32_t num_components,
                  std::span<float> out) {
     constexpr size_t kVerticesATask = 1024;
-    const RowCombination combination{table, clusters.cluster,
-                                     std::span(clusters.coefficients).first(num_components),
-                                     clusters.rows_per_cluster()};
-    parallel_for(clusters.cluster.size(), kVerticesATask,
-                 [&](size_t begin, size_t end) { combine(combination, begin, end - begin, out); });
+    const BasisSum combination{table, clusters.cluster,
+                               std::span(clusters.coefficients).first(num_components),
+                               clusters.rows_per_cluster()};
+    parallel_for(clusters.cluster.size(), kVerticesATask, [&](size_t begin, size_t end) {
+        weighted_sum(combination, begin, end - begin, out);
+    });
 }
 
 }  // namespace
 
 void combine_rows(const VertexClusters& clusters, std::span<const float> rows,
                   uint32_t num_components, std::span<float> out) {
-    RowTable table;
+    BasisTable table;
     table.assign(rows, clusters.scales);
     combine_all(clusters, table, num_components, out);
 }

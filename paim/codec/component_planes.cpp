@@ -6,9 +6,9 @@
 
 namespace paim {
 
-Eigen::MatrixXf decode_plane(const Model& model, Part part, uint32_t plane) {
-    const Eigen::MatrixXf points = rebuild_sequence(model.part(part), plane);
-    if (part == Part::geometry || model.clusters.empty()) return points;
+Eigen::MatrixXf decode_plane(const Model& model, Attribute attribute, uint32_t plane) {
+    const Eigen::MatrixXf points = rebuild_sequence(model.attribute(attribute), plane);
+    if (attribute == Attribute::geometry || model.clusters.empty()) return points;
     const uint32_t num_vertices = model.topology.num_vertices;
     Eigen::MatrixXf vertices(static_cast<Eigen::Index>(num_vertices), points.cols());
     for (Eigen::Index p = 0; p < points.cols(); ++p) {

@@ -11,6 +11,6 @@ namespace paim {
 
 // Plane 0 … 2 of the positions (scene units), or plane (layout.plane(channel, i)) of the transfer.
 // returns [V][P]
-Eigen::MatrixXf decode_plane(const Model& model, Part part, uint32_t plane);
+Eigen::MatrixXf decode_plane(const Model& model, Attribute attribute, uint32_t plane);
 
 }  // namespace paim

@@ -25,7 +25,7 @@ struct DecodedPose {
     std::vector<float> transfer;   // [layout.num_planes()][V]
     // Work space of clustered transfer, kept from frame to frame.
     std::vector<float> basis_rows = {};  // [layout.num_planes()][rows of all bases]
-    RowTable row_table = {};
+    BasisTable row_table = {};
 };
 
 class Decoder {

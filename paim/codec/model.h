@@ -17,7 +17,7 @@ namespace paim {
 constexpr uint32_t kMaxPoses = 1u << 20;
 
 // Geometry or transfer of an animation: each is compressed on its own.
-enum class Part { geometry, transfer };
+enum class Attribute { geometry, transfer };
 
 // A data matrix as mean + components · weights (E3, E4): column p is
 //   mean + Σ_k weights[k][p] · components[k].
@@ -84,7 +84,7 @@ struct Scenery {
 // Whose order vertices and triangles have.
 enum class VertexOrder : uint32_t {
     baked = 0,  // the bake's
-    local = 1,  // what local_order() makes of it (mesh/cache_order.h)
+    cache = 1,  // what cache_order() makes of it (mesh/cache_order.h)
 };
 
 struct Model {
@@ -108,8 +108,8 @@ struct Model {
     std::string provenance_json;  // a JSON object: how it was made, for people and paim-info
 
     uint32_t num_poses() const { return geometry.num_poses; }
-    const LowRankMatrix& part(Part which) const {
-        return which == Part::geometry ? geometry : transfer;
+    const LowRankMatrix& attribute(Attribute which) const {
+        return which == Attribute::geometry ? geometry : transfer;
     }
 };
 

@@ -59,9 +59,9 @@ struct VectorKernels {
     void (*scale)(float factor, float* values, size_t count);
     // sums[v][i] (from first_row = 1: row(v, 0)[i]) + Σ_j coefficients[j][v] · row(v, first_row + j)[i]
     // for the planes i of a tile, in order of j
-    void (*combine_narrow)(const RowBlock& block, float* sums);
-    void (*combine_wide)(const RowBlock& block, float* sums);
-    void (*combine_widest)(const RowBlock& block, float* sums);
+    void (*sum_narrow)(const RowBlock& block, float* sums);
+    void (*sum_wide)(const RowBlock& block, float* sums);
+    void (*sum_widest)(const RowBlock& block, float* sums);
 };
 
 // Of any unit but plain (checked), which the machine must have.

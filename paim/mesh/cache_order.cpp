@@ -8,8 +8,8 @@
 
 namespace paim {
 
-LocalOrder local_order(const Topology& topology) {
-    LocalOrder order;
+CacheOrder cache_order(const Topology& topology) {
+    CacheOrder order;
     order.topology.num_vertices = topology.num_vertices;
     order.old_vertex.reserve(topology.num_vertices);
     if (topology.triangles.empty()) {

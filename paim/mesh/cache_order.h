@@ -9,13 +9,13 @@
 
 namespace paim {
 
-struct LocalOrder {
+struct CacheOrder {
     std::vector<uint32_t> old_vertex;  // [V] which vertex of the old mesh each one is
     Topology topology;                 // triangles reordered, and perhaps turned, not mirrored
 };
 
 // Depends on the topology alone: whoever knows the old mesh finds the same order. Vertices without
 // triangles come last, in their old order.
-LocalOrder local_order(const Topology& topology);
+CacheOrder cache_order(const Topology& topology);
 
 }  // namespace paim

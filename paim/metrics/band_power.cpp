@@ -24,10 +24,10 @@ EnvironmentLight read_light(const std::filesystem::path& path) {
     }
 }
 
-LightSpectrum measured(const std::filesystem::path& path) {
+BandPower measured(const std::filesystem::path& path) {
     const LightCoefficients light =
         read_light(path).coefficients(Vec3f::Zero(), static_cast<int>(sh::kMaxBands));
-    LightSpectrum spectrum{path.filename().string(), {}, 0.0};
+    BandPower spectrum{path.filename().string(), {}, 0.0};
     for (int l = 0; l < sh::kMaxBands; ++l) {
         double sum = 0.0;
         for (int m = -l; m <= l; ++m) {
@@ -44,23 +44,23 @@ LightSpectrum measured(const std::filesystem::path& path) {
 
 }  // namespace
 
-double LightSpectrum::weight(uint32_t band) const {
+double BandPower::weight(uint32_t band) const {
     if (band < weights.size()) return weights[band];
     return decay > 0.0 ? std::pow(band + 1.0, -decay) : 0.0;
 }
 
-LightSpectrum LightSpectrum::flat(uint32_t bands) {
+BandPower BandPower::flat(uint32_t bands) {
     return {"flat", std::vector<double>(bands, 1.0), 0.0};
 }
 
-LightSpectrum LightSpectrum::natural() {
+BandPower BandPower::natural() {
     return {"natural", {}, 2.0};
 }
 
-LightSpectrum parse_light_spectrum(std::string_view text, uint32_t bands) {
+BandPower parse_band_power(std::string_view text, uint32_t bands) {
     PAIM_CHECK(bands >= 1 && bands <= static_cast<uint32_t>(sh::kMaxBands));
-    if (text == "flat") return LightSpectrum::flat(bands);
-    if (text == "natural") return LightSpectrum::natural();
+    if (text == "flat") return BandPower::flat(bands);
+    if (text == "natural") return BandPower::natural();
     const std::filesystem::path path(text);
     if (!path.has_extension()) {
         throw_usage("light spectrum: expected flat, natural or an OpenEXR file, got '{}'", text);

@@ -10,7 +10,7 @@
 namespace paim {
 
 // Variance of a light's coefficient in each band, relative: only ratios between bands count.
-struct LightSpectrum {
+struct BandPower {
     std::string name;
     std::vector<double> weights;  // of the first bands
     // Bands after those have (l + 1)^-decay; 0: nothing.
@@ -20,10 +20,10 @@ struct LightSpectrum {
 
     // Every coefficient of a bake's bands alike, nothing beyond: unit random SH light, under which
     // the RMS of radiance errors is the Frobenius norm of the transfer's.
-    static LightSpectrum flat(uint32_t bands);
+    static BandPower flat(uint32_t bands);
 
     // (l + 1)^-2: real light, on average (docs/metrics.md).
-    static LightSpectrum natural();
+    static BandPower natural();
 };
 
 // bands  of the bake, 1 … sh::kMaxBands
@@ -31,6 +31,6 @@ struct LightSpectrum {
 //        of each of sh::kMaxBands bands over the channels, 1 in band 0
 // Errors: usage if it is none of these; bad input, naming the file, if that cannot be read, is not
 // light (light/environment.h) or has none in band 0.
-LightSpectrum parse_light_spectrum(std::string_view text, uint32_t bands);
+BandPower parse_band_power(std::string_view text, uint32_t bands);
 
 }  // namespace paim

@@ -30,7 +30,7 @@ double missing_band_amplitude(std::span<const double> energy) {
     return sum / static_cast<double>(last + 1 - first);
 }
 
-double missing_band_energy(std::span<const double> energy, const LightSpectrum& spectrum) {
+double missing_band_energy(std::span<const double> energy, const BandPower& spectrum) {
     double sum = 0.0;
     // Smallest first.
     for (uint32_t l = kNumBandsSummed; l-- > energy.size();) {

@@ -15,6 +15,6 @@ namespace paim {
 double missing_band_amplitude(std::span<const double> energy);
 
 // Energy in all bands that the bake does not have, weighted by the light's spectrum.
-double missing_band_energy(std::span<const double> energy, const LightSpectrum& spectrum);
+double missing_band_energy(std::span<const double> energy, const BandPower& spectrum);
 
 }  // namespace paim

@@ -45,8 +45,7 @@ std::vector<uint32_t> check_same_animation(const Model& model, const BakeReader&
 }
 
 TransferError measure_transfer(const Model& model, const BakeReader& bake,
-                               const LightSpectrum& spectrum,
-                               const std::vector<uint32_t>& old_vertex) {
+                               const BandPower& spectrum, const std::vector<uint32_t>& old_vertex) {
     const TransferLayout& layout = bake.identity().layout;
     const uint32_t num_vertices = bake.identity().num_vertices;
     const uint32_t num_poses = bake.num_poses();
@@ -66,7 +65,7 @@ TransferError measure_transfer(const Model& model, const BakeReader& bake,
         });
         const auto kept = plane_of_file(model.layout, layout, plane);
         meter.add(plane, baked, noise,
-                  kept ? decode_plane(model, Part::transfer, *kept)
+                  kept ? decode_plane(model, Attribute::transfer, *kept)
                        : MatrixXf::Zero(baked.rows(), baked.cols()));
     }
     return meter.result();
@@ -89,15 +88,14 @@ GeometryError measure_geometry(const Model& model, const BakeReader& bake,
 }  // namespace
 
 ModelError measure_animation(const Model& model, const BakeReader& bake,
-                             const LightSpectrum& spectrum) {
+                             const BandPower& spectrum) {
     const std::vector<uint32_t> old_vertex = check_same_animation(model, bake);
     return {measure_transfer(model, bake, spectrum, old_vertex),
             measure_geometry(model, bake, old_vertex),
             {}};
 }
 
-ModelError measure_model(const Model& model, const BakeReader& bake,
-                         const LightSpectrum& spectrum) {
+ModelError measure_model(const Model& model, const BakeReader& bake, const BandPower& spectrum) {
     ModelError error = measure_animation(model, bake, spectrum);
     if (bake.scenery()) error.scenery = measure_scenery(model, bake, spectrum);
     return error;
@@ -132,7 +130,7 @@ std::vector<NamedError> named_errors(const ModelError& error) {
     return errors;
 }
 
-std::string error_statement_json(const ModelError& error, const LightSpectrum& spectrum) {
+std::string error_statement_json(const ModelError& error, const BandPower& spectrum) {
     nlohmann::ordered_json json;
     json["light_spectrum"] = spectrum.name;
     for (const NamedError& named : named_errors(error)) json[named.name] = named.value;
@@ -147,7 +145,7 @@ ErrorStatement read_error_statement(const Model& model, const std::filesystem::p
     ErrorStatement statement;
     if (provenance.root().contains(kMember)) {
         const Metadata measured(provenance.object_text(kMember), file.string());
-        statement.light_spectrum = measured.text("light_spectrum");
+        statement.band_power = measured.text("light_spectrum");
         ModelError with_all;
         with_all.scenery.emplace();
         for (NamedError& named : named_errors(with_all)) {

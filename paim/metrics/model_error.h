@@ -9,8 +9,8 @@
 
 #include "paim/codec/model.h"
 #include "paim/format/bake/bake_directory.h"
-#include "paim/metrics/geometry_error.h"
 #include "paim/metrics/band_power.h"
+#include "paim/metrics/geometry_error.h"
 #include "paim/metrics/scenery_error.h"
 #include "paim/metrics/transfer_error.h"
 
@@ -27,11 +27,10 @@ struct ModelError {
 // model of a coloured bake counts in every channel.
 // bake  verified (BakeReader::verify_all)
 // Errors: bad input if the model is not of this bake, saying what differs.
-ModelError measure_animation(const Model& model, const BakeReader& bake,
-                             const LightSpectrum& spectrum);
+ModelError measure_animation(const Model& model, const BakeReader& bake, const BandPower& spectrum);
 
 // The same with the scenery, where there is any.
-ModelError measure_model(const Model& model, const BakeReader& bake, const LightSpectrum& spectrum);
+ModelError measure_model(const Model& model, const BakeReader& bake, const BandPower& spectrum);
 
 // One figure of an error, by the name that files and reports have for it (docs/metrics.md).
 struct NamedError {
@@ -46,12 +45,12 @@ std::vector<NamedError> named_errors(const ModelError& error);
 
 // What a file says of its errors: the member `measured` of its provenance.
 struct ErrorStatement {
-    std::string light_spectrum;      // its name
+    std::string band_power;          // its name
     std::vector<NamedError> errors;  // only what is stated, in the order of named_errors()
 };
 
 // The member's JSON object.
-std::string error_statement_json(const ModelError& error, const LightSpectrum& spectrum);
+std::string error_statement_json(const ModelError& error, const BandPower& spectrum);
 
 // Errors: bad input, naming the file, if it states none or what it states makes no sense.
 ErrorStatement read_error_statement(const Model& model, const std::filesystem::path& file);

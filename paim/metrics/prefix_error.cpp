@@ -86,11 +86,11 @@ std::vector<double> add_in_squares(double whole, const std::vector<double>& drop
 
 }  // namespace
 
-ComponentEnergy component_energy(const Model& model, Part part,
+ComponentEnergy component_energy(const Model& model, Attribute attribute,
                                  const std::vector<double>& plane_weight) {
-    const LowRankMatrix& matrix = model.part(part);
+    const LowRankMatrix& matrix = model.attribute(attribute);
     PAIM_CHECK_EQ(plane_weight.size(), size_t{matrix.num_planes});
-    const bool clustered = part == Part::transfer && !model.clusters.empty();
+    const bool clustered = attribute == Attribute::transfer && !model.clusters.empty();
     const std::vector<MatrixXd> metrics =
         clustered ? cluster_metrics(model.clusters) : std::vector<MatrixXd>{};
     std::vector<MatrixXd> planes(matrix.num_planes);
@@ -126,24 +126,23 @@ ComponentEnergy component_energy(const Model& model, Part part,
 
 PrefixErrors prefix_errors(const Model& model, const std::optional<ErrorStatement>& statement) {
     const ErrorStatement whole = statement.value_or(ErrorStatement{});
-    const bool named = whole.light_spectrum == "flat" || whole.light_spectrum == "natural";
+    const bool named = whole.band_power == "flat" || whole.band_power == "natural";
     const std::optional<double> transfer_error =
         named ? stated(whole, "transfer_total_error") : std::nullopt;
     const std::optional<double> position_rms = stated(whole, "position_rms");
 
     const TransferLayout& layout = model.layout;
-    const LightSpectrum spectrum =
-        parse_light_spectrum(named ? whole.light_spectrum : "flat", layout.bands);
+    const BandPower spectrum = parse_band_power(named ? whole.band_power : "flat", layout.bands);
     std::vector<double> weights(layout.num_planes());
     for (uint32_t plane = 0; plane < layout.num_planes(); ++plane) {
         weights[plane] = spectrum.weight(layout.band_of_plane(plane));
     }
-    const ComponentEnergy transfer = component_energy(model, Part::transfer, weights);
+    const ComponentEnergy transfer = component_energy(model, Attribute::transfer, weights);
     // The bake's norm: what was decoded of it and what was not are orthogonal.
     const double deviation =
         transfer_error ? stated(whole, "transfer_deviation").value_or(0.0) : 0.0;
     const double share = deviation < 1.0 ? 1.0 - deviation * deviation : 1.0;
-    const ComponentEnergy geometry = component_energy(model, Part::geometry, {1.0, 1.0, 1.0});
+    const ComponentEnergy geometry = component_energy(model, Attribute::geometry, {1.0, 1.0, 1.0});
     const double num_positions =
         static_cast<double>(model.topology.num_vertices) * static_cast<double>(model.num_poses());
     return {

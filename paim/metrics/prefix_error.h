@@ -19,13 +19,13 @@ struct ComponentEnergy {
 };
 
 // plane_weight [planes] of squares
-ComponentEnergy component_energy(const Model& model, Part part,
+ComponentEnergy component_energy(const Model& model, Attribute attribute,
                                  const std::vector<double>& plane_weight);
 
 // Errors with the first k components, k = 0 … K. What is stated of the whole file and what the
 // missing components take away are taken for orthogonal: errors² = stated² + dropped.
 struct PrefixErrors {
-    std::string light_spectrum;
+    std::string band_power;
     std::vector<double> transfer;      // [1 + Kt] relative to the bake's transfer
     std::vector<double> position_rms;  // [1 + Kg] scene units
     // Whether the error of the whole file is part of it; else it is what the missing components cost.

@@ -11,7 +11,7 @@ using Eigen::Index;
 using Eigen::MatrixXf;
 
 SceneryError measure_scenery(const Model& model, const BakeReader& bake,
-                             const LightSpectrum& spectrum) {
+                             const BandPower& spectrum) {
     PAIM_CHECK(bake.scenery().has_value());
     const BakedScenery& baked = *bake.scenery();
     const std::vector<uint32_t> old_vertex =

@@ -5,8 +5,8 @@
 
 #include "paim/codec/model.h"
 #include "paim/format/bake/bake_directory.h"
-#include "paim/metrics/geometry_error.h"
 #include "paim/metrics/band_power.h"
+#include "paim/metrics/geometry_error.h"
 #include "paim/metrics/transfer_error.h"
 
 namespace paim {
@@ -21,7 +21,6 @@ struct SceneryError {
 // channel.
 // bake  has scenery (checked)
 // Errors: bad input, naming the bake, if the model's scenery is not its.
-SceneryError measure_scenery(const Model& model, const BakeReader& bake,
-                             const LightSpectrum& spectrum);
+SceneryError measure_scenery(const Model& model, const BakeReader& bake, const BandPower& spectrum);
 
 }  // namespace paim

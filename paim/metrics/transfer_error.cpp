@@ -53,7 +53,7 @@ Index passing_class(const VectorXd& decoded, const VectorXd& baked) {
 }  // namespace
 
 TransferErrorMeter::TransferErrorMeter(const TransferLayout& layout, uint32_t num_vertices,
-                                       uint32_t num_poses, LightSpectrum spectrum, MatrixXd kept)
+                                       uint32_t num_poses, BandPower spectrum, MatrixXd kept)
     : layout_(layout),
       num_vertices_(static_cast<Index>(num_vertices)),
       num_poses_(static_cast<Index>(num_poses)),
@@ -74,15 +74,15 @@ TransferErrorMeter::TransferErrorMeter(const TransferLayout& layout, uint32_t nu
     const MatrixXd identity = MatrixXd::Identity(kept_.cols(), kept_.cols());
     PAIM_CHECK_LT((kept_.col(0) - constant).cwiseAbs().maxCoeff(), kRounding);
     PAIM_CHECK_LT((kept_.transpose() * kept_ - identity).cwiseAbs().maxCoeff(), kRounding);
-    scores_.assign(layout.bands, zero_scores());
+    factors_.assign(layout.bands, zero_factors());
 }
 
-TransferErrorMeter::Scores TransferErrorMeter::zero_scores() const {
+TransferErrorMeter::ScaledFactors TransferErrorMeter::zero_factors() const {
     const MatrixXd zero = MatrixXd::Zero(kept_.cols() + 1, kNumClasses);
     return {zero, zero, zero};
 }
 
-void TransferErrorMeter::Scores::add(const Scores& other) {
+void TransferErrorMeter::ScaledFactors::add(const ScaledFactors& other) {
     decoded_baked += other.decoded_baked;
     baked += other.baked;
     noise += other.noise;
@@ -96,11 +96,11 @@ TransferErrorMeter::RowSums TransferErrorMeter::measure_rows(Index first, Index 
     const MatrixXd y = baked.middleRows(first, count).transpose().cast<double>();
     const MatrixXd d = noise.middleRows(first, count).transpose().cast<double>();
     const MatrixXd t = decoded.middleRows(first, count).transpose().cast<double>();
-    const MatrixXd y_scores = kept_.transpose() * y;
-    const MatrixXd d_scores = kept_.transpose() * d;
-    const MatrixXd t_scores = kept_.transpose() * t;
+    const MatrixXd y_factors = kept_.transpose() * y;
+    const MatrixXd d_factors = kept_.transpose() * d;
+    const MatrixXd t_factors = kept_.transpose() * t;
     const Index kept = kept_.cols();
-    RowSums sums{{}, zero_scores(), (t - y).rowwise().squaredNorm()};
+    RowSums sums{{}, zero_factors(), (t - y).rowwise().squaredNorm()};
     for (Index row = 0; row < count; ++row) {
         const double row_baked = y.col(row).squaredNorm();
         const double row_noise = d.col(row).squaredNorm();
@@ -110,16 +110,16 @@ TransferErrorMeter::RowSums TransferErrorMeter::measure_rows(Index first, Index 
         sums.energy.deviation += row_deviation;
         vertex_deviation_[static_cast<size_t>(first + row)] += weight * row_deviation;
         const Index c =
-            passing_class(t_scores.col(row).tail(kept - 1), y_scores.col(row).tail(kept - 1));
-        const auto add = [&](const MatrixXd& a, const MatrixXd& a_scores, const MatrixXd& b,
-                             const MatrixXd& b_scores, MatrixXd& sums_of_class) {
-            const VectorXd products = a_scores.col(row).cwiseProduct(b_scores.col(row));
+            passing_class(t_factors.col(row).tail(kept - 1), y_factors.col(row).tail(kept - 1));
+        const auto add = [&](const MatrixXd& a, const MatrixXd& a_factors, const MatrixXd& b,
+                             const MatrixXd& b_factors, MatrixXd& sums_of_class) {
+            const VectorXd products = a_factors.col(row).cwiseProduct(b_factors.col(row));
             sums_of_class.col(c).head(kept) += products;
             sums_of_class(kept, c) += a.col(row).dot(b.col(row)) - products.sum();
         };
-        add(t, t_scores, y, y_scores, sums.scores.decoded_baked);
-        add(y, y_scores, y, y_scores, sums.scores.baked);
-        add(d, d_scores, d, d_scores, sums.scores.noise);
+        add(t, t_factors, y, y_factors, sums.scores.decoded_baked);
+        add(y, y_factors, y, y_factors, sums.scores.baked);
+        add(d, d_factors, d, d_factors, sums.scores.noise);
     }
     return sums;
 }
@@ -148,7 +148,7 @@ void TransferErrorMeter::add(uint32_t plane, const Plane& baked, const Plane& no
             energy_[band].baked += block.energy.baked;
             energy_[band].noise += block.energy.noise;
             energy_[band].deviation += block.energy.deviation;
-            scores_[band].add(block.scores);
+            factors_[band].add(block.scores);
             pose_deviation_ += weight * block.pose_deviation;
         }
     }
@@ -162,7 +162,7 @@ TransferError TransferErrorMeter::result() const {
     std::vector<double> true_energy;
     for (uint32_t l = 0; l < layout_.bands; ++l) {
         TransferBandEnergy& band = result.bands[l];
-        const Scores& scores = scores_[l];
+        const ScaledFactors& scores = factors_[l];
         for (Index j = 0; j < scores.baked.size(); ++j) {
             const double all = scores.baked(j);
             const double share = all > 0.0 ? scores.decoded_baked(j) / all : 0.0;

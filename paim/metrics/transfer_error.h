@@ -54,7 +54,7 @@ class TransferErrorMeter {
     // kept    [P][K'] what the decoder can follow, from orthonormal_pose_space(): orthonormal, the
     //         constant first (checked)
     TransferErrorMeter(const TransferLayout& layout, uint32_t num_vertices, uint32_t num_poses,
-                       LightSpectrum spectrum, Eigen::MatrixXd kept);
+                       BandPower spectrum, Eigen::MatrixXd kept);
 
     // Every plane of the bake once (checked). Planes in the same order give the same bits, on any
     // number of threads.
@@ -71,27 +71,27 @@ class TransferErrorMeter {
   private:
     // Sums over rows of products of scores along the kept directions and, last, of all that is left
     // of the rows beside these, [K' + 1][kNumClasses].
-    struct Scores {
+    struct ScaledFactors {
         Eigen::MatrixXd decoded_baked, baked, noise;
-        void add(const Scores& other);
+        void add(const ScaledFactors& other);
     };
     struct RowSums {
         TransferBandEnergy energy;
-        Scores scores;
+        ScaledFactors scores;
         Eigen::VectorXd pose_deviation;  // [P]
     };
 
-    Scores zero_scores() const;
+    ScaledFactors zero_factors() const;
     RowSums measure_rows(Eigen::Index first, Eigen::Index count, double weight, const Plane& baked,
                          const Plane& noise, const Plane& decoded);
 
     TransferLayout layout_;
     Eigen::Index num_vertices_, num_poses_;
-    LightSpectrum spectrum_;
+    BandPower spectrum_;
     Eigen::MatrixXd kept_;
     std::vector<bool> added_;  // [planes]
     std::vector<TransferBandEnergy> energy_;
-    std::vector<Scores> scores_;            // [bands]
+    std::vector<ScaledFactors> factors_;    // [bands]
     std::vector<double> vertex_deviation_;  // [V] weighted
     Eigen::VectorXd pose_deviation_;        // [P] weighted
 };

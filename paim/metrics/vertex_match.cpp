@@ -12,9 +12,9 @@ namespace paim {
 
 namespace {
 
-LocalOrder vertex_order(VertexOrder order, const Topology& of_bake) {
-    if (order == VertexOrder::local) return local_order(of_bake);
-    LocalOrder as_baked{{}, of_bake};
+CacheOrder vertex_order(VertexOrder order, const Topology& of_bake) {
+    if (order == VertexOrder::cache) return cache_order(of_bake);
+    CacheOrder as_baked{{}, of_bake};
     as_baked.old_vertex.resize(of_bake.num_vertices);
     std::iota(as_baked.old_vertex.begin(), as_baked.old_vertex.end(), 0u);
     return as_baked;
@@ -37,7 +37,7 @@ bool same_triangles(const Topology& a, const Topology& b) {
 std::vector<uint32_t> match_vertices(const Topology& of_file, VertexOrder order,
                                      const Topology& of_bake, const std::string& bake,
                                      const char* what) {
-    LocalOrder expected = vertex_order(order, of_bake);
+    CacheOrder expected = vertex_order(order, of_bake);
     if (!same_triangles(of_file, expected.topology)) {
         throw_bad_input("{}: expected a file made from this bake, got other {}", bake, what);
     }

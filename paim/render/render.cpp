@@ -12,7 +12,7 @@ std::vector<Image> render_images(const Topology& topology, std::span<const Vec3f
                                  std::span<const std::vector<Vec3f>> radiance, const Camera& camera,
                                  int width, int height) {
     for (const auto& values : radiance) PAIM_CHECK_EQ(values.size(), positions.size());
-    const Scene scene(topology, positions);
+    const RayScene scene(topology, positions);
     const float aspect = static_cast<float>(width) / static_cast<float>(height);
     std::vector<Image> images(radiance.size(), Image(width, height));
     parallel_for(static_cast<size_t>(height), 4, [&](size_t begin, size_t end) {
@@ -21,7 +21,7 @@ std::vector<Image> render_images(const Topology& topology, std::span<const Vec3f
                 const Vec3f direction = camera.ray_direction(
                     (static_cast<float>(x) + 0.5f) / static_cast<float>(width),
                     (static_cast<float>(y) + 0.5f) / static_cast<float>(height), aspect);
-                const auto hit = scene.first_hit(camera.eye, direction);
+                const auto hit = scene.intersect_first(camera.eye, direction);
                 if (!hit) continue;
                 const Triangle& t = topology.triangles[hit->triangle];
                 const float w = 1.0f - hit->u - hit->v;

@@ -9,8 +9,8 @@
 #include "paim/base/check.h"
 #include "paim/base/parallel.h"
 #include "paim/codec/accumulate.h"
-#include "paim/codec/low_rank.h"
 #include "paim/codec/basis_table.h"
+#include "paim/codec/low_rank.h"
 
 namespace paim {
 
@@ -57,7 +57,7 @@ ClusterLight::ClusterLight(const Model& model) : model_(model) {
 // The pose comes first. With K components over time and C coefficients, a row of grey transfer then
 // costs (K + 3) C multiply-adds, of coloured transfer 3 (K + 1) C; with the light first, both cost
 // 3 (K + 1) C + 3 K.
-void ClusterLight::light_products(double time, const DecodeLimits& limits,
+void ClusterLight::basis_radiance(double time, const DecodeLimits& limits,
                                   const LightCoefficients& light, std::vector<Vec3f>& products) {
     const TransferLayout& layout = model_.layout;
     const VertexClusters& clusters = model_.clusters;
@@ -92,22 +92,22 @@ void shade_clusters(const VertexClusters& clusters, std::span<const Vec3f> produ
                     uint32_t num_components, const Albedo& albedo, std::vector<Vec3f>& radiance) {
     PAIM_CHECK_EQ(products.size(), size_t{clusters.num_rows()});
     const uint32_t used = std::min(num_components, clusters.num_components);
-    RowTable table;
+    BasisTable table;
     table.assign(products);
-    const RowCombination combination{table, clusters.cluster,
-                                     std::span(clusters.coefficients).first(used),
-                                     clusters.rows_per_cluster()};
+    const BasisSum combination{table, clusters.cluster,
+                               std::span(clusters.coefficients).first(used),
+                               clusters.rows_per_cluster()};
     radiance.resize(clusters.cluster.size());
     constexpr size_t kVerticesATask = 4096;
     parallel_for(radiance.size(), kVerticesATask, [&](size_t begin, size_t end) {
         constexpr size_t kVerticesATime = 128;  // their sums stay in the first cache
-        std::array<float, kVerticesATime * RowTable::kNarrow> sums;
+        std::array<float, kVerticesATime * BasisTable::kNarrow> sums;
         for (size_t first = begin; first < end; first += kVerticesATime) {
             const size_t count = std::min(kVerticesATime, end - first);
-            combine_by_vertex(combination, first, count,
-                              std::span(sums).first(count * RowTable::kNarrow));
+            weighted_sum_by_vertex(combination, first, count,
+                                   std::span(sums).first(count * BasisTable::kNarrow));
             for (size_t j = 0; j < count; ++j) {
-                const Eigen::Map<const Vec3f> sum(sums.data() + j * RowTable::kNarrow);
+                const Eigen::Map<const Vec3f> sum(sums.data() + j * BasisTable::kNarrow);
                 radiance[first + j] = sum.cwiseProduct(albedo.at(static_cast<uint32_t>(first + j)));
             }
         }

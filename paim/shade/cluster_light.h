@@ -23,7 +23,7 @@ class ClusterLight {
     // zero for components of clusters beyond the limits. Bands beyond the light's are taken as zero.
     // time      in poses, as Decoder::decode() takes it
     // products  [clusters · (1 + components)] linear RGB
-    void light_products(double time, const DecodeLimits& limits, const LightCoefficients& light,
+    void basis_radiance(double time, const DecodeLimits& limits, const LightCoefficients& light,
                         std::vector<Vec3f>& products);
 
   private:
@@ -33,7 +33,7 @@ class ClusterLight {
 
 // radiance(v) = albedo(v) · (product(c, 0) + Σ_j coefficients[j][v] · product(c, 1 + j)), c being the
 // vertex's cluster: what decode() and shade() give, to rounding.
-// products        [rows], of light_products()
+// products        [rows], of basis_radiance()
 // num_components  of clusters, in use
 // radiance        [V] linear RGB
 void shade_clusters(const VertexClusters& clusters, std::span<const Vec3f> products,

@@ -106,7 +106,7 @@ std::vector<Triangle> without_needles(const Topology& topology, std::span<const 
 
 }  // namespace
 
-struct Scene::Impl {
+struct RayScene::Impl {
     Device device;
     RTCScene scene = nullptr;
     float scale = 1.0f;                   // of what Embree sees
@@ -132,11 +132,11 @@ struct Scene::Impl {
     }
 };
 
-Scene::Scene(const Topology& topology, std::span<const Vec3f> positions)
-    : Scene(topology, positions, {}, {}) {}
+RayScene::RayScene(const Topology& topology, std::span<const Vec3f> positions)
+    : RayScene(topology, positions, {}, {}) {}
 
-Scene::Scene(const Topology& topology, std::span<const Vec3f> positions, const Topology& scenery,
-             std::span<const Vec3f> scenery_positions)
+RayScene::RayScene(const Topology& topology, std::span<const Vec3f> positions,
+                   const Topology& scenery, std::span<const Vec3f> scenery_positions)
     : impl_(std::make_unique<Impl>()) {
     PAIM_CHECK_EQ(positions.size(), topology.num_vertices);
     PAIM_CHECK_EQ(scenery_positions.size(), scenery.num_vertices);
@@ -151,7 +151,7 @@ Scene::Scene(const Topology& topology, std::span<const Vec3f> positions, const T
     impl_->device.throw_if_failed();
 }
 
-Scene::~Scene() = default;
+RayScene::~RayScene() = default;
 
 namespace {
 
@@ -177,28 +177,28 @@ void set_directions(const float* x, const float* y, const float* z, uint32_t num
 
 }  // namespace
 
-uint32_t Scene::blocked(const Vec3f& origin, const float* x, const float* y, const float* z,
-                        uint32_t count, float* blocked) const {
+uint32_t RayScene::occluded(const Vec3f& origin, const float* x, const float* y, const float* z,
+                            uint32_t count, float* occluded) const {
     embree::Context context;
     RTCRay16 rays{};
     set_origin(impl_->scale * origin, rays);
     alignas(64) int valid[kPacket];
-    uint32_t num_blocked = 0;
+    uint32_t num_occluded = 0;
     for (uint32_t first = 0; first < count; first += kPacket) {
         const uint32_t num_rays = std::min(kPacket, count - first);
         set_directions(x + first, y + first, z + first, num_rays, rays, valid);
         context.occluded(valid, impl_->scene, rays);
         for (uint32_t j = 0; j < num_rays; ++j) {
-            const bool hit = rays.tfar[j] < 0.0f;  // Embree's mark of a blocked ray
-            blocked[first + j] = hit ? 1.0f : 0.0f;
-            num_blocked += hit ? 1 : 0;
+            const bool hit = rays.tfar[j] < 0.0f;  // Embree's mark of a occluded ray
+            occluded[first + j] = hit ? 1.0f : 0.0f;
+            num_occluded += hit ? 1 : 0;
         }
     }
-    return num_blocked;
+    return num_occluded;
 }
 
-void Scene::first_hits(const Vec3f& origin, const float* x, const float* y, const float* z,
-                       uint32_t count, Hit* hits) const {
+void RayScene::intersect(const Vec3f& origin, const float* x, const float* y, const float* z,
+                         uint32_t count, Hit* hits) const {
     embree::Context context;
     RTCRayHit16 query{};
     set_origin(impl_->scale * origin, query.ray);
@@ -219,7 +219,7 @@ void Scene::first_hits(const Vec3f& origin, const float* x, const float* y, cons
     }
 }
 
-std::optional<Hit> Scene::first_hit(const Vec3f& origin, const Vec3f& direction) const {
+std::optional<Hit> RayScene::intersect_first(const Vec3f& origin, const Vec3f& direction) const {
     embree::Context context;
     RTCRayHit query;
     query.ray = make_ray(impl_->scale * origin, direction);

@@ -25,34 +25,34 @@ struct Hit {
 // sides of a triangle are hit, triangles without area (mesh/normals.h) never. Answers do not depend
 // on the number of threads: traversal is Embree's conservative ("robust") one, so that it is the
 // triangle tests alone that decide.
-class Scene {
+class RayScene {
   public:
     // positions [V] finite. Throws Error(unsupported) if Embree cannot be started, or what it
     // reports.
-    Scene(const Topology& topology, std::span<const Vec3f> positions);
+    RayScene(const Topology& topology, std::span<const Vec3f> positions);
 
     // The same with a second mesh. Its triangles are counted on from the first one's.
-    Scene(const Topology& topology, std::span<const Vec3f> positions, const Topology& scenery,
-          std::span<const Vec3f> scenery_positions);
-    ~Scene();
-    Scene(const Scene&) = delete;
-    Scene& operator=(const Scene&) = delete;
+    RayScene(const Topology& topology, std::span<const Vec3f> positions, const Topology& scenery,
+             std::span<const Vec3f> scenery_positions);
+    ~RayScene();
+    RayScene(const RayScene&) = delete;
+    RayScene& operator=(const RayScene&) = delete;
 
     // Whether anything lies in each direction from the origin, at any distance > 0.
     // x, y, z  [count] unit directions
-    // blocked  [count] 1 or 0
+    // occluded  [count] 1 or 0
     // note     sixteen at a time: fastest if neighbouring directions follow one another
-    // returns  how many are blocked
-    uint32_t blocked(const Vec3f& origin, const float* x, const float* y, const float* z,
-                     uint32_t count, float* blocked) const;
+    // returns  how many are occluded
+    uint32_t occluded(const Vec3f& origin, const float* x, const float* y, const float* z,
+                      uint32_t count, float* occluded) const;
 
     // The nearest hit in each of these directions; its triangle is kNoTriangle where there is none.
     // hits  [count]
-    void first_hits(const Vec3f& origin, const float* x, const float* y, const float* z,
-                    uint32_t count, Hit* hits) const;
+    void intersect(const Vec3f& origin, const float* x, const float* y, const float* z,
+                   uint32_t count, Hit* hits) const;
 
     // The nearest hit at distance > 0, if any.
-    std::optional<Hit> first_hit(const Vec3f& origin, const Vec3f& direction) const;
+    std::optional<Hit> intersect_first(const Vec3f& origin, const Vec3f& direction) const;
 
   private:
     struct Impl;

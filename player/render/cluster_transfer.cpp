@@ -80,7 +80,7 @@ void ClusterTransfer::update_products(const Frame& frame, const LightCoefficient
     DecodeLimits limits = frame.limits;
     limits.bands = std::min(limits.bands, plan_.layout.bands);
     limits.transfer_components = std::min(limits.transfer_components, plan_.transfer_components);
-    light_.light_products(frame.time, limits, light, row_products_);
+    light_.basis_radiance(frame.time, limits, light, row_products_);
     const uint32_t stride = clusters_.rows_per_cluster();
     for (size_t c = 0; c < clusters_.num_clusters; ++c) {
         const Vec3f* rows = row_products_.data() + c * stride;
@@ -102,7 +102,7 @@ int ClusterTransfer::bind(const gl::Program& program, int unit, const Frame& fra
     program.set_texture("cluster", unit++, cluster_.handle());
     program.set_texture("coefficients_wide", unit++, wide_.handle());
     program.set_texture("coefficients_narrow", unit++, narrow_.handle());
-    program.set_texture("light_products", unit++, products_.handle());
+    program.set_texture("basis_radiance", unit++, products_.handle());
     const uint32_t components = std::min(frame.limits.cluster_components, plan_.cluster_components);
     const uint32_t groups = (components + kGroupSize - 1) / kGroupSize;
     const uint32_t wide_groups = std::min(groups, num_wide_groups_);

@@ -52,7 +52,7 @@ uniform coefficients_wide_sampler coefficients_wide;
 uniform isampler2D coefficients_narrow;
 // [clusters][product_texels]: the mean's product with the light, then the red, green and blue
 // products of every four components, zero beyond those in use.
-uniform sampler2D light_products;
+uniform sampler2D basis_radiance;
 
 uniform int product_texels;
 uniform int num_wide_groups;  // in use
@@ -60,14 +60,14 @@ uniform int num_narrow_groups;
 
 // Products of four components, each with its coefficient.
 vec3 weigh(vec4 coefficients, int texel) {
-    return vec3(dot(coefficients, fetch(light_products, texel)),
-                dot(coefficients, fetch(light_products, texel + 1)),
-                dot(coefficients, fetch(light_products, texel + 2)));
+    return vec3(dot(coefficients, fetch(basis_radiance, texel)),
+                dot(coefficients, fetch(basis_radiance, texel + 1)),
+                dot(coefficients, fetch(basis_radiance, texel + 2)));
 }
 
 vec3 shade(int v) {
     int texel = texelFetch(cluster, place(v), 0).x * product_texels;
-    vec3 radiance = fetch(light_products, texel).rgb;
+    vec3 radiance = fetch(basis_radiance, texel).rgb;
     ++texel;
     for (int j = 0; j < num_wide_groups; ++j) {
         radiance += weigh(fetch(coefficients_wide, j * num_vertices + v), texel);

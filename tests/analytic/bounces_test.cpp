@@ -40,7 +40,7 @@ TEST(Bounces, OctopusInAWhiteFurnaceTurnsWhite) {
     const PoseSet octopus = poses::make_octopus(1000, 1);
     const size_t num_vertices = octopus.topology().num_vertices;
     // What is missing from 1, e_N = K e_(N-1), where K is a matrix of weights whose rows sum up to
-    // the blocked part, e_0 (closed surface: no back is seen). So e_N(v) <= e_0(v) max e_(N-1), and
+    // the occluded attribute, e_0 (closed surface: no back is seen). So e_N(v) <= e_0(v) max e_(N-1), and
     // as K has no negative entries the largest ratio of e_N to e_(N-1) never grows.
     std::vector<std::vector<double>> missing[2];
     for (const uint32_t bounces : {0u, 1u, 2u, 3u, 4u, 8u}) {
@@ -115,7 +115,7 @@ struct Plates {
         albedo.values.resize(2 * num_lower, upper);
     }
 
-    // Part of one, as a mesh of its own; faces turned round if asked.
+    // Attribute of one, as a mesh of its own; faces turned round if asked.
     PoseSet plate(bool of_upper, bool turned) const {
         const auto first = static_cast<uint32_t>(of_upper ? num_lower : 0);
         Topology topology{static_cast<uint32_t>(num_lower), {}};
@@ -187,16 +187,16 @@ TEST(Bounces, SceneryGivesItsOwnLight) {
             // bounces between itself. Its back gives nothing.
             for (size_t v = 0; v < plates.num_lower; ++v) {
                 const Vec3f& x = plates.pose.positions[v];
-                const double blocked = poses::plates_blocked(x.x(), x.z(), 1.0);
+                const double occluded = poses::plates_blocked(x.x(), x.z(), 1.0);
                 for (int channel = 0; channel < 3; ++channel) {
                     const double given =
-                        turned ? 0.0 : static_cast<double>(plates.upper[channel]) * blocked;
+                        turned ? 0.0 : static_cast<double>(plates.upper[channel]) * occluded;
                     const size_t r = static_cast<size_t>(channel) * plates.num_lower + v;
                     EXPECT_NEAR(static_cast<double>(baked.transfer[r]) / kY00,
-                                1.0 - blocked + given, 0.007);
+                                1.0 - occluded + given, 0.007);
                 }
             }
-            EXPECT_EQ(baked.statistics.back_hits, turned ? baked.statistics.blocked : 0);
+            EXPECT_EQ(baked.statistics.back_hits, turned ? baked.statistics.occluded : 0);
         }
     }
 }
@@ -257,7 +257,7 @@ TEST(Bounces, WorkWithAnErrorTargetAndEverySampler) {
             for (const float t : baked.transfer) {
                 mean += static_cast<double>(t) / kY00 / static_cast<double>(baked.transfer.size());
             }
-            // A white furnace. Samplers of the whole sphere weigh rays so that open and blocked
+            // A white furnace. Samplers of the whole sphere weigh rays so that open and occluded
             // parts add up to 1 only on average: to 1/sqrt(rays) each, and bounced some twice.
             EXPECT_NEAR(mean, 1.0, sampler == SamplerKind::cosine ? 1e-3 : 0.02);
         }

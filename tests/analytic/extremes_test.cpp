@@ -257,7 +257,7 @@ TEST(Extremes, ConvexSpheresDoNotShadowThemselvesWhereverTheyAre) {
                 const Vec3d far = sizes * scale * size_of(sphere) * Vec3d(0.6, -0.48, 0.64);
                 const ObjMesh moved(
                     mapped(sphere, [&](const Vec3d& x) { return Vec3d(scale * x + far); }));
-                EXPECT_EQ(moved.bake(1).statistics.blocked, 0u) << num_vertices << ' ' << scale;
+                EXPECT_EQ(moved.bake(1).statistics.occluded, 0u) << num_vertices << ' ' << scale;
             }
         }
     }

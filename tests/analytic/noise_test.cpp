@@ -6,10 +6,10 @@
 
 #include "analysis/study/baked_matrices.h"
 #include "compressor/bake/transfer_baker.h"
-#include "compressor/encode/noise/rank_selection.h"
 #include "compressor/encode/noise/component_noise.h"
-#include "compressor/encode/svd/principal_components.h"
+#include "compressor/encode/noise/rank_selection.h"
 #include "compressor/encode/noise/shrinkage.h"
+#include "compressor/encode/svd/principal_components.h"
 #include "poses/octopus.h"
 #include "poses/shapes.h"
 #include "tests/analytic/bias.h"

@@ -99,7 +99,7 @@ TEST(OddMesh, OneTriangleIsTheCosineLobeOnItsLitSide) {
                         {{0.3f, 1, 2}, {1.4f, 1.3f, 1.7f}, {0.3f, 1.0f + height, 2.2f}});
         const PoseSet set = mesh.pose_set();
         const BakedPose baked = bake(set, 4096);
-        EXPECT_EQ(baked.statistics.blocked, 0u) << height;
+        EXPECT_EQ(baked.statistics.occluded, 0u) << height;
         const Vec3d normal = face_normal(mesh.positions[0], mesh.positions[1], mesh.positions[2]);
         for (size_t v = 0; v < 3; ++v) expect_lobe(baked, v, normal);
         EXPECT_EQ(report_topology(mesh.topology).boundary_edges, 3u);
@@ -130,7 +130,7 @@ TEST(OddMesh, ZeroAreaFacesChangeNothing) {
     }
     EXPECT_EQ(report(odd.pose_set()).zero_area_faces, 4u);
     const BakedPose plain = bake(sphere.pose_set()), baked = bake(odd.pose_set());
-    EXPECT_EQ(baked.statistics.blocked, 0u);
+    EXPECT_EQ(baked.statistics.occluded, 0u);
     for (size_t i = 0; i < kCoefficients; ++i) {
         for (size_t v = 0; v < n; ++v) {
             EXPECT_EQ(baked.transfer[i * (n + 3) + v], plain.transfer[i * n + v]);
@@ -185,7 +185,7 @@ TEST(OddMesh, CoincidentShellsDoNotShadowEachOther) {
     const Mesh both = sphere.with_copy(false);
     EXPECT_EQ(report(both.pose_set()).coincident_faces, sphere.topology.triangles.size());
     const BakedPose baked = bake(both.pose_set());
-    EXPECT_EQ(baked.statistics.blocked, 0u);
+    EXPECT_EQ(baked.statistics.occluded, 0u);
     const Pose pose = both.pose_set().load_pose(0);
     for (size_t v = 0; v < both.positions.size(); v += 7) {
         expect_lobe(baked, v, pose.normals[v].cast<double>().normalized());
@@ -208,7 +208,7 @@ TEST(OddMesh, AShellWithAFlippedCopyIsLitOutsideAndDarkInside) {
 TEST(OddMesh, ASheetWithAFlippedCopyIsLitOnBothSides) {
     const Mesh both = square(4).with_copy(true);
     const BakedPose baked = bake(both.pose_set());
-    EXPECT_EQ(baked.statistics.blocked, 0u);
+    EXPECT_EQ(baked.statistics.occluded, 0u);
     for (size_t v = 0; v < 25; ++v) {
         expect_lobe(baked, v, Vec3d(0, 0, 1));
         expect_lobe(baked, 25 + v, Vec3d(0, 0, -1));

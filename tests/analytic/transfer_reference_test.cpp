@@ -31,7 +31,7 @@ TEST(TransferReference, EveryBandAgreesToTheNoiseOfTheReference) {
     const Pose pose = octopus.load_pose(0);
     // So many rays that its own noise is far below the reference's.
     const BakedPose baked = TransferBaker({kBands, 16384, 1}).bake(octopus.topology(), pose, 0);
-    const Scene scene(octopus.topology(), pose.positions);
+    const RayScene scene(octopus.topology(), pose.positions);
     const std::vector<float> offsets = ray_offsets(octopus.topology(), pose.positions);
 
     double chi_squared[kBands] = {};
@@ -45,7 +45,7 @@ TEST(TransferReference, EveryBandAgreesToTheNoiseOfTheReference) {
         for (int j = 0; j < kRays; ++j) {
             const Vec3d w = cosine_direction(pose.normals[v].cast<double>(), random);
             const Vec3f origin = pose.positions[v] + offsets[v] * pose.normals[v];
-            if (scene.first_hit(origin, w.cast<float>())) continue;
+            if (scene.intersect_first(origin, w.cast<float>())) continue;
             ++num_open;
             for (int l = 0; l < kBands; ++l) {
                 for (int m = -l; m <= l; ++m) {

@@ -50,7 +50,7 @@ TEST(Transfer, LoneSphereIsTheCosineLobe) {
     }
     RecordProperty("relative_error", std::to_string(std::sqrt(error / reference)));
     EXPECT_LT(std::sqrt(error / reference), 1e-3);
-    EXPECT_EQ(baked.statistics.blocked, 0u);
+    EXPECT_EQ(baked.statistics.occluded, 0u);
 }
 
 TEST(Transfer, OpenVerticesAreTheCosineLobeOfTheirNormalToRounding) {
@@ -88,12 +88,12 @@ TEST(Transfer, CoarseConvexSphereDoesNotShadowItself) {
     const BakedPose baked = bake(sphere, 0, {3, 4096, 1});
     // Its averaged normals lie within the cone of face normals, so every direction above the
     // tangent plane leaves the convex mesh: no ray may leak.
-    EXPECT_EQ(baked.statistics.blocked, 0u);
+    EXPECT_EQ(baked.statistics.occluded, 0u);
 }
 
 TEST(Transfer, ConvexBoxSeesOnlySky) {
     const PoseSet box = poses::make_pose_set(*poses::make_box_sequence(200), 3);
-    for (uint32_t p = 0; p < 3; ++p) EXPECT_EQ(bake(box, p, {3, 512, 1}).statistics.blocked, 0u);
+    for (uint32_t p = 0; p < 3; ++p) EXPECT_EQ(bake(box, p, {3, 512, 1}).statistics.occluded, 0u);
 }
 
 TEST(Transfer, InsideOfAClosedBoxIsExactlyDark) {

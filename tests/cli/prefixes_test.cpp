@@ -19,7 +19,7 @@ class Prefixes : public ToolTest {
         expect_success(compress({"encode", path("x.bake"), "-o", path("x.paim"),
                                  "--transfer-components", "3", "--geometry-components", "1"}));
         model_ = read_paim(path("x.paim"));
-        error_ = measure_model(model_, BakeReader(path("x.bake")), LightSpectrum::natural());
+        error_ = measure_model(model_, BakeReader(path("x.bake")), BandPower::natural());
     }
 
     std::string state(bool stated) {
@@ -27,7 +27,7 @@ class Prefixes : public ToolTest {
         provenance.erase("measured");
         if (stated) {
             provenance["measured"] =
-                json::parse(error_statement_json(error_, LightSpectrum::natural()));
+                json::parse(error_statement_json(error_, BandPower::natural()));
         }
         model_.provenance_json = provenance.dump();
         write_paim(path("x.paim"), model_);
@@ -76,7 +76,7 @@ TEST_F(Prefixes, HaveTheErrorsThatAreListed) {
         const json& entry = report["prefixes"][j];
         std::filesystem::resize_file(file, entry["size_bytes"].get<uint64_t>());
         const Model model = read_paim(file, {.progressive = true});
-        const ModelError error = measure_model(model, bake, LightSpectrum::natural());
+        const ModelError error = measure_model(model, bake, BandPower::natural());
         // Geometry has no noise: what is missing is orthogonal but for f32.
         const double rms = error.geometry.rms();
         EXPECT_NEAR(entry["position_rms"], rms, 1e-4 * rms + 1e-6);

@@ -21,7 +21,7 @@ class Verify : public ToolTest {
     }
 
     // The encoded file, which states what is measured of it, changed by `change`.
-    std::string state(const LightSpectrum& spectrum, const std::function<void(json&)>& change) {
+    std::string state(const BandPower& spectrum, const std::function<void(json&)>& change) {
         Model model = read_paim(path("encoded.paim"));
         const ModelError error = measure_model(model, BakeReader(path("x.bake")), spectrum);
         json provenance = json::parse(model.provenance_json);
@@ -32,7 +32,7 @@ class Verify : public ToolTest {
         return path("x.paim");
     }
     std::string state(const std::function<void(json&)>& change = [](json&) {}) {
-        return state(LightSpectrum::flat(3), change);
+        return state(BandPower::flat(3), change);
     }
 
     ToolResult verify(const std::string& file, Arguments options = {}) const {
@@ -77,7 +77,7 @@ TEST_F(Verify, FindsEveryErrorThatIsLargerThanStated) {
             json& stated = provenance["measured"][error.name];
             stated = stated.get<double>() * (1.0 - 1e-5);
         };
-        const std::string file = state(LightSpectrum::natural(), lower);
+        const std::string file = state(BandPower::natural(), lower);
         const ToolResult result = verify(file, {"--json"});
         EXPECT_EQ(result.exit_code, 5) << error.name << result.err;
         EXPECT_TRUE(contains(result.err, file + ": expected a " + error.name + " of at most "))
@@ -101,7 +101,7 @@ TEST_F(Verify, AllowsForRoundingAndForPessimism) {
 }
 
 TEST_F(Verify, ComparesUnderTheLightThatWasMeant) {
-    const std::string natural = state(LightSpectrum::natural(), [](json&) {});
+    const std::string natural = state(BandPower::natural(), [](json&) {});
     const json report = parse_object(verify(natural, {"--json"}));
     EXPECT_EQ(report["light_spectrum"], "natural");
     EXPECT_GT(report["errors"]["transfer_missing_bands"]["stated"], 0.0);
@@ -115,7 +115,7 @@ TEST_F(Verify, ComparesUnderTheLightThatWasMeant) {
     Image image(8, 4, Vec3f(1, 1, 1));
     image.at(0, 0) = Vec3f(9, 9, 9);
     write_exr(directory_ / "dawn.exr", image);
-    const std::string dawn = state(parse_light_spectrum(path("dawn.exr"), 3), [](json&) {});
+    const std::string dawn = state(parse_band_power(path("dawn.exr"), 3), [](json&) {});
     expect_failure(verify(dawn), 1, {"those under dawn.exr", "--light-spectrum"});
     EXPECT_EQ(verify(dawn, {"--light-spectrum", path("dawn.exr")}).exit_code, 0);
 }

@@ -62,7 +62,7 @@ TEST(Golden, ReadsScenery) {
 // Integers of every kind. Read, not written: bytes depend on the version of Zstandard.
 Model golden_model_of_integers() {
     Model model = make_clustered_example(3, 3, 2, true);
-    model.vertex_order = VertexOrder::local;
+    model.vertex_order = VertexOrder::cache;
     model.scenery = make_quantised_scenery(model.layout);
     return model;
 }
@@ -72,10 +72,10 @@ TEST(Golden, ReadsIntegers) {
         std::filesystem::path(PAIM_GOLDEN_DIR) / "example_v1_integers.paim";
     if (std::getenv("PAIM_UPDATE_GOLDEN") != nullptr) write_paim(file, golden_model_of_integers());
     const Model model = read_paim(file), expected = golden_model_of_integers();
-    for (const Part part : {Part::geometry, Part::transfer}) {
-        EXPECT_EQ(model.part(part).mean, expected.part(part).mean);
-        EXPECT_EQ(model.part(part).components, expected.part(part).components);
-        EXPECT_EQ(model.part(part).steps, expected.part(part).steps);
+    for (const Attribute attribute : {Attribute::geometry, Attribute::transfer}) {
+        EXPECT_EQ(model.attribute(attribute).mean, expected.attribute(attribute).mean);
+        EXPECT_EQ(model.attribute(attribute).components, expected.attribute(attribute).components);
+        EXPECT_EQ(model.attribute(attribute).steps, expected.attribute(attribute).steps);
     }
     EXPECT_EQ(model.clusters.cluster, expected.clusters.cluster);
     EXPECT_EQ(model.clusters.coefficients, expected.clusters.coefficients);

@@ -25,11 +25,11 @@ class Assignment {
         : points_(points), subspaces_(subspaces) {}
 
     // |x − m|² − |Bᵀ(x − m)|² less |x|² for the points of a block and all clusters: [points][clusters]
-    MatrixXf scores(Index first, Index count) const {
+    MatrixXf factors(Index first, Index count) const {
         const Index step = static_cast<Index>(subspaces_.num_components()) + 1;
         const Index num_clusters = static_cast<Index>(subspaces_.num_clusters());
         const Index at_once = std::max<Index>(1, kColumnsAtOnce / step);
-        MatrixXf scores(count, num_clusters), products;
+        MatrixXf factors(count, num_clusters), products;
         const auto block = points_.middleCols(first, count);
         for (Index c = 0; c < num_clusters; c += at_once) {
             const Index some = std::min(at_once, num_clusters - c);
@@ -38,14 +38,14 @@ class Assignment {
             for (Index j = 0; j < some; ++j) {
                 const Index column = (c + j) * step;
                 const auto& of_mean = subspaces_.products();
-                auto score = scores.col(c + j).array();
+                auto score = factors.col(c + j).array();
                 score = of_mean[column] - 2.0f * products.col(j * step).array();
                 for (Index k = 1; k < step; ++k) {
                     score -= (products.col(j * step + k).array() - of_mean[column + k]).square();
                 }
             }
         }
-        return scores;
+        return factors;
     }
 
   private:
@@ -57,8 +57,8 @@ class Assignment {
 float own_cost(const ClusterSubspaces& subspaces, uint32_t c,
                const Eigen::Ref<const Eigen::VectorXf>& x, float d2) {
     // With leverage 1 the distance is 0 but for rounding.
-    constexpr float kLeast = 1e-3f;
-    return d2 / std::max(kLeast, 1.0f - subspaces.leverage(c, x));
+    constexpr float kMin = 1e-3f;
+    return d2 / std::max(kMin, 1.0f - subspaces.leverage(c, x));
 }
 
 uint32_t degree(const PointGraph* graph, size_t v) {
@@ -79,7 +79,7 @@ void assign_points(const MatrixXf& points, const ClusterSubspaces& subspaces, fl
     parallel_for(num_points, kPointsAtOnce, [&](size_t begin, size_t end) {
         const auto first = static_cast<Index>(begin);
         const auto count = static_cast<Index>(end - begin);
-        MatrixXf costs = assignment.scores(first, count);
+        MatrixXf costs = assignment.factors(first, count);
         std::vector<float> own(end - begin), least(end - begin);
         for (Index v = 0; v < count; ++v) {
             const size_t at = begin + static_cast<size_t>(v);

@@ -136,13 +136,13 @@ void components_by_passes(const PointSource& points, const MatrixXf& projected,
             parallel_for(clusters.size(), 1, [&](size_t g, size_t) {
                 const auto own = members.of(clusters[g]);
                 const Eigen::RowVectorXd mean = member_mean(plane, own);
-                MatrixXd scores = MatrixXd::Zero(plane.cols(), q[g].cols());
+                MatrixXd factors = MatrixXd::Zero(plane.cols(), q[g].cols());
                 for_member_rows(plane, own, mean, [&](Index first, const MatrixXd& rows) {
                     energy[g] += rows.squaredNorm();
-                    scores.noalias() += rows.transpose() * q[g].middleRows(first, rows.rows());
+                    factors.noalias() += rows.transpose() * q[g].middleRows(first, rows.rows());
                 });
                 for_member_rows(plane, own, mean, [&](Index first, const MatrixXd& rows) {
-                    gram_q[g].middleRows(first, rows.rows()).noalias() += rows * scores;
+                    gram_q[g].middleRows(first, rows.rows()).noalias() += rows * factors;
                 });
             });
         }

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "compressor/encode/cluster/cluster_members.h"
-#include "compressor/encode/data/point_source.h"
 #include "compressor/encode/cluster/top_eigenpairs.h"
+#include "compressor/encode/data/point_source.h"
 
 namespace paim {
 

@@ -55,8 +55,8 @@ Principal principal_within(const MatrixXf& points, std::span<const uint32_t> mem
                            const VectorXf& mean, const MatrixXf& basis) {
     Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(basis.cols(), basis.cols());
     for_member_blocks(points, members, mean, [&](const MatrixXf& block) {
-        const Eigen::MatrixXd scores = (basis.transpose() * block).cast<double>();
-        gram.noalias() += scores * scores.transpose();
+        const Eigen::MatrixXd factors = (basis.transpose() * block).cast<double>();
+        gram.noalias() += factors * factors.transpose();
     });
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram);
     const Index size = gram.rows();
@@ -103,10 +103,10 @@ ClusterSubspaces ClusterSubspaces::with_components(uint32_t num_components) cons
 float ClusterSubspaces::leverage(uint32_t c, const Eigen::Ref<const VectorXf>& x) const {
     const Index first = static_cast<Index>(c) * static_cast<Index>(num_components_ + 1);
     const auto count = static_cast<Index>(num_components_);
-    const VectorXf scores =
+    const VectorXf factors =
         columns_.middleCols(first + 1, count).transpose() * x - products_.segment(first + 1, count);
     return inverse_spread_[first] +
-           scores.cwiseAbs2().dot(inverse_spread_.segment(first + 1, count));
+           factors.cwiseAbs2().dot(inverse_spread_.segment(first + 1, count));
 }
 
 void ClusterSubspaces::fit_cluster(const MatrixXf& points, const ClusterMembers& members, size_t c,
@@ -132,8 +132,8 @@ void ClusterSubspaces::fit_cluster(const MatrixXf& points, const ClusterMembers&
         for (int step = 0; step < steps; ++step) {
             MatrixXf next = MatrixXf::Zero(basis.rows(), count);
             for_member_blocks(points, own, mean, [&](const MatrixXf& block) {
-                const MatrixXf scores = block.transpose() * basis;
-                next.noalias() += block * scores;
+                const MatrixXf factors = block.transpose() * basis;
+                next.noalias() += block * factors;
             });
             basis = orthonormal(next);
         }

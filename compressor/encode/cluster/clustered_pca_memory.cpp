@@ -38,7 +38,7 @@ struct Need {
                threads * 1024 * sketch * kFloat + (sketch + 2 * columns) * columns * kDouble;
     }
 
-    // Subspaces; scores of the points that are at work; members and distances.
+    // Subspaces; factors of the points that are at work; members and distances.
     uint64_t clustering() const {
         const uint64_t at_once = kPointsAtOnce * (2 * clusters + 1024) * kFloat;
         const uint64_t fitting = 1024 * (dimensions + assumed) * kFloat;

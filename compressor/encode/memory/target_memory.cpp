@@ -17,7 +17,7 @@ constexpr uint64_t kFloat = sizeof(float), kDouble = sizeof(double);
 // Values of a quantised matrix, at most.
 constexpr uint64_t kInteger = sizeof(int16_t);
 
-// Points of scores, as dimensions alone.
+// Points of factors, as dimensions alone.
 class Dimensions : public PointSource {
   public:
     Dimensions(const TargetSize& size)
@@ -88,7 +88,7 @@ struct Need {
         return (geometry_values() + transfer_values() + weights()) * kFloat + measuring();
     }
 
-    // quantised_error(): a thinned copy of the scores, and what least squares need of each plane.
+    // quantised_error(): a thinned copy of the factors, and what least squares need of each plane.
     uint64_t trying() const {
         constexpr uint64_t kSampled = 4'000'000;
         const uint64_t columns = 2 * most_components() + 2;
@@ -99,10 +99,10 @@ struct Need {
 
     // Sections as bytes while they are compressed: Zstandard's tables grow with them, up to some size.
     uint64_t packing() const {
-        constexpr uint64_t kMostTables = 92'000'000;
+        constexpr uint64_t kMaxTables = 92'000'000;
         const uint64_t section =
             std::max(vertices(), basis_rows()) * std::max(3u, size.num_planes) * kInteger;
-        const uint64_t tables = std::min(kMostTables, 4'000'000 + 17 * section);
+        const uint64_t tables = std::min(kMaxTables, 4'000'000 + 17 * section);
         return size.streamed.num_threads * (tables + 8 * section);
     }
 
@@ -111,7 +111,7 @@ struct Need {
     }
     uint64_t basis_rows() const {
         if (!size.clusters) return 0;
-        return std::min(2 * vertices(), clusters() * (kMostClusterComponents + 1));
+        return std::min(2 * vertices(), clusters() * (kMaxSearchedComponents + 1));
     }
     uint64_t basis_values() const {
         return basis_rows() * size.num_planes * (size.transfer_components + uint64_t{1});
@@ -120,24 +120,24 @@ struct Need {
     // All that have been tried stay, for the next target.
     uint64_t kept_clusterings() const {
         if (!size.clusters) return 0;
-        const uint64_t of_vertices = vertices() * (kMostClusterComponents + 3) * kFloat;
-        const uint64_t of_clusters = clusters() * (kMostClusterComponents + 3) * kDouble;
-        return kMostClusterings * (of_vertices + of_clusters);
+        const uint64_t of_vertices = vertices() * (kMaxSearchedComponents + 3) * kFloat;
+        const uint64_t of_clusters = clusters() * (kMaxSearchedComponents + 3) * kDouble;
+        return kMaxClusterings * (of_vertices + of_clusters);
     }
 
     uint64_t clustering() const {
         if (!size.clusters) return 0;
         ClusteringOptions options;
         options.num_clusters = static_cast<uint32_t>(clusters());
-        options.assumed_components = kMostAssumedComponents;
-        options.max_components = kMostClusterComponents;
+        options.assumed_components = kMaxAssumedComponents;
+        options.max_components = kMaxSearchedComponents;
         return clustered_pca_memory_bytes(Dimensions(size), options);
     }
 
-    uint64_t scores() const {
+    uint64_t factors() const {
         return (geometry_values() + transfer_values()) * kFloat + weights() * kDouble;
     }
-    uint64_t held() const { return scores() + mesh() + kept_clusterings(); }
+    uint64_t held() const { return factors() + mesh() + kept_clusterings(); }
 
     uint64_t searching() const {
         return std::max(clustering(), basis_values() * kFloat +
@@ -147,7 +147,7 @@ struct Need {
 };
 
 uint64_t reading_bytes(const TargetSize& size, uint32_t num_in_flight) {
-    return encode_memory_bytes(size.streamed, num_in_flight) + Need{size}.scores();
+    return encode_memory_bytes(size.streamed, num_in_flight) + Need{size}.factors();
 }
 
 }  // namespace

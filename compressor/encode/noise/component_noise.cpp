@@ -64,11 +64,11 @@ class Measurement {
     }
 
   private:
-    // Adds squared scores by band, appends squared rows; returns the energy of the mean, once a column.
+    // Adds squared factors by band, appends squared rows; returns the energy of the mean, once a column.
     double project(uint64_t first, const MatrixXf& values, MatrixXd& by_band,
                    std::vector<double>& by_row) const {
         double mean_energy = 0.0;
-        MatrixXd centred, scores;
+        MatrixXd centred, factors;
         Eigen::VectorXd mean;
         for (Index row = 0; row < values.rows();) {
             // Rows of one plane, which are of one band.
@@ -76,8 +76,8 @@ class Measurement {
             const auto left_in_plane = static_cast<Index>(num_vertices() - at % num_vertices());
             const Index size = std::min({kRowsAtOnce, values.rows() - row, left_in_plane});
             centre_rows(values.middleRows(row, size), centred, mean);
-            scores.noalias() = centred * v_;
-            by_band.row(band_of_row(at)) += scores.colwise().squaredNorm();
+            factors.noalias() = centred * v_;
+            by_band.row(band_of_row(at)) += factors.colwise().squaredNorm();
             const Eigen::VectorXd energy = centred.rowwise().squaredNorm();
             by_row.insert(by_row.end(), energy.begin(), energy.end());
             mean_energy += mean.squaredNorm();

@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "compressor/encode/svd/principal_components.h"
 #include "compressor/encode/data/row_source.h"
+#include "compressor/encode/svd/principal_components.h"
 #include "paim/transfer/layout.h"
 
 namespace paim {
@@ -19,7 +19,7 @@ struct ComponentNoise {
     TransferLayout layout;
     uint32_t num_vertices = 0;
     uint32_t num_poses = 0;
-    Eigen::MatrixXd energy;             // [bands][K] of the scores A'V
+    Eigen::MatrixXd energy;             // [bands][K] of the factors A'V
     Eigen::MatrixXd noise;              // [bands][K] of which is noise
     std::vector<double> vertex_energy;  // [bands][V] of A' over a vertex's rows in a band
     std::vector<double> vertex_noise;   // [bands][V] of which is noise

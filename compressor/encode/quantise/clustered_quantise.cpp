@@ -13,7 +13,7 @@ using Eigen::Index;
 namespace {
 
 // What coefficients are multiples of, by cluster and component; 0 for rows of nothing.
-double coefficient_step(const ClusteredScores& clustered, Index cluster, Index component,
+double coefficient_step(const ClusteredFactors& clustered, Index cluster, Index component,
                         double step) {
     const double norm = clustered.norms(cluster, component);
     return norm > 0.0 ? step / norm : 0.0;
@@ -35,33 +35,34 @@ StoredValues fewest_bits(const std::vector<double>& integers) {
 
 }  // namespace
 
-void ScorePoints::read(uint32_t plane, Eigen::Ref<Eigen::MatrixXf> out) const {
+void FactorPoints::read(uint32_t plane, Eigen::Ref<Eigen::MatrixXf> out) const {
     const auto weight = static_cast<float>(std::sqrt(plane_weight_[plane]));
     const auto column = [&](const std::vector<float>& values) {
-        return Eigen::Map<const Eigen::VectorXf>(scores_.plane(values, plane).data(), out.rows());
+        return Eigen::Map<const Eigen::VectorXf>(factors_.plane(values, plane).data(), out.rows());
     };
-    out.col(0) = weight * column(scores_.mean);
+    out.col(0) = weight * column(factors_.mean);
     for (Index k = 0; k + 1 < out.cols(); ++k) {
-        out.col(k + 1) = weight * column(scores_.components[static_cast<size_t>(k)]);
+        out.col(k + 1) = weight * column(factors_.components[static_cast<size_t>(k)]);
     }
 }
 
-ClusteredScores cluster_bases(const Scores& scores, const std::vector<double>& plane_weight,
-                              const ClusteredPca& pca, uint32_t num_components) {
-    const ScorePoints points(scores, plane_weight);
+ClusteredFactors cluster_bases(const ScaledFactors& factors,
+                               const std::vector<double>& plane_weight, const ClusteredPca& pca,
+                               uint32_t num_components) {
+    const FactorPoints points(factors, plane_weight);
     const uint32_t stride = num_components + 1;
     const auto num_rows = static_cast<Index>(pca.num_clusters * stride);
-    ClusteredScores clustered;
+    ClusteredFactors clustered;
     clustered.pca = &pca;
     clustered.num_components = num_components;
     clustered.norms = Eigen::MatrixXd::Zero(pca.num_clusters, num_components);
-    clustered.truncated = scores.num_poses() * pca.squared_error(num_components);
-    Scores& bases = clustered.bases;
+    clustered.truncated = factors.num_poses() * pca.squared_error(num_components);
+    ScaledFactors& bases = clustered.bases;
     bases.num_points = static_cast<uint32_t>(num_rows);
-    bases.num_planes = scores.num_planes;
-    bases.weights = scores.weights;
-    bases.singular_values = scores.singular_values;
-    bases.components.resize(scores.components.size());
+    bases.num_planes = factors.num_planes;
+    bases.weights = factors.weights;
+    bases.singular_values = factors.singular_values;
+    bases.components.resize(factors.components.size());
 
     Eigen::VectorXf root(num_rows);
     for (Index r = 0; r < num_rows; ++r) {
@@ -89,7 +90,7 @@ ClusteredScores cluster_bases(const Scores& scores, const std::vector<double>& p
     return clustered;
 }
 
-ClusteredMatrix quantise_clusters(const ClusteredScores& clustered, const Quantiser& quantiser) {
+ClusteredMatrix quantise_clusters(const ClusteredFactors& clustered, const Quantiser& quantiser) {
     const ClusteredPca& pca = *clustered.pca;
     ClusteredMatrix result;
     result.matrix = quantise(clustered.bases, quantiser);
@@ -117,7 +118,7 @@ ClusteredMatrix quantise_clusters(const ClusteredScores& clustered, const Quanti
     return result;
 }
 
-double clustered_error(const ClusteredScores& clustered, const Quantiser& quantiser) {
+double clustered_error(const ClusteredFactors& clustered, const Quantiser& quantiser) {
     const ClusteredPca& pca = *clustered.pca;
     double of_coefficients = 0.0;
     for (Index j = 0; j < clustered.norms.cols(); ++j) {
@@ -133,7 +134,7 @@ double clustered_error(const ClusteredScores& clustered, const Quantiser& quanti
            clustered.bases.num_poses() * of_coefficients;
 }
 
-double smallest_step(const ClusteredScores& clustered, const Quantiser& quantiser) {
+double smallest_step(const ClusteredFactors& clustered, const Quantiser& quantiser) {
     const ClusteredPca& pca = *clustered.pca;
     double largest = 0.0;  // coefficient, in steps of 1
     for (Index j = 0; j < clustered.norms.cols(); ++j) {
@@ -149,7 +150,7 @@ double smallest_step(const ClusteredScores& clustered, const Quantiser& quantise
                     1.0001 * largest / largest_integer(Precision::i16));
 }
 
-double largest_step(const ClusteredScores& clustered, Quantiser quantiser, double most) {
+double largest_step(const ClusteredFactors& clustered, Quantiser quantiser, double most) {
     return largest_step(smallest_step(clustered, quantiser), [&](double step) {
         quantiser.step = step;
         return clustered_error(clustered, quantiser) <= most;

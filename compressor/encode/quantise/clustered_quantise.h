@@ -14,32 +14,32 @@
 
 namespace paim {
 
-// A vertex as a point: the scores of all its coefficients, the mean's included. Since the weights of
-// the scores are orthogonal and of unit RMS, distances are those of the transfer over all poses,
+// A vertex as a point: the factors of all its coefficients, the mean's included. Since the weights of
+// the factors are orthogonal and of unit RMS, distances are those of the transfer over all poses,
 // divided by √P.
-class ScorePoints : public PointSource {
+class FactorPoints : public PointSource {
   public:
     // plane_weight  of squared errors; points are scaled by its root
-    ScorePoints(const Scores& scores, const std::vector<double>& plane_weight)
-        : scores_(scores), plane_weight_(plane_weight) {}
+    FactorPoints(const ScaledFactors& factors, const std::vector<double>& plane_weight)
+        : factors_(factors), plane_weight_(plane_weight) {}
 
-    uint32_t num_points() const override { return scores_.num_points; }
-    uint32_t num_planes() const override { return scores_.num_planes; }
-    uint32_t num_columns() const override { return scores_.num_components() + 1; }
+    uint32_t num_points() const override { return factors_.num_points; }
+    uint32_t num_planes() const override { return factors_.num_planes; }
+    uint32_t num_columns() const override { return factors_.num_components() + 1; }
     void read(uint32_t plane, Eigen::Ref<Eigen::MatrixXf> out) const override;
 
   private:
-    const Scores& scores_;
+    const ScaledFactors& factors_;
     const std::vector<double>& plane_weight_;
 };
 
 // Clusters with a certain number of components, before they are quantised.
-struct ClusteredScores {
+struct ClusteredFactors {
     const ClusteredPca* pca = nullptr;
     uint32_t num_components = 0;
     // The rows of all bases, each times √(points of its cluster): an error of a value then costs as
     // much over all vertices as one of the same size anywhere else.
-    Scores bases;
+    ScaledFactors bases;
     Eigen::MatrixXd norms;   // [clusters][components] of the rows, weighted, not times that root
     double truncated = 0.0;  // weighted squares that clusters and components leave, over all poses
 
@@ -49,8 +49,9 @@ struct ClusteredScores {
     }
 };
 
-ClusteredScores cluster_bases(const Scores& scores, const std::vector<double>& plane_weight,
-                              const ClusteredPca& pca, uint32_t num_components);
+ClusteredFactors cluster_bases(const ScaledFactors& factors,
+                               const std::vector<double>& plane_weight, const ClusteredPca& pca,
+                               uint32_t num_components);
 
 struct ClusteredMatrix {
     LowRankMatrix matrix;  // of the bases
@@ -59,15 +60,15 @@ struct ClusteredMatrix {
 
 // Bases are quantised as everything is; coefficients of vertices with the step that costs as much
 // error as the bases' does.
-ClusteredMatrix quantise_clusters(const ClusteredScores& clustered, const Quantiser& quantiser);
+ClusteredMatrix quantise_clusters(const ClusteredFactors& clustered, const Quantiser& quantiser);
 
-// Weighted squared error against the scores, over all vertices and poses.
-double clustered_error(const ClusteredScores& clustered, const Quantiser& quantiser);
+// Weighted squared error against the factors, over all vertices and poses.
+double clustered_error(const ClusteredFactors& clustered, const Quantiser& quantiser);
 
 // The smallest step with which bases and coefficients fit in 16 bits.
-double smallest_step(const ClusteredScores& clustered, const Quantiser& quantiser);
+double smallest_step(const ClusteredFactors& clustered, const Quantiser& quantiser);
 
-// As largest_step() of scores: 0 if clusters and components alone leave more.
-double largest_step(const ClusteredScores& clustered, Quantiser quantiser, double most);
+// As largest_step() of factors: 0 if clusters and components alone leave more.
+double largest_step(const ClusteredFactors& clustered, Quantiser quantiser, double most);
 
 }  // namespace paim

@@ -1,4 +1,4 @@
-// Scores as floats.
+// ScaledFactors as floats.
 #include "compressor/encode/quantise/float_part.h"
 
 #include <algorithm>
@@ -18,17 +18,18 @@ double root_mean_square(const std::vector<float>& values) {
 
 }  // namespace
 
-LowRankMatrix float_part(const Scores& scores, uint32_t num_components, Precision precision) {
+LowRankMatrix float_part(const ScaledFactors& factors, uint32_t num_components,
+                         Precision precision) {
     LowRankMatrix matrix;
-    matrix.num_points = scores.num_points;
-    matrix.num_planes = scores.num_planes;
-    matrix.num_poses = scores.num_poses();
-    matrix.num_components = std::min(num_components, scores.num_components());
+    matrix.num_points = factors.num_points;
+    matrix.num_planes = factors.num_planes;
+    matrix.num_poses = factors.num_poses();
+    matrix.num_components = std::min(num_components, factors.num_components());
     matrix.precision = precision;
-    matrix.mean = scores.mean;
-    matrix.singular_values = scores.singular_values;
+    matrix.mean = factors.mean;
+    matrix.singular_values = factors.singular_values;
     for (uint32_t k = 0; k < matrix.num_components; ++k) {
-        std::vector<float> component = scores.components[k];
+        std::vector<float> component = factors.components[k];
         const double rms = root_mean_square(component);
         const auto scale = static_cast<float>(rms > 0.0 ? 1.0 / rms : 1.0);
         for (float& value : component) {
@@ -36,9 +37,9 @@ LowRankMatrix float_part(const Scores& scores, uint32_t num_components, Precisio
             if (precision == Precision::f16) value = from_half(to_half(value));
         }
         matrix.components.emplace_back(std::move(component));
-        for (Eigen::Index p = 0; p < scores.weights.cols(); ++p) {
+        for (Eigen::Index p = 0; p < factors.weights.cols(); ++p) {
             matrix.weights.push_back(static_cast<float>(
-                scores.weights(static_cast<Eigen::Index>(k), p) / static_cast<double>(scale)));
+                factors.weights(static_cast<Eigen::Index>(k), p) / static_cast<double>(scale)));
         }
     }
     return matrix;

@@ -1,4 +1,4 @@
-// Scores as floats, as the paper stores them.
+// ScaledFactors as floats, as the paper stores them.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,7 @@
 namespace paim {
 
 // The first components in f32, or rounded to f16; each with unit RMS, its weights scaled accordingly.
-LowRankMatrix float_part(const Scores& scores, uint32_t num_components, Precision precision);
+LowRankMatrix float_part(const ScaledFactors& factors, uint32_t num_components,
+                         Precision precision);
 
 }  // namespace paim

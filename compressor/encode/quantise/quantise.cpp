@@ -47,9 +47,9 @@ struct Normal {
     }
 };
 
-Normal normal_of_plane(const Scores& scores, const Quantiser& quantiser, uint32_t j) {
-    const auto num_points = static_cast<Index>(scores.num_points);
-    const auto all = static_cast<Index>(scores.num_components());
+Normal normal_of_plane(const ScaledFactors& factors, const Quantiser& quantiser, uint32_t j) {
+    const auto num_points = static_cast<Index>(factors.num_points);
+    const auto all = static_cast<Index>(factors.num_components());
     const Index kept = std::min(all, static_cast<Index>(quantiser.num_components));
     const float step = plane_step(quantiser, j);
     Normal normal{MatrixXd::Zero(kept, kept), MatrixXd::Zero(kept, 1 + all), 0.0};
@@ -59,16 +59,16 @@ Normal normal_of_plane(const Scores& scores, const Quantiser& quantiser, uint32_
     for (Index first = 0; first < num_points; first += kPointsAtOnce) {
         const Index count = std::min(kPointsAtOnce, num_points - first);
         const auto steps = [&](const std::vector<float>& values) {
-            return Eigen::Map<const Eigen::VectorXf>(scores.plane(values, j).data() + first,
+            return Eigen::Map<const Eigen::VectorXf>(factors.plane(values, j).data() + first,
                                                      count) /
                    step;
         };
         exact.resize(count, 1 + all);
         rounded.resize(count, kept);
-        const Eigen::VectorXf mean = steps(scores.mean);
+        const Eigen::VectorXf mean = steps(factors.mean);
         exact.col(0) = (mean - mean.unaryExpr(&round_mean)).cast<double>();
         for (Index k = 0; k < all; ++k) {
-            const Eigen::VectorXf values = steps(scores.components[static_cast<size_t>(k)]);
+            const Eigen::VectorXf values = steps(factors.components[static_cast<size_t>(k)]);
             exact.col(1 + k) = values.cast<double>();
             if (k < kept) rounded.col(k) = values.unaryExpr(&round_component).cast<double>();
         }
@@ -80,11 +80,11 @@ Normal normal_of_plane(const Scores& scores, const Quantiser& quantiser, uint32_
     return normal;
 }
 
-Normal normal_equations(const Scores& scores, const Quantiser& quantiser) {
-    PAIM_CHECK_EQ(quantiser.plane_weight.size(), size_t{scores.num_planes});
-    std::vector<Normal> planes(scores.num_planes);
+Normal normal_equations(const ScaledFactors& factors, const Quantiser& quantiser) {
+    PAIM_CHECK_EQ(quantiser.plane_weight.size(), size_t{factors.num_planes});
+    std::vector<Normal> planes(factors.num_planes);
     parallel_for(planes.size(), 1, [&](size_t j, size_t) {
-        planes[j] = normal_of_plane(scores, quantiser, static_cast<uint32_t>(j));
+        planes[j] = normal_of_plane(factors, quantiser, static_cast<uint32_t>(j));
     });
     Normal sum = std::move(planes[0]);
     for (size_t j = 1; j < planes.size(); ++j) sum.add(planes[j]);
@@ -114,14 +114,14 @@ std::vector<Integer> to_integers(const std::vector<float>& rounded) {
 }
 
 // Rounded to steps of each plane, in as few bits as hold them.
-StoredValues store(const Scores& scores, const Quantiser& quantiser,
+StoredValues store(const ScaledFactors& factors, const Quantiser& quantiser,
                    const std::vector<float>& values, float (*round)(float)) {
     std::vector<float> rounded(values.size());
     float largest = 0.0f;
-    for (uint32_t j = 0; j < scores.num_planes; ++j) {
+    for (uint32_t j = 0; j < factors.num_planes; ++j) {
         const float step = plane_step(quantiser, j);
-        const size_t first = size_t{j} * scores.num_points;
-        for (size_t n = first; n < first + scores.num_points; ++n) {
+        const size_t first = size_t{j} * factors.num_points;
+        for (size_t n = first; n < first + factors.num_points; ++n) {
             rounded[n] = round(values[n] / step);
             largest = std::max(largest, std::abs(rounded[n]));
         }
@@ -135,23 +135,23 @@ StoredValues store(const Scores& scores, const Quantiser& quantiser,
 
 }  // namespace
 
-LowRankMatrix quantise(const Scores& scores, const Quantiser& quantiser) {
-    const Normal normal = normal_equations(scores, quantiser);
+LowRankMatrix quantise(const ScaledFactors& factors, const Quantiser& quantiser) {
+    const Normal normal = normal_equations(factors, quantiser);
     const MatrixXd fitted = fit(normal);
-    MatrixXd wide(1 + scores.weights.rows(), scores.weights.cols());
-    wide << Eigen::RowVectorXd::Ones(scores.weights.cols()), scores.weights;
+    MatrixXd wide(1 + factors.weights.rows(), factors.weights.cols());
+    wide << Eigen::RowVectorXd::Ones(factors.weights.cols()), factors.weights;
     const MatrixXd weights = fitted * wide;
 
     LowRankMatrix matrix;
-    matrix.num_points = scores.num_points;
-    matrix.num_planes = scores.num_planes;
-    matrix.num_poses = scores.num_poses();
-    matrix.singular_values = scores.singular_values;
+    matrix.num_points = factors.num_points;
+    matrix.num_planes = factors.num_planes;
+    matrix.num_poses = factors.num_poses();
+    matrix.singular_values = factors.singular_values;
     matrix.precision = Precision::i8;
-    for (uint32_t j = 0; j < scores.num_planes; ++j) {
+    for (uint32_t j = 0; j < factors.num_planes; ++j) {
         matrix.steps.push_back(plane_step(quantiser, j));
     }
-    matrix.mean = store(scores, quantiser, scores.mean, &round_mean);
+    matrix.mean = store(factors, quantiser, factors.mean, &round_mean);
     for (Index k = 0; k < weights.rows(); ++k) {
         if (normal.gram(k, k) == 0.0) continue;
         // A value of a component errs in every pose, by weights of unit RMS; a weight in every row.
@@ -159,8 +159,8 @@ LowRankMatrix quantise(const Scores& scores, const Quantiser& quantiser) {
         const double largest = weights.row(k).cwiseAbs().maxCoeff();
         if (std::nearbyint(largest / alike) == 0.0) continue;
         const double step = std::max(alike, largest / 32767.0);
-        matrix.components.push_back(
-            store(scores, quantiser, scores.components[static_cast<size_t>(k)], &round_component));
+        matrix.components.push_back(store(
+            factors, quantiser, factors.components[static_cast<size_t>(k)], &round_component));
         matrix.singular_indices.push_back(static_cast<uint32_t>(k));
         if (!matrix.components.back().holds_i8()) matrix.precision = Precision::i16;
         matrix.weight_steps.push_back(static_cast<float>(step));
@@ -178,34 +178,35 @@ LowRankMatrix quantise(const Scores& scores, const Quantiser& quantiser) {
     return matrix;
 }
 
-double quantised_error(const Scores& scores, const Quantiser& quantiser) {
-    const Normal normal = normal_equations(scores, quantiser);
+double quantised_error(const ScaledFactors& factors, const Quantiser& quantiser) {
+    const Normal normal = normal_equations(factors, quantiser);
     const double explained = fit(normal).cwiseProduct(normal.cross).sum();
     const double in_steps = std::max(0.0, normal.energy - explained);
-    return quantiser.step * quantiser.step * scores.num_poses() * in_steps;
+    return quantiser.step * quantiser.step * factors.num_poses() * in_steps;
 }
 
-double smallest_step(const Scores& scores, const Quantiser& quantiser, Precision precision) {
+double smallest_step(const ScaledFactors& factors, const Quantiser& quantiser,
+                     Precision precision) {
     double largest = 0.0;
     const auto extend = [&](const std::vector<float>& values) {
-        for (uint32_t j = 0; j < scores.num_planes; ++j) {
+        for (uint32_t j = 0; j < factors.num_planes; ++j) {
             const double weight = std::sqrt(quantiser.plane_weight[j]);
-            for (const float value : scores.plane(values, j)) {
+            for (const float value : factors.plane(values, j)) {
                 largest = std::max(largest, std::abs(value) * weight);
             }
         }
     };
-    extend(scores.mean);
-    const uint32_t kept = std::min(quantiser.num_components, scores.num_components());
-    for (uint32_t k = 0; k < kept; ++k) extend(scores.components[k]);
+    extend(factors.mean);
+    const uint32_t kept = std::min(quantiser.num_components, factors.num_components());
+    for (uint32_t k = 0; k < kept; ++k) extend(factors.components[k]);
     // A little more, as the quotient is rounded.
     return 1.0001 * largest / largest_integer(precision);
 }
 
-double largest_step(const Scores& scores, Quantiser quantiser, double most) {
-    return largest_step(smallest_step(scores, quantiser, Precision::i16), [&](double step) {
+double largest_step(const ScaledFactors& factors, Quantiser quantiser, double most) {
+    return largest_step(smallest_step(factors, quantiser, Precision::i16), [&](double step) {
         quantiser.step = step;
-        return quantised_error(scores, quantiser) <= most;
+        return quantised_error(factors, quantiser) <= most;
     });
 }
 

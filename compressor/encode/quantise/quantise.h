@@ -15,7 +15,7 @@ namespace paim {
 
 struct Quantiser {
     double step = 1.0;                 // of a value whose plane weighs 1
-    uint32_t num_components = 0;       // of the scores that are kept, at most
+    uint32_t num_components = 0;       // of the factors that are kept, at most
     std::vector<double> plane_weight;  // [planes] of squared errors, above 0
 };
 
@@ -26,20 +26,20 @@ struct Quantiser {
 // one of their steps costs as much error as one of a component's. Components whose values or weights
 // are nothing but zero are dropped, the others say which singular value they have.
 // Error (unsupported) if a step is so small that values do not fit in 16 bits.
-LowRankMatrix quantise(const Scores& scores, const Quantiser& quantiser);
+LowRankMatrix quantise(const ScaledFactors& factors, const Quantiser& quantiser);
 
 // Weighted squared error of such a matrix over all rows and poses, without the rounding of weights.
-double quantised_error(const Scores& scores, const Quantiser& quantiser);
+double quantised_error(const ScaledFactors& factors, const Quantiser& quantiser);
 
 // The largest step with which the error is at most `most`; 0 if there is none down to 2⁻¹⁵ of the
 // largest value. quantiser.step is ignored.
-double largest_step(const Scores& scores, Quantiser quantiser, double most);
+double largest_step(const ScaledFactors& factors, Quantiser quantiser, double most);
 
 // The same for any error that grows with the step: the largest one that is good, from `smallest` to
 // the one of which the largest value is one; 0 if not even the smallest is.
 double largest_step(double smallest, const std::function<bool(double)>& good);
 
 // The smallest step with which every value fits, mean included.
-double smallest_step(const Scores& scores, const Quantiser& quantiser, Precision precision);
+double smallest_step(const ScaledFactors& factors, const Quantiser& quantiser, Precision precision);
 
 }  // namespace paim

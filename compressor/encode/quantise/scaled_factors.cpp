@@ -10,23 +10,23 @@ namespace paim {
 
 using Eigen::Index;
 
-Scores read_scores(const RowSource& rows, const PrincipalComponents& components,
-                   uint32_t num_components, const Shrinkage* shrinkage,
-                   std::span<const uint32_t> old_vertex, uint32_t num_in_flight) {
+ScaledFactors read_factors(const RowSource& rows, const PrincipalComponents& components,
+                           uint32_t num_components, const Shrinkage* shrinkage,
+                           std::span<const uint32_t> old_vertex, uint32_t num_in_flight) {
     const size_t num_vertices = old_vertex.size();
     PAIM_CHECK(num_vertices > 0);
     std::vector<size_t> new_vertex(num_vertices);
     for (size_t v = 0; v < num_vertices; ++v) new_vertex[old_vertex[v]] = v;
     const auto num_poses = static_cast<double>(rows.num_columns());
 
-    Scores scores;
-    scores.num_points = static_cast<uint32_t>(num_vertices);
-    scores.num_planes = static_cast<uint32_t>(rows.num_rows() / num_vertices);
-    scores.singular_values = components.singular_values;
-    scores.weights = std::sqrt(num_poses) *
-                     components.v.leftCols(static_cast<Index>(num_components)).transpose();
-    scores.mean.resize(rows.num_rows());
-    scores.components.assign(num_components, std::vector<float>(rows.num_rows()));
+    ScaledFactors factors;
+    factors.num_points = static_cast<uint32_t>(num_vertices);
+    factors.num_planes = static_cast<uint32_t>(rows.num_rows() / num_vertices);
+    factors.singular_values = components.singular_values;
+    factors.weights = std::sqrt(num_poses) *
+                      components.v.leftCols(static_cast<Index>(num_components)).transpose();
+    factors.mean.resize(rows.num_rows());
+    factors.components.assign(num_components, std::vector<float>(rows.num_rows()));
 
     uint64_t first = 0;
     const auto take = [&](EncodedRows& block) {
@@ -37,38 +37,38 @@ Scores read_scores(const RowSource& rows, const PrincipalComponents& components,
                 to[plane * num_vertices + new_vertex[(first + r) % num_vertices]] = scale * from[r];
             }
         };
-        scatter(block.mean, 1.0f, scores.mean.data());
+        scatter(block.mean, 1.0f, factors.mean.data());
         for (uint32_t k = 0; k < num_components; ++k) {
             // From unit RMS to what goes with weights of unit RMS.
             const double scale = components.singular_values[k] /
                                  std::sqrt(static_cast<double>(rows.num_rows()) * num_poses);
-            scatter(block.components[k], static_cast<float>(scale), scores.components[k].data());
+            scatter(block.components[k], static_cast<float>(scale), factors.components[k].data());
         }
         first += block.mean.size();
     };
     for_each_encoded_block(rows, components, num_components, take, num_in_flight);
-    return scores;
+    return factors;
 }
 
-Scores sample(const Scores& scores, size_t num_values) {
-    const size_t all = scores.mean.size() * (scores.components.size() + 1);
+ScaledFactors sample(const ScaledFactors& factors, size_t num_values) {
+    const size_t all = factors.mean.size() * (factors.components.size() + 1);
     const size_t stride =
-        std::clamp<size_t>(all / std::max<size_t>(1, num_values), 1, scores.num_points);
+        std::clamp<size_t>(all / std::max<size_t>(1, num_values), 1, factors.num_points);
     const auto thin = [&](const std::vector<float>& from) {
         std::vector<float> to;
-        for (uint32_t j = 0; j < scores.num_planes; ++j) {
-            const auto plane = scores.plane(from, j);
+        for (uint32_t j = 0; j < factors.num_planes; ++j) {
+            const auto plane = factors.plane(from, j);
             for (size_t n = 0; n < plane.size(); n += stride) to.push_back(plane[n]);
         }
         return to;
     };
-    Scores few;
-    few.num_planes = scores.num_planes;
-    few.mean = thin(scores.mean);
-    few.num_points = static_cast<uint32_t>(few.mean.size() / scores.num_planes);
-    for (const auto& component : scores.components) few.components.push_back(thin(component));
-    few.weights = scores.weights;
-    few.singular_values = scores.singular_values;
+    ScaledFactors few;
+    few.num_planes = factors.num_planes;
+    few.mean = thin(factors.mean);
+    few.num_points = static_cast<uint32_t>(few.mean.size() / factors.num_planes);
+    for (const auto& component : factors.components) few.components.push_back(thin(component));
+    few.weights = factors.weights;
+    few.singular_values = factors.singular_values;
     return few;
 }
 

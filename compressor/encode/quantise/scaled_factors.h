@@ -7,15 +7,15 @@
 #include <span>
 #include <vector>
 
-#include "compressor/encode/svd/principal_components.h"
 #include "compressor/encode/noise/shrinkage.h"
+#include "compressor/encode/svd/principal_components.h"
 
 namespace paim {
 
 // Pose p is mean + Σ_k weights(k, p) · components[k]. The rows of weights are orthogonal to each
 // other and to the constant and have unit RMS, so that an error of a component's value is as large
 // an error of the pose, on average, whatever the component: one step suits all of them.
-struct Scores {
+struct ScaledFactors {
     uint32_t num_points = 0;  // vertices, or rows of bases
     uint32_t num_planes = 0;
     std::vector<float> mean;                     // [planes][N]
@@ -33,11 +33,11 @@ struct Scores {
 // Streams the first components of a data matrix into memory.
 // shrinkage   takes noise out of the components, or none
 // old_vertex  [V] which vertex of the rows each one is (mesh/cache_order.h)
-Scores read_scores(const RowSource& rows, const PrincipalComponents& components,
-                   uint32_t num_components, const Shrinkage* shrinkage,
-                   std::span<const uint32_t> old_vertex, uint32_t num_in_flight);
+ScaledFactors read_factors(const RowSource& rows, const PrincipalComponents& components,
+                           uint32_t num_components, const Shrinkage* shrinkage,
+                           std::span<const uint32_t> old_vertex, uint32_t num_in_flight);
 
 // Every n-th point, so that about `num_values` of all values are left: what searches try settings on.
-Scores sample(const Scores& scores, size_t num_values);
+ScaledFactors sample(const ScaledFactors& factors, size_t num_values);
 
 }  // namespace paim

@@ -15,25 +15,25 @@ namespace paim {
 const QuantisedScenery& TargetFiles::scenery_of(const Targets& targets) {
     if (scenery_targets_ == targets) return scenery_;
     scenery_ = is_integer(options_.precision)
-                   ? quantise_scenery(material_, targets.transfer, targets.geometry)
-                   : exact_scenery(material_);
+                   ? quantise_scenery(problem_, targets.transfer, targets.geometry)
+                   : exact_scenery(problem_);
     scenery_targets_ = targets;
     return scenery_;
 }
 
 uint64_t TargetFiles::frame_bytes(double transfer_error) {
-    Model frame = material_.frame;
+    Model frame = problem_.frame;
     frame.scenery = scenery_of(targets(transfer_error)).scenery;
     const auto fill = [&](uint32_t num_planes, LowRankMatrix& matrix) {
         matrix.num_points = frame.topology.num_vertices;
         matrix.num_planes = num_planes;
-        matrix.num_poses = material_.bake.num_poses();
+        matrix.num_poses = problem_.bake.num_poses();
         matrix.mean = std::vector<int8_t>(matrix.num_rows());
         matrix.steps.assign(num_planes, 1.0f);
     };
     fill(3, frame.geometry);
     fill(frame.layout.num_planes(), frame.transfer);
-    frame.provenance_json = bake_provenance(material_.bake.identity(), material_.statistics);
+    frame.provenance_json = bake_provenance(problem_.bake.identity(), problem_.statistics);
     return PackedFile(frame, Effort::fast).size_bytes();
 }
 
@@ -61,7 +61,7 @@ std::optional<TargetFile> TargetFiles::meet(double transfer_error, std::string& 
             reason = bake_name() + ": " + reason;
             return std::nullopt;
         }
-        auto refined = refine(material_, scenery_of(targets), std::move(*coding), targets);
+        auto refined = refine(problem_, scenery_of(targets), std::move(*coding), targets);
         if (refined) return pack(targets, std::move(candidates), std::move(*refined), reason);
     }
     reason = fmt::format(
@@ -74,7 +74,7 @@ std::optional<TargetFile> TargetFiles::meet(double transfer_error, std::string& 
 std::optional<TargetFile> TargetFiles::meet(double transfer_error, Draft draft,
                                             std::string& reason) {
     const Targets targets = this->targets(transfer_error);
-    auto refined = refine(material_, scenery_of(targets), std::move(draft.coding), targets);
+    auto refined = refine(problem_, scenery_of(targets), std::move(draft.coding), targets);
     if (!refined) return meet(transfer_error, reason);
     return pack(targets, std::move(draft.candidates), std::move(*refined), reason);
 }
@@ -100,7 +100,7 @@ std::optional<TargetFile> TargetFiles::pack(const Targets& targets,
         candidate.multiply_adds = cost;
     }
     nlohmann::ordered_json provenance = nlohmann::ordered_json::parse(
-        bake_provenance(material_.bake.identity(), material_.statistics));
+        bake_provenance(problem_.bake.identity(), problem_.statistics));
     provenance["noise"] = options_.noise == NoiseTreatment::shrink ? "shrink" : "keep";
     provenance["measured"] =
         nlohmann::ordered_json::parse(error_statement_json(refined.error, target_.spectrum));

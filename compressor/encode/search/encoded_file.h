@@ -21,14 +21,15 @@ struct TargetFile {
 
 class TargetFiles {
   public:
-    TargetFiles(const Material& material, const EncodeOptions& options, const EncodeTarget& target)
-        : material_(material),
+    TargetFiles(const EncodeProblem& problem, const EncodeOptions& options,
+                const EncodeTarget& target)
+        : problem_(problem),
           options_(options),
           target_(target),
-          search_(material, options, target) {}
+          search_(problem, options, target) {}
 
     Targets targets(double transfer_error) const {
-        return targets_of(material_, target_, transfer_error);
+        return targets_of(problem_, target_, transfer_error);
     }
 
     // Of a file of this error, beside geometry and transfer.
@@ -51,9 +52,9 @@ class TargetFiles {
     std::optional<TargetFile> pack(const Targets& targets, std::vector<Candidate> candidates,
                                    RefinedModel refined, std::string& reason) const;
     const QuantisedScenery& scenery_of(const Targets& targets);
-    std::string bake_name() const { return material_.bake.directory().string(); }
+    std::string bake_name() const { return problem_.bake.directory().string(); }
 
-    const Material& material_;
+    const EncodeProblem& problem_;
     const EncodeOptions& options_;
     const EncodeTarget& target_;
     CodingSearch search_;

@@ -14,22 +14,22 @@ void throw_missed(const std::string& message) {
 namespace {
 
 // whose  of the bake's parts has this floor
-void check_floor(const Material& material, const TransferError& floor, const char* whose,
+void check_floor(const EncodeProblem& problem, const TransferError& floor, const char* whose,
                  double transfer_error) {
     if (floor.total() < transfer_error) return;
     const std::string asked =
         fmt::format("{}: a transfer error of {:.3g} % is asked for, but {}",
-                    material.bake.directory().string(), 100.0 * transfer_error, whose);
-    const uint32_t baked = material.bake.identity().layout.bands;
+                    problem.bake.directory().string(), 100.0 * transfer_error, whose);
+    const uint32_t baked = problem.bake.identity().layout.bands;
     if (floor.missing_bands > floor.error) {
         throw_missed(fmt::format(
             "{}its {} bands leave out {:.3g} % of what light of this spectrum shows: the best is "
             "{:.3g} %; bake with more --bands",
             asked, baked, 100.0 * floor.missing_bands, 100.0 * floor.total()));
     }
-    if (material.layout.bands < baked) {
+    if (problem.layout.bands < baked) {
         throw_missed(fmt::format("{}{} of its {} bands leave {:.3g} % at best: keep more --bands",
-                                 asked, material.layout.bands, baked, 100.0 * floor.total()));
+                                 asked, problem.layout.bands, baked, 100.0 * floor.total()));
     }
     throw_missed(fmt::format("{}the bake's noise leaves {:.3g} % at best: bake with more --rays",
                              asked, 100.0 * floor.total()));
@@ -37,10 +37,10 @@ void check_floor(const Material& material, const TransferError& floor, const cha
 
 }  // namespace
 
-void check_reachable(const Material& material, double transfer_error) {
-    check_floor(material, material.floor.transfer, "", transfer_error);
-    if (!material.floor.scenery) return;
-    check_floor(material, material.floor.scenery->transfer, "of the scenery ", transfer_error);
+void check_reachable(const EncodeProblem& problem, double transfer_error) {
+    check_floor(problem, problem.floor.transfer, "", transfer_error);
+    if (!problem.floor.scenery) return;
+    check_floor(problem, problem.floor.scenery->transfer, "of the scenery ", transfer_error);
 }
 
 }  // namespace paim

@@ -9,6 +9,6 @@ namespace paim {
 [[noreturn]] void throw_missed(const std::string& message);
 
 // Refuses transfer errors below what noise and bands of the bake leave, with the best that there is.
-void check_reachable(const Material& material, double transfer_error);
+void check_reachable(const EncodeProblem& problem, double transfer_error);
 
 }  // namespace paim

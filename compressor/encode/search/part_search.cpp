@@ -9,39 +9,40 @@
 
 namespace paim {
 
-std::vector<double> tail_errors(const Scores& scores, const std::vector<double>& plane_weight) {
-    std::vector<double> tails(scores.num_components() + 1, 0.0);
-    for (uint32_t k = scores.num_components(); k-- > 0;) {
+std::vector<double> tail_errors(const ScaledFactors& factors,
+                                const std::vector<double>& plane_weight) {
+    std::vector<double> tails(factors.num_components() + 1, 0.0);
+    for (uint32_t k = factors.num_components(); k-- > 0;) {
         double energy = 0.0;
-        for (uint32_t j = 0; j < scores.num_planes; ++j) {
+        for (uint32_t j = 0; j < factors.num_planes; ++j) {
             double sum = 0.0;
-            for (const float value : scores.plane(scores.components[k], j)) {
+            for (const float value : factors.plane(factors.components[k], j)) {
                 sum += static_cast<double>(value) * static_cast<double>(value);
             }
             energy += plane_weight[j] * sum;
         }
-        tails[k] = tails[k + 1] + scores.num_poses() * energy;
+        tails[k] = tails[k + 1] + factors.num_poses() * energy;
     }
     return tails;
 }
 
-std::vector<PartChoice> part_choices(const Scores& scores, const std::vector<double>& plane_weight,
-                                     double most_error, uint32_t most_components,
-                                     const PlanePredictor& predictor) {
+std::vector<PartChoice> part_choices(const ScaledFactors& factors,
+                                     const std::vector<double>& plane_weight, double most_error,
+                                     uint32_t most_components, const PlanePredictor& predictor) {
     // Few enough values that a step is found in a moment, enough that it is the right one.
     constexpr size_t kSampledValues = 2'000'000;
-    Scores few = sample(scores, kSampledValues);
-    const Quantiser all{1.0, scores.num_components(), plane_weight};
-    if (smallest_step(few, all, Precision::i16) == 0.0) few = scores;  // it missed what there is
-    const double sampled = static_cast<double>(few.num_points) / scores.num_points;
-    const std::vector<double> tails = tail_errors(scores, plane_weight);
+    ScaledFactors few = sample(factors, kSampledValues);
+    const Quantiser all{1.0, factors.num_components(), plane_weight};
+    if (smallest_step(few, all, Precision::i16) == 0.0) few = factors;  // it missed what there is
+    const double sampled = static_cast<double>(few.num_points) / factors.num_points;
+    const std::vector<double> tails = tail_errors(factors, plane_weight);
 
     // Shares of the error that dropped components may take.
     constexpr std::array<double, 6> kShares{0.0, 0.1, 0.25, 0.45, 0.65, 0.8};
     std::set<uint32_t> counts;
     for (const double share : kShares) {
         uint32_t k = 0;
-        while (k < scores.num_components() && tails[k] > share * most_error) ++k;
+        while (k < factors.num_components() && tails[k] > share * most_error) ++k;
         counts.insert(std::min(k, most_components));
     }
     std::vector<PartChoice> choices;
@@ -52,8 +53,8 @@ std::vector<PartChoice> part_choices(const Scores& scores, const std::vector<dou
         choice.quantiser.step = largest_step(few, choice.quantiser, sampled * most_error);
         if (choice.quantiser.step == 0.0) continue;
         choice.quantiser.step = std::max(choice.quantiser.step,
-                                         smallest_step(scores, choice.quantiser, Precision::i16));
-        const LowRankMatrix matrix = quantise(scores, choice.quantiser);
+                                         smallest_step(factors, choice.quantiser, Precision::i16));
+        const LowRankMatrix matrix = quantise(factors, choice.quantiser);
         choice.num_components = matrix.num_components;
         choice.bytes = stored_bytes(matrix, predictor, Effort::fast);
         choices.push_back(std::move(choice));

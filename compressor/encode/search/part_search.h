@@ -20,16 +20,17 @@ struct PartChoice {
 // step is small enough.
 // plane_weight     of squared errors
 // most_error       weighted, Σ over rows and poses
-// most_components  of the scores that may be kept
-std::vector<PartChoice> part_choices(const Scores& scores, const std::vector<double>& plane_weight,
-                                     double most_error, uint32_t most_components,
-                                     const PlanePredictor& predictor);
+// most_components  of the factors that may be kept
+std::vector<PartChoice> part_choices(const ScaledFactors& factors,
+                                     const std::vector<double>& plane_weight, double most_error,
+                                     uint32_t most_components, const PlanePredictor& predictor);
 
 // Of these the one with the fewest bytes, or fewer components within 1 % of it.
 std::optional<PartChoice> cheapest_part(std::vector<PartChoice> choices);
 
 // Weighted squares of the components from the k-th on, Σ over rows and poses: what is lost without
 // them. [K + 1]
-std::vector<double> tail_errors(const Scores& scores, const std::vector<double>& plane_weight);
+std::vector<double> tail_errors(const ScaledFactors& factors,
+                                const std::vector<double>& plane_weight);
 
 }  // namespace paim

@@ -6,11 +6,11 @@
 #include <utility>
 
 #include "compressor/encode/data/bake_rows.h"
+#include "compressor/encode/data/playable_scenery.h"
+#include "compressor/encode/memory/memory_plan.h"
+#include "compressor/encode/memory/target_memory.h"
 #include "compressor/encode/noise/component_noise.h"
 #include "compressor/encode/quantise/float_part.h"
-#include "compressor/encode/memory/memory_plan.h"
-#include "compressor/encode/data/playable_scenery.h"
-#include "compressor/encode/memory/target_memory.h"
 #include "paim/metrics/vertex_match.h"
 
 namespace paim {
@@ -37,8 +37,8 @@ Albedo in_order(const Albedo& albedo, const std::vector<uint32_t>& old_vertex) {
     return ordered;
 }
 
-Scenery in_local_order(Scenery scenery) {
-    LocalOrder order = local_order(scenery.topology);
+Scenery in_cache_order(Scenery scenery) {
+    CacheOrder order = cache_order(scenery.topology);
     const auto reorder = [&](StillPlanes& planes) {
         std::vector<float> values = planes.floats();
         reorder_planes(values, order.old_vertex);
@@ -64,40 +64,40 @@ double largest_diagonal(const BakeReader& bake) {
 
 }  // namespace
 
-Material read_material(const BakeReader& bake, const EncodeOptions& options,
-                       const EncodeTarget& target) {
+EncodeProblem read_problem(const BakeReader& bake, const EncodeOptions& options,
+                           const EncodeTarget& target) {
     uint32_t in_flight = choose_num_in_flight(encode_size(bake, options), options.memory_bytes,
                                               bake.directory().string());
     const BakeIdentity& identity = bake.identity();
-    Material material{bake,
-                      identity.layout,
-                      target.spectrum,
-                      bake.total_statistics(),
-                      {},
-                      {},
-                      {},
-                      {},
-                      {},
-                      {},
-                      0.0,
-                      0,
-                      0};
-    material.layout.bands = std::min(options.bands, identity.layout.bands);
-    LocalOrder order = local_order(bake.topology());
-    Model& frame = material.frame;
+    EncodeProblem problem{bake,
+                          identity.layout,
+                          target.spectrum,
+                          bake.total_statistics(),
+                          {},
+                          {},
+                          {},
+                          {},
+                          {},
+                          {},
+                          0.0,
+                          0,
+                          0};
+    problem.layout.bands = std::min(options.bands, identity.layout.bands);
+    CacheOrder order = cache_order(bake.topology());
+    Model& frame = problem.frame;
     frame.topology = std::move(order.topology);
-    frame.vertex_order = VertexOrder::local;
+    frame.vertex_order = VertexOrder::cache;
     frame.albedo = in_order(bake.albedo(), order.old_vertex);
-    frame.layout = material.layout;
+    frame.layout = problem.layout;
     frame.origin = identity.origin;
     frame.frames_per_second = options.frames_per_second;
     frame.name = options.name;
-    frame.scenery = in_local_order(playable_scenery(bake, material.layout.bands));
-    material.predictor = PlanePredictor(frame.topology);
-    for (uint32_t plane = 0; plane < material.layout.num_planes(); ++plane) {
-        const double weight = target.spectrum.weight(material.layout.band_of_plane(plane));
+    frame.scenery = in_cache_order(playable_scenery(bake, problem.layout.bands));
+    problem.predictor = PlanePredictor(frame.topology);
+    for (uint32_t plane = 0; plane < problem.layout.num_planes(); ++plane) {
+        const double weight = target.spectrum.weight(problem.layout.band_of_plane(plane));
         // Light has some of every band, if little: no band may err without bounds.
-        material.plane_weight.push_back(std::max(1e-6, weight));
+        problem.plane_weight.push_back(std::max(1e-6, weight));
     }
 
     const double asked = target.transfer_error.value_or(0.001);
@@ -106,21 +106,21 @@ Material read_material(const BakeReader& bake, const EncodeOptions& options,
     const PrincipalComponents geometry = principal_components(geometry_rows, in_flight);
     const double distance =
         largest_diagonal(bake) * target.geometry_error.value_or(kGeometryPerTransferError * asked);
-    const TransferRows transfer_rows(bake, material.layout.bands);
-    const TransferRows noise_rows(bake, material.layout.bands, TransferRows::Content::noise);
+    const TransferRows transfer_rows(bake, problem.layout.bands);
+    const TransferRows noise_rows(bake, problem.layout.bands, TransferRows::Content::noise);
     const PrincipalComponents transfer = principal_components(transfer_rows, in_flight);
     const ComponentNoise noise =
-        measure_component_noise(transfer_rows, noise_rows, material.layout, transfer, in_flight);
+        measure_component_noise(transfer_rows, noise_rows, problem.layout, transfer, in_flight);
     // As if all that is dropped were in the band that weighs most.
     double energy = 0.0, heaviest = 0.0;
-    for (uint32_t l = 0; l < material.layout.bands; ++l) {
-        const double rms = material.statistics.transfer_rms[l];
+    for (uint32_t l = 0; l < problem.layout.bands; ++l) {
+        const double rms = problem.statistics.transfer_rms[l];
         const double weight = target.spectrum.weight(l);
-        energy += weight * (2.0 * l + 1.0) * material.layout.channels * rms * rms;
+        energy += weight * (2.0 * l + 1.0) * problem.layout.channels * rms * rms;
         heaviest = std::max(heaviest, weight);
     }
     if (heaviest > 0.0) energy /= heaviest;
-    TargetSize size{encode_size(bake, options), material.layout.num_planes()};
+    TargetSize size{encode_size(bake, options), problem.layout.num_planes()};
     size.geometry_components = components_for(
         geometry.rank(), kDroppedShare * kDroppedShare * distance * distance * num_values,
         [&](uint32_t k) { return geometry.singular_values[k] * geometry.singular_values[k]; });
@@ -129,27 +129,27 @@ Material read_material(const BakeReader& bake, const EncodeOptions& options,
         [&](uint32_t k) { return noise.signal_of(static_cast<Eigen::Index>(k)); });
     size.clusters = target.codec != CodecChoice::svd && is_integer(options.precision);
     check_target_memory(size, options.memory_bytes, bake.directory().string());
-    material.spare_bytes = options.memory_bytes - target_held_bytes(size);
-    material.unneeded_bytes = options.memory_bytes - target_memory_bytes(size);
+    problem.spare_bytes = options.memory_bytes - target_held_bytes(size);
+    problem.unneeded_bytes = options.memory_bytes - target_memory_bytes(size);
     in_flight = choose_target_in_flight(size, options.memory_bytes);
-    material.geometry = read_scores(geometry_rows, geometry, size.geometry_components, nullptr,
+    problem.geometry = read_factors(geometry_rows, geometry, size.geometry_components, nullptr,
                                     order.old_vertex, in_flight);
     const Shrinkage shrinkage(noise);
-    material.transfer = read_scores(transfer_rows, transfer, size.transfer_components,
+    problem.transfer = read_factors(transfer_rows, transfer, size.transfer_components,
                                     options.noise == NoiseTreatment::shrink ? &shrinkage : nullptr,
                                     order.old_vertex, in_flight);
 
-    Model floor = material.frame;
+    Model floor = problem.frame;
     floor.geometry =
-        float_part(material.geometry, material.geometry.num_components(), Precision::f32);
+        float_part(problem.geometry, problem.geometry.num_components(), Precision::f32);
     floor.transfer =
-        float_part(material.transfer, material.transfer.num_components(), Precision::f32);
-    material.floor = material.measure(floor);
+        float_part(problem.transfer, problem.transfer.num_components(), Precision::f32);
+    problem.floor = problem.measure(floor);
     for (uint32_t l = 0; l < identity.layout.bands; ++l) {
-        material.transfer_energy +=
-            target.spectrum.weight(l) * material.floor.transfer.bands[l].baked;
+        problem.transfer_energy +=
+            target.spectrum.weight(l) * problem.floor.transfer.bands[l].baked;
     }
-    return material;
+    return problem;
 }
 
 }  // namespace paim

@@ -5,22 +5,22 @@
 #include <vector>
 
 #include "compressor/encode/encode.h"
-#include "compressor/encode/search/rate_target.h"
 #include "compressor/encode/quantise/scaled_factors.h"
+#include "compressor/encode/search/rate_target.h"
 #include "paim/format/pack/plane_predictor.h"
 #include "paim/mesh/cache_order.h"
 #include "paim/metrics/model_error.h"
 
 namespace paim {
 
-struct Material {
+struct EncodeProblem {
     const BakeReader& bake;
     TransferLayout layout;  // bands as asked for
-    LightSpectrum spectrum;
+    BandPower spectrum;
     PoseStatistics statistics;
     Model frame;  // all but geometry and transfer; vertices in local order
     PlanePredictor predictor;
-    Scores geometry, transfer;         // as many components as can matter; noise taken out
+    ScaledFactors geometry, transfer;  // as many components as can matter; noise taken out
     std::vector<double> plane_weight;  // [planes of layout] of squared transfer errors
     ModelError floor;                  // of these components, not quantised: the best there is
     double transfer_energy = 0.0;      // weighted ‖y‖² of the whole bake
@@ -38,7 +38,7 @@ struct Material {
 
 // Errors: unsupported, saying what is needed, if options.memory_bytes do not suffice for all that
 // encode_to_target() does.
-Material read_material(const BakeReader& bake, const EncodeOptions& options,
-                       const EncodeTarget& target);
+EncodeProblem read_problem(const BakeReader& bake, const EncodeOptions& options,
+                           const EncodeTarget& target);
 
 }  // namespace paim

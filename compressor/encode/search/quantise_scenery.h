@@ -12,14 +12,15 @@ struct QuantisedScenery {
     std::optional<SceneryError> error;  // measured; none of no scenery
 };
 
-// The scenery of the material with the largest steps that keep both errors, measured, within these;
+// The scenery of the problem with the largest steps that keep both errors, measured, within these;
 // floats where no steps of 16 bits do.
 // transfer_error  expected from the truth, of the scenery's own transfer (SceneryError), above what
 //                 the bake itself has
 // distance        RMS, scene units
-QuantisedScenery quantise_scenery(const Material& material, double transfer_error, double distance);
+QuantisedScenery quantise_scenery(const EncodeProblem& problem, double transfer_error,
+                                  double distance);
 
 // As it is.
-QuantisedScenery exact_scenery(const Material& material);
+QuantisedScenery exact_scenery(const EncodeProblem& problem);
 
 }  // namespace paim

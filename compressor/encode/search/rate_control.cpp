@@ -12,14 +12,14 @@ namespace paim {
 
 namespace {
 
-Model build(const Material& material, const Scenery& scenery, const Coding& coding) {
-    Model model = material.frame;
+Model build(const EncodeProblem& problem, const Scenery& scenery, const Coding& coding) {
+    Model model = problem.frame;
     model.scenery = scenery;
     model.geometry = is_integer(coding.geometry_precision)
-                         ? quantise(material.geometry, coding.geometry)
-                         : float_part(material.geometry, coding.geometry.num_components,
+                         ? quantise(problem.geometry, coding.geometry)
+                         : float_part(problem.geometry, coding.geometry.num_components,
                                       coding.geometry_precision);
-    coding.transfer.apply(material, model);
+    coding.transfer.apply(problem, model);
     trim_bands(model);
     return model;
 }
@@ -46,22 +46,22 @@ void adjust(Quantiser& quantiser, Precision precision, bool coarser, double erro
 
 }  // namespace
 
-std::optional<RefinedModel> refine(const Material& material, const QuantisedScenery& still,
+std::optional<RefinedModel> refine(const EncodeProblem& problem, const QuantisedScenery& still,
                                    Coding coding, const Targets& targets) {
-    constexpr int kMostRounds = 8;
+    constexpr int kMaxRounds = 8;
     constexpr double kRoom = 0.985;  // below this share of a target a coarser step is tried
-    const double floor = material.floor.transfer.total();
+    const double floor = problem.floor.transfer.total();
     std::optional<RefinedModel> best;
-    for (int round = 0; round < kMostRounds; ++round) {
+    for (int round = 0; round < kMaxRounds; ++round) {
         Model model;
         try {
-            model = build(material, still.scenery, coding);
+            model = build(problem, still.scenery, coding);
         } catch (const Error& error_of_step) {
             // Finer than values of 16 bits can be: what there is, is the best there is.
             if (error_of_step.code() != ExitCode::unsupported) throw;
             break;
         }
-        ModelError measured = measure_animation(model, material.bake, material.spectrum);
+        ModelError measured = measure_animation(model, problem.bake, problem.spectrum);
         measured.scenery = still.error;
         const double transfer = measured.transfer.total();
         const double geometry = measured.geometry.rms();
@@ -80,9 +80,10 @@ std::optional<RefinedModel> refine(const Material& material, const QuantisedScen
     return best;
 }
 
-void scale_steps(const Material& material, const Targets& from, const Targets& to, Coding& coding) {
+void scale_steps(const EncodeProblem& problem, const Targets& from, const Targets& to,
+                 Coding& coding) {
     if (is_integer(coding.transfer.precision)) {
-        scale_step(from.transfer, to.transfer, material.floor.transfer.total(), 1.0,
+        scale_step(from.transfer, to.transfer, problem.floor.transfer.total(), 1.0,
                    coding.transfer.quantiser);
     }
     if (is_integer(coding.geometry_precision)) {

@@ -17,10 +17,11 @@ struct RefinedModel {
 // Makes steps finer until both errors, measured, are within the targets, and coarser where there is
 // room. Nothing if no step was found.
 // still  of these targets
-std::optional<RefinedModel> refine(const Material& material, const QuantisedScenery& still,
+std::optional<RefinedModel> refine(const EncodeProblem& problem, const QuantisedScenery& still,
                                    Coding coding, const Targets& targets);
 
 // Steps that should do for other targets, where those of `from` were met.
-void scale_steps(const Material& material, const Targets& from, const Targets& to, Coding& coding);
+void scale_steps(const EncodeProblem& problem, const Targets& from, const Targets& to,
+                 Coding& coding);
 
 }  // namespace paim

@@ -26,7 +26,7 @@ struct EncodeTarget {
     std::optional<uint32_t> decode_cost;   // multiply-adds a vertex and frame for lit transfer
     CodecChoice codec = CodecChoice::automatic;
     Preference preference = Preference::size;
-    LightSpectrum spectrum = LightSpectrum::flat(1);
+    BandPower spectrum = BandPower::flat(1);
 };
 
 // Where transfer_error E is asked for and geometry_error is not: E / 50 of the diagonal. A figure a

@@ -9,10 +9,11 @@
 
 namespace paim {
 
-Targets targets_of(const Material& material, const EncodeTarget& target, double transfer_error) {
+Targets targets_of(const EncodeProblem& problem, const EncodeTarget& target,
+                   double transfer_error) {
     const double relative =
         target.geometry_error.value_or(kGeometryPerTransferError * transfer_error);
-    return {transfer_error, relative * material.floor.geometry.diagonal};
+    return {transfer_error, relative * problem.floor.geometry.diagonal};
 }
 
 std::optional<Coding> CodingSearch::choose(const Targets& targets,
@@ -50,30 +51,30 @@ std::optional<Coding> CodingSearch::choose(const Targets& targets,
 
 // Squares that truncation and quantisation may add to what the best of the bake already errs.
 double CodingSearch::transfer_budget(double target) const {
-    const double floor = material_.floor.transfer.total();
-    return std::max(0.0, (target * target - floor * floor) * material_.transfer_energy);
+    const double floor = problem_.floor.transfer.total();
+    return std::max(0.0, (target * target - floor * floor) * problem_.transfer_energy);
 }
 
 bool CodingSearch::choose_geometry(double target, Coding& coding) const {
     const std::vector<double> alike(3, 1.0);
-    const Scores& scores = material_.geometry;
+    const ScaledFactors& factors = problem_.geometry;
     const double most =
-        target * target * static_cast<double>(scores.num_points) * scores.num_poses();
+        target * target * static_cast<double>(factors.num_points) * factors.num_poses();
     if (is_integer(options_.precision)) {
         auto choice = cheapest_part(
-            part_choices(scores, alike, most, scores.num_components(), material_.predictor));
+            part_choices(factors, alike, most, factors.num_components(), problem_.predictor));
         if (!choice) return false;
         coding.geometry = std::move(choice->quantiser);
         coding.geometry_bytes = choice->bytes;
         return true;
     }
-    const std::vector<double> tails = tail_errors(scores, alike);
+    const std::vector<double> tails = tail_errors(factors, alike);
     uint32_t k = 0;
     while (k + 1 < tails.size() && tails[k] > most) ++k;
     coding.geometry = {1.0, k, alike};
     coding.geometry_precision = options_.precision;
     const uint64_t value = options_.precision == Precision::f16 ? 2 : 4;
-    coding.geometry_bytes = scores.mean.size() * (4 + k * value);
+    coding.geometry_bytes = factors.mean.size() * (4 + k * value);
     return true;
 }
 
@@ -94,8 +95,8 @@ std::string CodingSearch::missed_transfer(double target) {
 
 // Triangles, colours, table, and what stands still, whose integers take about an eighth of floats.
 uint64_t CodingSearch::frame_bytes() const {
-    return 2 * material_.frame.topology.triangles.size() + 4096 +
-           material_.frame.scenery.transfer.values.size_bytes() / 8;
+    return 2 * problem_.frame.topology.triangles.size() + 4096 +
+           problem_.frame.scenery.transfer.values.size_bytes() / 8;
 }
 
 }  // namespace paim

@@ -19,7 +19,7 @@ struct Targets {
 };
 
 // What goes with this error of the transfer.
-Targets targets_of(const Material& material, const EncodeTarget& target, double transfer_error);
+Targets targets_of(const EncodeProblem& problem, const EncodeTarget& target, double transfer_error);
 
 // A way to code both parts, with the steps that it can be made finer or coarser with.
 struct Coding {
@@ -31,11 +31,12 @@ struct Coding {
 
 class CodingSearch {
   public:
-    CodingSearch(const Material& material, const EncodeOptions& options, const EncodeTarget& target)
-        : material_(material),
+    CodingSearch(const EncodeProblem& problem, const EncodeOptions& options,
+                 const EncodeTarget& target)
+        : problem_(problem),
           options_(options),
           target_(target),
-          search_(material, options, target) {}
+          search_(problem, options, target) {}
 
     // The best coding that should meet the targets. Nothing, with the reason, if none does. Leaves what
     // was compared in `candidates`. Codings of earlier calls are gone by now (TransferSearch::codings).
@@ -48,7 +49,7 @@ class CodingSearch {
     std::string missed_transfer(double target);
     uint64_t frame_bytes() const;
 
-    const Material& material_;
+    const EncodeProblem& problem_;
     const EncodeOptions& options_;
     const EncodeTarget& target_;
     TransferSearch search_;

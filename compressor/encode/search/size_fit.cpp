@@ -46,23 +46,23 @@ class SizeCurve {
 
 class SizeFit {
   public:
-    SizeFit(const Material& material, TargetFiles& files, uint64_t most_bytes,
+    SizeFit(const EncodeProblem& problem, TargetFiles& files, uint64_t most_bytes,
             const std::function<void(const char*)>& say)
-        : material_(material),
+        : problem_(problem),
           files_(files),
           most_bytes_(most_bytes),
           most_(log_of(most_bytes)),
           high_(std::log(kLargestError)),
-          low_(std::min(high_, std::log(1.02 * std::max(1e-4, material.least_error())))),
+          low_(std::min(high_, std::log(1.02 * std::max(1e-4, problem.least_error())))),
           say_(say) {}
 
     TargetFile run() {
         // Where nothing but halving helps, the widest of intervals takes so many.
-        constexpr int kMostRounds = 12;
+        constexpr int kMaxRounds = 12;
         // A little smaller, to fit although sizes are not quite as the curve says.
         constexpr double kMargin = 0.005;
         double x = estimate();
-        for (int round = 0; round < kMostRounds; ++round) {
+        for (int round = 0; round < kMaxRounds; ++round) {
             try_error(x);
             if (best_ && (high_ - low_ <= kResolution || is_close())) break;
             x = inside(curve_.error_of(most_ - kMargin));
@@ -82,10 +82,10 @@ class SizeFit {
 
     // By estimates of sizes, until the next error is near the last.
     double estimate() {
-        constexpr int kMostEstimates = 4;
+        constexpr int kMaxEstimates = 4;
         constexpr double kUsualError = 0.04;
         double x = std::clamp(std::log(kUsualError), low_, high_);
-        for (int round = 0; round < kMostEstimates; ++round) {
+        for (int round = 0; round < kMaxEstimates; ++round) {
             say("comparing ways to code", x);
             if (choose(x)) {
                 curve_.add(x, log_of(files_.frame_bytes(std::exp(x)) + draft_->estimated_bytes));
@@ -128,7 +128,7 @@ class SizeFit {
         std::optional<TargetFile> file;
         // Near by, the same way to code it is the best, with other steps.
         if ((draft_ && std::abs(x - chosen_at_) <= kNear) || choose(x)) {
-            scale_steps(material_, files_.targets(std::exp(draft_at_)), files_.targets(error),
+            scale_steps(problem_, files_.targets(std::exp(draft_at_)), files_.targets(error),
                         draft_->coding);
             file = files_.meet(error, std::move(*draft_), reason_);
             draft_.reset();
@@ -153,14 +153,14 @@ class SizeFit {
         }
         reason_ = fmt::format(
             "{}: --max-size asks for {} bytes; with a transfer error of {:.0f} % it takes {}",
-            material_.bake.directory().string(), most_bytes_, 100.0 * kLargestError, bytes);
+            problem_.bake.directory().string(), most_bytes_, 100.0 * kLargestError, bytes);
         miss(x);
     }
 
     // Whether files of errors that much smaller would not fit any more.
     bool is_close() const { return high_ - curve_.error_of(most_) <= kResolution; }
 
-    const Material& material_;
+    const EncodeProblem& problem_;
     TargetFiles& files_;
     const uint64_t most_bytes_;
     const double most_;
@@ -179,10 +179,10 @@ class SizeFit {
 
 }  // namespace
 
-TargetFile fit_size(const Material& material, TargetFiles& files, uint64_t most_bytes,
+TargetFile fit_size(const EncodeProblem& problem, TargetFiles& files, uint64_t most_bytes,
                     const std::function<void(const char*)>& say) {
-    check_reachable(material, kLargestError);
-    return SizeFit(material, files, most_bytes, say).run();
+    check_reachable(problem, kLargestError);
+    return SizeFit(problem, files, most_bytes, say).run();
 }
 
 }  // namespace paim

@@ -16,7 +16,7 @@ namespace paim {
 namespace {
 
 // Of this error, and of this size if one is asked for.
-TargetFile meet_error(const Material& material, TargetFiles& files, const EncodeTarget& target,
+TargetFile meet_error(const EncodeProblem& problem, TargetFiles& files, const EncodeTarget& target,
                       double transfer_error) {
     std::string reason;
     std::optional<TargetFile> file = files.meet(transfer_error, reason);
@@ -24,7 +24,7 @@ TargetFile meet_error(const Material& material, TargetFiles& files, const Encode
     if (target.size_bytes && file->file.size_bytes() > *target.size_bytes) {
         throw_missed(
             fmt::format("{}: a transfer error of {:.3g} % takes {} bytes, --max-size allows {}",
-                        material.bake.directory().string(), 100.0 * transfer_error,
+                        problem.bake.directory().string(), 100.0 * transfer_error,
                         file->file.size_bytes(), *target.size_bytes));
     }
     return std::move(*file);
@@ -49,22 +49,22 @@ TargetSummary encode_to_target(const BakeReader& bake, const EncodeOptions& opti
     remove_abandoned_files(std::filesystem::absolute(output).parent_path(),
                            output.filename().string() + ".");
     say("finding components");
-    const Material material = read_material(bake, options, target);
-    if (target.transfer_error) check_reachable(material, *target.transfer_error);
+    const EncodeProblem problem = read_problem(bake, options, target);
+    if (target.transfer_error) check_reachable(problem, *target.transfer_error);
     say("comparing ways to code them");
-    TargetFiles files(material, options, target);
+    TargetFiles files(problem, options, target);
     TargetFile result = target.transfer_error
-                            ? meet_error(material, files, target, *target.transfer_error)
-                            : fit_size(material, files, *target.size_bytes, say);
+                            ? meet_error(problem, files, target, *target.transfer_error)
+                            : fit_size(problem, files, *target.size_bytes, say);
     result.file.write(output);
     TargetSummary summary;
     summary.error = result.error;
-    summary.floor = material.floor.transfer.total();
+    summary.floor = problem.floor.transfer.total();
     summary.transfer_target = result.targets.transfer;
     summary.geometry_target = result.targets.geometry;
     summary.candidates = std::move(result.candidates);
     summary.geometry_components = result.geometry_components;
-    summary.num_vertices = material.geometry.num_points;
+    summary.num_vertices = problem.geometry.num_points;
     summary.num_poses = bake.num_poses();
     summary.size_bytes = result.file.size_bytes();
     return summary;

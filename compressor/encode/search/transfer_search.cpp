@@ -6,10 +6,10 @@
 #include <limits>
 #include <set>
 
+#include "compressor/encode/memory/search_limits.h"
 #include "compressor/encode/quantise/float_part.h"
 #include "compressor/encode/search/matrix_cost.h"
 #include "compressor/encode/search/part_search.h"
-#include "compressor/encode/memory/search_limits.h"
 #include "compressor/encode/search/transfer_cost.h"
 
 namespace paim {
@@ -27,56 +27,57 @@ uint64_t stored_bytes(const VertexClusters& clusters, const PlanePredictor& vert
 
 }  // namespace
 
-std::shared_ptr<const ClusteredScores> TransferCoding::make_bases(const Material& material) const {
-    return std::make_shared<const ClusteredScores>(cluster_bases(
-        material.transfer, material.plane_weight, *clusters, candidate.cluster_components));
+std::shared_ptr<const ClusteredFactors> TransferCoding::make_bases(
+    const EncodeProblem& problem) const {
+    return std::make_shared<const ClusteredFactors>(cluster_bases(
+        problem.transfer, problem.plane_weight, *clusters, candidate.cluster_components));
 }
 
-void TransferCoding::apply(const Material& material, Model& model) const {
+void TransferCoding::apply(const EncodeProblem& problem, Model& model) const {
     model.clusters = {};
     if (!is_integer(precision)) {
-        model.transfer = float_part(material.transfer, quantiser.num_components, precision);
+        model.transfer = float_part(problem.transfer, quantiser.num_components, precision);
     } else if (clusters) {
         ClusteredMatrix quantised =
-            quantise_clusters(bases ? *bases : *make_bases(material), quantiser);
+            quantise_clusters(bases ? *bases : *make_bases(problem), quantiser);
         model.transfer = std::move(quantised.matrix);
         model.clusters = std::move(quantised.clusters);
     } else {
-        model.transfer = quantise(material.transfer, quantiser);
+        model.transfer = quantise(problem.transfer, quantiser);
     }
 }
 
-TransferSearch::TransferSearch(const Material& material, const EncodeOptions& options,
+TransferSearch::TransferSearch(const EncodeProblem& problem, const EncodeOptions& options,
                                const EncodeTarget& target)
-    : material_(material), options_(options), target_(target), decode_cost_(target.decode_cost) {}
+    : problem_(problem), options_(options), target_(target), decode_cost_(target.decode_cost) {}
 
 void TransferSearch::add_floats(double most_error, std::vector<TransferCoding>& codings) const {
-    const std::vector<double> tails = tail_errors(material_.transfer, material_.plane_weight);
+    const std::vector<double> tails = tail_errors(problem_.transfer, problem_.plane_weight);
     uint32_t k = 0;
     while (k + 1 < tails.size() && tails[k] > most_error) ++k;
     TransferCoding coding;
     coding.precision = options_.precision;
-    coding.quantiser = {1.0, k, material_.plane_weight};
+    coding.quantiser = {1.0, k, problem_.plane_weight};
     const uint64_t value = options_.precision == Precision::f16 ? 2 : 4;
     coding.candidate.codec = "svd";
     coding.candidate.components = k;
-    coding.candidate.multiply_adds = svd_cost(material_.layout, k);
-    coding.candidate.bytes = material_.transfer.mean.size() * (4 + k * value) +
-                             4 * uint64_t{k} * material_.bake.num_poses();
+    coding.candidate.multiply_adds = svd_cost(problem_.layout, k);
+    coding.candidate.bytes = problem_.transfer.mean.size() * (4 + k * value) +
+                             4 * uint64_t{k} * problem_.bake.num_poses();
     if (cheap_enough(coding.candidate.multiply_adds)) codings.push_back(std::move(coding));
 }
 
 void TransferSearch::add_svd(double most_error, std::vector<TransferCoding>& codings) const {
-    uint32_t most = material_.transfer.num_components();
-    while (most > 0 && !cheap_enough(svd_cost(material_.layout, most))) --most;
-    if (!cheap_enough(svd_cost(material_.layout, most))) return;
-    for (PartChoice& choice : part_choices(material_.transfer, material_.plane_weight, most_error,
-                                           most, material_.predictor)) {
+    uint32_t most = problem_.transfer.num_components();
+    while (most > 0 && !cheap_enough(svd_cost(problem_.layout, most))) --most;
+    if (!cheap_enough(svd_cost(problem_.layout, most))) return;
+    for (PartChoice& choice : part_choices(problem_.transfer, problem_.plane_weight, most_error,
+                                           most, problem_.predictor)) {
         TransferCoding coding;
         coding.quantiser = std::move(choice.quantiser);
         coding.candidate.codec = "svd";
         coding.candidate.components = choice.num_components;
-        coding.candidate.multiply_adds = svd_cost(material_.layout, choice.num_components);
+        coding.candidate.multiply_adds = svd_cost(problem_.layout, choice.num_components);
         coding.candidate.bytes = choice.bytes;
         codings.push_back(std::move(coding));
     }
@@ -89,15 +90,15 @@ std::shared_ptr<const ClusteredPca> TransferSearch::clusters(uint32_t num_cluste
     ClusteringOptions clustering;
     clustering.num_clusters = num_clusters;
     clustering.assumed_components = assumed_components;
-    clustering.max_components = kMostClusterComponents;
-    clustering.memory_bytes = material_.spare_bytes - kept_bytes_;
-    const ScorePoints points(material_.transfer, material_.plane_weight);
+    clustering.max_components = kMaxSearchedComponents;
+    clustering.memory_bytes = problem_.spare_bytes - kept_bytes_;
+    const FactorPoints points(problem_.transfer, problem_.plane_weight);
     found = std::make_shared<const ClusteredPca>(
-        clustered_pca(points, clustering, nullptr, material_.bake.directory().string()));
+        clustered_pca(points, clustering, nullptr, problem_.bake.directory().string()));
     return found;
 }
 
-// Bases may be larger than the scores, so that only one candidate's are kept: most often the chosen
+// Bases may be larger than the factors, so that only one candidate's are kept: most often the chosen
 // one's. Nothing but time depends on it.
 void TransferSearch::keep_bases_of_best(std::vector<TransferCoding>& codings) {
     const TransferCoding* best = best_coding(codings, target_.preference, {});
@@ -105,7 +106,7 @@ void TransferSearch::keep_bases_of_best(std::vector<TransferCoding>& codings) {
     for (TransferCoding& coding : codings) {
         if (!coding.bases) continue;
         const uint64_t bytes = coding.bases->size_bytes();
-        if (&coding == best && bytes <= material_.unneeded_bytes) {
+        if (&coding == best && bytes <= problem_.unneeded_bytes) {
             kept_bytes_ = bytes;
         } else {
             coding.bases.reset();
@@ -115,7 +116,7 @@ void TransferSearch::keep_bases_of_best(std::vector<TransferCoding>& codings) {
 
 void TransferSearch::add_clusters(uint32_t num_clusters, double most_error,
                                   std::vector<TransferCoding>& codings) {
-    const double num_poses = material_.bake.num_poses();
+    const double num_poses = problem_.bake.num_poses();
     const auto fewest = [&](const ClusteredPca& pca, double share) {
         uint32_t k = 0;
         while (k <= pca.num_components && num_poses * pca.squared_error(k) > share * most_error) {
@@ -127,9 +128,9 @@ void TransferSearch::add_clusters(uint32_t num_clusters, double most_error,
     constexpr double kUsualShare = 0.6;
     uint32_t assumed = kFirstAssumedComponents;
     const uint32_t needed = fewest(*clusters(num_clusters, assumed), kUsualShare);
-    if (needed > kMostClusterComponents) return;
+    if (needed > kMaxSearchedComponents) return;
     if (needed > assumed + assumed / 2) {
-        assumed = kMostAssumedComponents;
+        assumed = kMaxAssumedComponents;
     } else if (needed <= assumed / 2) {
         assumed /= 2;
     }
@@ -138,20 +139,20 @@ void TransferSearch::add_clusters(uint32_t num_clusters, double most_error,
     std::set<uint32_t> counts;
     for (const double share : {0.9, kUsualShare, 0.3}) counts.insert(fewest(*pca, share));
     for (const uint32_t count : counts) {
-        if (count > kMostClusterComponents) continue;
+        if (count > kMaxSearchedComponents) continue;
         // With many more rows of bases than vertices, which cost less as they are, it is slow to find out
         // that nothing is gained; up to twice as many may still play faster.
         if (uint64_t{pca->num_clusters} * (count + 1) >
-            2 * uint64_t{material_.transfer.num_points}) {
+            2 * uint64_t{problem_.transfer.num_points}) {
             continue;
         }
-        const uint32_t cost = cpca_cost(material_.layout, pca->num_clusters, count);
+        const uint32_t cost = cpca_cost(problem_.layout, pca->num_clusters, count);
         if (!cheap_enough(cost)) continue;
         TransferCoding coding;
         coding.clusters = pca;
         coding.candidate.cluster_components = count;
-        coding.bases = coding.make_bases(material_);
-        coding.quantiser = {1.0, material_.transfer.num_components(), material_.plane_weight};
+        coding.bases = coding.make_bases(problem_);
+        coding.quantiser = {1.0, problem_.transfer.num_components(), problem_.plane_weight};
         coding.quantiser.step = largest_step(*coding.bases, coding.quantiser, most_error);
         if (coding.quantiser.step == 0.0) continue;
         const ClusteredMatrix quantised = quantise_clusters(*coding.bases, coding.quantiser);
@@ -160,7 +161,7 @@ void TransferSearch::add_clusters(uint32_t num_clusters, double most_error,
         coding.candidate.clusters = pca->num_clusters;
         coding.candidate.multiply_adds = cost;
         coding.candidate.bytes = stored_bytes(quantised.matrix, PlanePredictor(), Effort::fast) +
-                                 stored_bytes(quantised.clusters, material_.predictor);
+                                 stored_bytes(quantised.clusters, problem_.predictor);
         codings.push_back(std::move(coding));
         keep_bases_of_best(codings);
     }
@@ -169,7 +170,7 @@ void TransferSearch::add_clusters(uint32_t num_clusters, double most_error,
 void TransferSearch::add_all_clusters(double most_error, std::vector<TransferCoding>& codings) {
     // Once more clusters have made files this much larger, they go on doing so.
     constexpr double kPastTheSmallest = 1.3;
-    const auto most = static_cast<uint32_t>(most_clusters(material_.transfer.num_points));
+    const auto most = static_cast<uint32_t>(most_clusters(problem_.transfer.num_points));
     const auto fewest_bytes = [&](size_t first) {
         uint64_t fewest = std::numeric_limits<uint64_t>::max();
         for (size_t j = first; j < codings.size(); ++j) {
@@ -202,7 +203,7 @@ std::vector<TransferCoding> TransferSearch::codings(double most_error) {
     if (target_.codec != CodecChoice::svd) {
         add_all_clusters(most_error, codings);
     }
-    for (TransferCoding& coding : codings) coding.candidate.bands = material_.layout.bands;
+    for (TransferCoding& coding : codings) coding.candidate.bands = problem_.layout.bands;
     return codings;
 }
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "compressor/encode/quantise/clustered_quantise.h"
-#include "compressor/encode/search/rate_target.h"
 #include "compressor/encode/search/problem.h"
+#include "compressor/encode/search/rate_target.h"
 
 namespace paim {
 
@@ -20,25 +20,25 @@ struct TransferCoding {
     Quantiser quantiser;
     std::shared_ptr<const ClusteredPca> clusters;  // of cpca
     // Of these clusters, or none: then apply() makes them.
-    std::shared_ptr<const ClusteredScores> bases;
+    std::shared_ptr<const ClusteredFactors> bases;
     Precision precision = Precision::i16;  // or floats, which have no step
 
     // Of cpca.
-    std::shared_ptr<const ClusteredScores> make_bases(const Material& material) const;
+    std::shared_ptr<const ClusteredFactors> make_bases(const EncodeProblem& problem) const;
 
     // Sets the transfer and the clusters of a model.
-    void apply(const Material& material, Model& model) const;
+    void apply(const EncodeProblem& problem, Model& model) const;
 };
 
 class TransferSearch {
   public:
-    TransferSearch(const Material& material, const EncodeOptions& options,
+    TransferSearch(const EncodeProblem& problem, const EncodeOptions& options,
                    const EncodeTarget& target);
 
     // All that were tried and meet the error and the decode cost; none if nothing does. Bases are those
     // of the best by the target's preference, if there is memory for them, until the next call: whoever
     // has codings of an earlier one drops their bases first.
-    // most_error  weighted squares over rows and poses, against the scores
+    // most_error  weighted squares over rows and poses, against the factors
     std::vector<TransferCoding> codings(double most_error);
 
     // Of all that meet the error at any decode cost; nothing if nothing does. As long as codings().
@@ -57,7 +57,7 @@ class TransferSearch {
         return !decode_cost_ || multiply_adds <= *decode_cost_;
     }
 
-    const Material& material_;
+    const EncodeProblem& problem_;
     const EncodeOptions& options_;
     const EncodeTarget& target_;
     std::optional<uint32_t> decode_cost_;  // the target's, but for least_multiply_adds()

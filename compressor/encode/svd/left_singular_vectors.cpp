@@ -47,22 +47,22 @@ LeftVectors::LeftVectors(const RowSource& rows, const PrincipalComponents& compo
     if (num_components == 0 || uncorrected(components, num_components) <= orthonormal_to) return;
     const MatrixXd factor = triangular_factor(
         rows.silent(), num_components,
-        [&](const MatrixXd& centred, MatrixXd& scores) {
-            scores.noalias() = centred * projection_;
+        [&](const MatrixXd& centred, MatrixXd& factors) {
+            factors.noalias() = centred * projection_;
         },
         num_in_flight);
     correction_ = inverse_factor(factor, length);
 }
 
 void LeftVectors::project(const Eigen::MatrixXf& block, const OnRows& on_rows) const {
-    MatrixXd centred, scores;
+    MatrixXd centred, factors;
     Eigen::VectorXd mean;
     for (Index row = 0; row < block.rows(); row += kRowsAtOnce) {
         centre_rows(block.middleRows(row, std::min(kRowsAtOnce, block.rows() - row)), centred,
                     mean);
-        scores.noalias() = centred * projection_;
-        if (corrected()) scores *= correction_.triangularView<Eigen::Upper>();
-        on_rows(row, mean, scores);
+        factors.noalias() = centred * projection_;
+        if (corrected()) factors *= correction_.triangularView<Eigen::Upper>();
+        on_rows(row, mean, factors);
     }
 }
 

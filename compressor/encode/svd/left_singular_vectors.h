@@ -24,11 +24,11 @@ class LeftVectors {
     bool corrected() const { return correction_.size() > 0; }
 
     // Rows of the data, centred, become rows of the components (unit RMS over all rows).
-    // on_rows(first, mean, scores): `mean` and the rows of `scores` belong to rows first,
+    // on_rows(first, mean, factors): `mean` and the rows of `factors` belong to rows first,
     // first + 1, …
     // note  a block must begin at a multiple of kRowsAtOnce, so that every pass rounds alike
     using OnRows = std::function<void(Eigen::Index first, const Eigen::VectorXd& mean,
-                                      const Eigen::MatrixXd& scores)>;
+                                      const Eigen::MatrixXd& factors)>;
     void project(const Eigen::MatrixXf& block, const OnRows& on_rows) const;
 
   private:

@@ -27,12 +27,12 @@ EncodedRows encode_block(const RowSource& rows, uint64_t first, uint64_t count,
     encoded.mean.resize(count);
     encoded.components.resize(num_components);
     for (auto& component : encoded.components) component.resize(count);
-    left.project(block, [&](Index row, const Eigen::VectorXd& mean, const MatrixXd& scores) {
-        const Index size = scores.rows();
+    left.project(block, [&](Index row, const Eigen::VectorXd& mean, const MatrixXd& factors) {
+        const Index size = factors.rows();
         Eigen::Map<Eigen::VectorXf>(encoded.mean.data() + row, size) = mean.cast<float>();
-        for (Index k = 0; k < scores.cols(); ++k) {
+        for (Index k = 0; k < factors.cols(); ++k) {
             float* component = encoded.components[static_cast<size_t>(k)].data();
-            Eigen::Map<Eigen::VectorXf>(component + row, size) = scores.col(k).cast<float>();
+            Eigen::Map<Eigen::VectorXf>(component + row, size) = factors.col(k).cast<float>();
         }
     });
     return encoded;

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "compressor/encode/svd/jacobi_svd.h"
 #include "compressor/encode/data/row_source.h"
+#include "compressor/encode/svd/jacobi_svd.h"
 #include "compressor/encode/svd/tsqr.h"
 
 namespace paim {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "paim/format/container/container_reader.h"
 #include "paim/format/bake/pose_statistics.h"
+#include "paim/format/container/container_reader.h"
 #include "paim/mesh/pose_source.h"
 #include "paim/transfer/layout.h"
 

@@ -40,7 +40,7 @@ PoseStatistics read_statistics_of(const ContainerReader& reader, uint64_t identi
     constexpr double kMax = std::numeric_limits<double>::max();
     PoseStatistics statistics;
     statistics.rays = static_cast<uint64_t>(metadata.number("rays", 0.0, kMaxExact));
-    statistics.blocked = static_cast<uint64_t>(metadata.number("blocked", 0.0, kMaxExact));
+    statistics.occluded = static_cast<uint64_t>(metadata.number("blocked", 0.0, kMaxExact));
     statistics.zero_normals =
         metadata.integer("zero_normals", 0, std::numeric_limits<int32_t>::max());
     statistics.above_target =

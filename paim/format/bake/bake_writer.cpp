@@ -23,7 +23,7 @@ std::string pose_metadata(uint64_t bake, uint32_t p, const PoseStatistics& stati
     json["pose"] = p;
     json["bake"] = fmt::format("{:016x}", bake);
     json["rays"] = statistics.rays;
-    json["blocked"] = statistics.blocked;
+    json["blocked"] = statistics.occluded;
     json["zero_normals"] = statistics.zero_normals;
     json["above_target"] = statistics.above_target;
     if (statistics.back_hits > 0) json["back_hits"] = statistics.back_hits;

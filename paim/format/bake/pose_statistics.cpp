@@ -59,7 +59,7 @@ PoseStatistics combine(std::span<const PoseStatistics> poses) {
     if (poses.empty()) return total;
     for (const PoseStatistics& pose : poses) {
         total.rays += pose.rays;
-        total.blocked += pose.blocked;
+        total.occluded += pose.occluded;
         total.back_hits += pose.back_hits;
         total.zero_normals += pose.zero_normals;
         total.above_target += pose.above_target;

@@ -13,7 +13,7 @@ namespace paim {
 // Of one pose, or of several.
 struct PoseStatistics {
     uint64_t rays = 0;          // traced
-    uint64_t blocked = 0;       // of these
+    uint64_t occluded = 0;      // of these
     uint32_t zero_normals = 0;  // vertices without a normal: their transfer is 0
     uint32_t above_target = 0;  // vertices still above the transfer error asked for
     // [bands] over the vertices, channels and coefficients of a band.

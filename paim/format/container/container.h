@@ -49,10 +49,11 @@ std::string_view scalar_name(ScalarType type);
 
 // How the values of a section became the bytes that are stored.
 enum class SectionCodec : uint8_t {
-    none = 0,     // they are the same
-    zstd = 1,     // one Zstandard frame
-    indices = 2,  // triangles: meshoptimizer's index codec, then as zstd (format/pack/index_codec.h)
-    planes = 3,   // integers: predicted and packed, then as zstd (format/pack/plane_codec.h)
+    none = 0,  // they are the same
+    zstd = 1,  // one Zstandard frame
+    indices =
+        2,       // triangles: meshoptimizer's index codec, then as zstd (format/pack/index_codec.h)
+    planes = 3,  // integers: predicted and packed, then as zstd (format/pack/plane_codec.h)
 };
 
 // What a section holds: an array of up to three dimensions, the last one contiguous. Unused
@@ -84,9 +85,9 @@ constexpr uint64_t kMaxExpansion = 1024;
 
 // So many for a file of this size.
 constexpr uint64_t most_bytes_of_values(uint64_t file_size_bytes) {
-    constexpr uint64_t kMost = std::numeric_limits<uint64_t>::max() - kMaxFreeBytes;
+    constexpr uint64_t kMax = std::numeric_limits<uint64_t>::max() - kMaxFreeBytes;
     const uint64_t expanded =
-        file_size_bytes > kMost / kMaxExpansion ? kMost : kMaxExpansion * file_size_bytes;
+        file_size_bytes > kMax / kMaxExpansion ? kMax : kMaxExpansion * file_size_bytes;
     return kMaxFreeBytes + expanded;
 }
 

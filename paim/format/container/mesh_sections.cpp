@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "paim/base/error.h"
-#include "paim/format/pack/index_codec.h"
 #include "paim/format/container/sections.h"
+#include "paim/format/pack/index_codec.h"
 
 namespace paim {
 
@@ -90,10 +90,10 @@ uint32_t count_vertices(const ContainerReader& reader, Tag tag) {
         throw_bad_input("{}: section {} 0 is missing", reader.path(), tag.str());
     }
     const uint32_t count = section->spec.shape[2];
-    constexpr uint32_t kMost = std::numeric_limits<int32_t>::max();
-    if (count < 1 || count > kMost) {
+    constexpr uint32_t kMax = std::numeric_limits<int32_t>::max();
+    if (count < 1 || count > kMax) {
         throw_bad_input("{}: section {}: {} vertices, expected 1 to {}", reader.path(), tag.str(),
-                        count, kMost);
+                        count, kMax);
     }
     return count;
 }

@@ -18,7 +18,7 @@ constexpr Tag kMean[2] = {Tag("GMEA"), Tag("TMEA")};  // f32, i16 or i8 [planes]
 constexpr Tag kComponent[2] = {Tag("GCMP"),
                                Tag("TCMP")};             // f32, f16, i16 or i8 [planes][N], index k
 constexpr Tag kWeights[2] = {Tag("GWGT"), Tag("TWGT")};  // f32 or i16 [K][P]
-constexpr Tag kSpectrum[2] = {Tag("GSPC"), Tag("TSPC")};  // f64 or f32 [n]
+constexpr Tag kSingularValues[2] = {Tag("GSPC"), Tag("TSPC")};  // f64 or f32 [n]
 // Only where values, or weights, are integers.
 constexpr Tag kSteps[2] = {Tag("GSTP"), Tag("TSTP")};        // f32 [planes]
 constexpr Tag kWeightSteps[2] = {Tag("GWST"), Tag("TWST")};  // f32 [K]

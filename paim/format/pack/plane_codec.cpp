@@ -20,7 +20,7 @@ namespace {
 
 constexpr size_t kHeaderBytes = 6;
 // What a byte and a plane's exceptions may take, of each point.
-constexpr uint64_t kMostBytesPerValue = 4;
+constexpr uint64_t kMaxBytesPerValue = 4;
 
 using Counts = std::array<uint32_t, 256>;
 
@@ -249,7 +249,7 @@ bool decode_planes(std::span<const StoredPlanes<Integer>> sections, const PlaneP
         PAIM_CHECK_EQ(num_points * section.num_planes, section.out.size());
         PAIM_CHECK_EQ(num_points * sections[0].num_planes, sections[0].out.size());
         const uint64_t least = kHeaderBytes * uint64_t{section.num_planes};
-        const uint64_t most = least + kMostBytesPerValue * uint64_t{section.out.size()};
+        const uint64_t most = least + kMaxBytesPerValue * uint64_t{section.out.size()};
         const auto size = zstd_content_size(section.bytes);
         if (!size || *size > most || *size < least) return false;
         num_bytes += *size;
@@ -264,7 +264,7 @@ bool decode_planes(std::span<const StoredPlanes<Integer>> sections, const PlaneP
         }
         contents += some.size();
     }
-    return undo_planes(std::span(planes), predictor, num_points, workspace.rows);
+    return reconstruct_planes(std::span(planes), predictor, num_points, workspace.rows);
 }
 
 template bool decode_planes(std::span<const StoredPlanes<int8_t>>, const PlanePredictor&,

@@ -62,7 +62,7 @@ class PlanePredictor {
     void subtract(Prediction prediction, std::span<const Integer> values,
                   std::span<Integer> residuals) const;
 
-    // The reverse, in place. One plane after the other: undo_planes() does many at once.
+    // The reverse, in place. One plane after the other: reconstruct_planes() does many at once.
     template <typename Integer>
     void add(Prediction prediction, std::span<Integer> residuals) const;
 

@@ -349,8 +349,8 @@ class Undo {
 }  // namespace
 
 template <typename Integer>
-bool undo_planes(std::span<PlaneSource<Integer>> planes, const PlanePredictor& predictor,
-                 size_t num_points, Buffer& rows) {
+bool reconstruct_planes(std::span<PlaneSource<Integer>> planes, const PlanePredictor& predictor,
+                        size_t num_points, Buffer& rows) {
     // Whoever has digits beside others, and whoever is predicted in one way.
     std::stable_sort(planes.begin(), planes.end(), [](const auto& a, const auto& b) {
         const auto rank = [](const PlaneHeader& header) {
@@ -377,7 +377,9 @@ bool undo_planes(std::span<PlaneSource<Integer>> planes, const PlanePredictor& p
     return true;
 }
 
-template bool undo_planes(std::span<PlaneSource<int8_t>>, const PlanePredictor&, size_t, Buffer&);
-template bool undo_planes(std::span<PlaneSource<int16_t>>, const PlanePredictor&, size_t, Buffer&);
+template bool reconstruct_planes(std::span<PlaneSource<int8_t>>, const PlanePredictor&, size_t,
+                                 Buffer&);
+template bool reconstruct_planes(std::span<PlaneSource<int16_t>>, const PlanePredictor&, size_t,
+                                 Buffer&);
 
 }  // namespace paim

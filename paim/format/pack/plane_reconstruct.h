@@ -29,7 +29,7 @@ struct PlaneSource {
 // predictor  of N points, unless no plane is predicted
 // rows       to work in: up to 64 bytes a point
 template <typename Integer>
-bool undo_planes(std::span<PlaneSource<Integer>> planes, const PlanePredictor& predictor,
-                 size_t num_points, Buffer& rows);
+bool reconstruct_planes(std::span<PlaneSource<Integer>> planes, const PlanePredictor& predictor,
+                        size_t num_points, Buffer& rows);
 
 }  // namespace paim

@@ -25,7 +25,7 @@ constexpr int kSmallLevel = 19;
 // Lowest length of what is found to repeat in noise, in bytes.
 constexpr int kShortestInNoise = 7;
 // Repetitions must save more than one part of so many.
-constexpr size_t kLeastGain = 32;
+constexpr size_t kMinGain = 32;
 
 using CompressionContext = std::unique_ptr<ZSTD_CCtx, FreeContext>;
 
@@ -89,7 +89,7 @@ std::vector<uint8_t> zstd_compress_noise(std::span<const uint8_t> bytes,
                                          std::span<const size_t> block_ends, Effort effort) {
     std::vector<uint8_t> best = compress(bytes, block_ends, without_repetitions());
     if (effort == Effort::fast) return best;
-    size_t most = best.size() - best.size() / kLeastGain;
+    size_t most = best.size() - best.size() / kMinGain;
     for (const int shortest_match : {kShortestInNoise, 0}) {
         std::vector<uint8_t> other = compress(bytes, block_ends, with_repetitions(shortest_match));
         if (other.size() >= most) continue;

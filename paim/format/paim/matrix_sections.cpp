@@ -131,10 +131,10 @@ std::vector<float> read_steps(const ContainerReader& reader, Tag tag, uint32_t c
     expect_shape(reader, section, 1, count);
     std::vector<float> steps = reader.read_f32(section);
     for (const float step : steps) {
-        constexpr float kMost = std::numeric_limits<float>::max() / 32768.0f;
-        if (!(step >= 0.0f && step <= kMost)) {
+        constexpr float kMax = std::numeric_limits<float>::max() / 32768.0f;
+        if (!(step >= 0.0f && step <= kMax)) {
             throw_bad_input("{}: steps: expected numbers from 0 to {:.3g}, got {}",
-                            reader.label(section), kMost, step);
+                            reader.label(section), kMax, step);
         }
     }
     return steps;
@@ -160,14 +160,14 @@ void read_weights(const ContainerReader& reader, size_t i, WorkspacePool& pool,
     check_finite(reader, section::kWeights[i], matrix.weights);
 }
 
-void read_spectrum(const ContainerReader& reader, size_t i, LowRankMatrix& matrix) {
-    const Section& section = require(reader, section::kSpectrum[i]);
+void read_singular_values(const ContainerReader& reader, size_t i, LowRankMatrix& matrix) {
+    const Section& section = require(reader, section::kSingularValues[i]);
     if (section.spec.type == ScalarType::f32) {
         const std::vector<float> rounded = reader.read_f32(section);
         matrix.singular_values.assign(rounded.begin(), rounded.end());
     } else {
         matrix.singular_values =
-            reader.read_f64(reader.require(section::kSpectrum[i], ScalarType::f64));
+            reader.read_f64(reader.require(section::kSingularValues[i], ScalarType::f64));
     }
     double previous = std::numeric_limits<double>::infinity();
     for (const double s : matrix.singular_values) {
@@ -215,12 +215,12 @@ PlanePredictor read_predictor(const ContainerReader& reader, const Topology& top
     return PlanePredictor(topology);
 }
 
-void read_matrix(const ContainerReader& reader, Part part, const PlanePredictor& predictor,
-                 uint32_t num_there, LowRankMatrix& matrix) {
-    const auto i = static_cast<size_t>(part);
+void read_matrix(const ContainerReader& reader, Attribute attribute,
+                 const PlanePredictor& predictor, uint32_t num_there, LowRankMatrix& matrix) {
+    const auto i = static_cast<size_t>(attribute);
     WorkspacePool pool;
     read_weights(reader, i, pool, matrix);
-    read_spectrum(reader, i, matrix);
+    read_singular_values(reader, i, matrix);
 
     // Every shape is checked before memory for all values is taken: together they are no larger
     // than what a file of this size may claim.

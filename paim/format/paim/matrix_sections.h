@@ -20,8 +20,8 @@ PlanePredictor read_predictor(const ContainerReader& reader, const Topology& top
 // predictor  of its points, where they are a mesh
 // num_there  components are read, and matrix.num_components becomes that if the file has more
 // Errors (bad input, unsupported) name the file and the section.
-void read_matrix(const ContainerReader& reader, Part part, const PlanePredictor& predictor,
-                 uint32_t num_there, LowRankMatrix& matrix);
+void read_matrix(const ContainerReader& reader, Attribute attribute,
+                 const PlanePredictor& predictor, uint32_t num_there, LowRankMatrix& matrix);
 
 // Fills clusters whose dimensions are set. The same errors; and an index or coefficient that no
 // cluster has.

@@ -11,7 +11,7 @@
 namespace paim {
 
 struct ComponentId {
-    Part part;
+    Attribute attribute;
     uint32_t k;
     bool operator==(const ComponentId&) const = default;
 };
@@ -34,7 +34,7 @@ class PaimWriter {
     PaimWriter(const std::filesystem::path& path, const Model& model);
 
     // The next rows of a mean, or of a component (unit RMS; rounded to the part's precision here).
-    void append_mean(Part part, std::span<const float> rows);
+    void append_mean(Attribute attribute, std::span<const float> rows);
     void append_component(ComponentId id, std::span<const float> rows);
 
     // The sections that a file of this model has, in order.

@@ -24,25 +24,25 @@ std::string paim_metadata(const Model& model) {
     json["transfer_kind"] = "diffuse";
     json["bands"] = model.layout.bands;
     json["channels"] = model.layout.channels;
-    if (model.vertex_order == VertexOrder::local) json["vertex_order"] = "local";
+    if (model.vertex_order == VertexOrder::cache) json["vertex_order"] = "local";
     if (!model.clusters.empty()) {
         json["clusters"] = model.clusters.num_clusters;
         json["cluster_components"] = model.clusters.num_components;
     }
     json["geometry_components"] = model.geometry.num_components;
     json["transfer_components"] = model.transfer.num_components;
-    for (const Part part : {Part::geometry, Part::transfer}) {
-        const std::vector<uint32_t>& indices = model.part(part).singular_indices;
-        if (!indices.empty()) json[kSingularIndices[static_cast<size_t>(part)]] = indices;
+    for (const Attribute attribute : {Attribute::geometry, Attribute::transfer}) {
+        const std::vector<uint32_t>& indices = model.attribute(attribute).singular_indices;
+        if (!indices.empty()) json[kSingularIndices[static_cast<size_t>(attribute)]] = indices;
     }
     json["provenance"] =
         nlohmann::ordered_json::parse(model.provenance_json.empty() ? "{}" : model.provenance_json);
     return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-std::vector<uint32_t> read_singular_indices(const Metadata& metadata, Part part,
+std::vector<uint32_t> read_singular_indices(const Metadata& metadata, Attribute attribute,
                                             uint32_t num_components, size_t num_singular_values) {
-    const char* const key = kSingularIndices[static_cast<size_t>(part)];
+    const char* const key = kSingularIndices[static_cast<size_t>(attribute)];
     std::vector<uint32_t> indices;
     if (!metadata.root().contains(key)) return indices;
     // None can be above the last value; of no values there are none.

@@ -14,7 +14,7 @@ std::string paim_metadata(const Model& model);
 // Which singular value each of num_components has (LowRankMatrix::singular_indices): none if the
 // metadata says nothing of them.
 // Error (bad input) unless they ascend below num_singular_values.
-std::vector<uint32_t> read_singular_indices(const Metadata& metadata, Part part,
+std::vector<uint32_t> read_singular_indices(const Metadata& metadata, Attribute attribute,
                                             uint32_t num_components, size_t num_singular_values);
 
 }  // namespace paim

@@ -9,18 +9,18 @@
 #include "paim/base/error.h"
 #include "paim/base/half.h"
 #include "paim/base/parallel.h"
-#include "paim/format/pack/index_codec.h"
 #include "paim/format/container/mesh_sections.h"
+#include "paim/format/container/sections.h"
+#include "paim/format/pack/index_codec.h"
+#include "paim/format/pack/plane_codec.h"
 #include "paim/format/paim/paim_file.h"
 #include "paim/format/paim/paim_metadata.h"
-#include "paim/format/container/sections.h"
-#include "paim/format/pack/plane_codec.h"
 
 namespace paim {
 
 namespace {
 
-constexpr Part kParts[] = {Part::geometry, Part::transfer};
+constexpr Attribute kAttributes[] = {Attribute::geometry, Attribute::transfer};
 
 // A section before it is compressed.
 struct Task {
@@ -83,18 +83,18 @@ StoredValues weight_integers(const LowRankMatrix& matrix) {
     return integers;
 }
 
-std::vector<uint8_t> packed_spectrum(const LowRankMatrix& matrix) {
+std::vector<uint8_t> packed_singular_values(const LowRankMatrix& matrix) {
     const std::vector<float> rounded(matrix.singular_values.begin(), matrix.singular_values.end());
     return zstd_compress(as_bytes(std::span(rounded)));
 }
 
 // All but means and components.
-void add_frame(std::vector<Task>& tasks, Part part, const LowRankMatrix& matrix,
+void add_frame(std::vector<Task>& tasks, Attribute attribute, const LowRankMatrix& matrix,
                const PlanePredictor& poses) {
-    const auto i = static_cast<size_t>(part);
+    const auto i = static_cast<size_t>(attribute);
     tasks.push_back(
-        {row_spec(section::kSpectrum[i], ScalarType::f32, matrix.singular_values.size()),
-         SectionCodec::zstd, [&matrix] { return packed_spectrum(matrix); }});
+        {row_spec(section::kSingularValues[i], ScalarType::f32, matrix.singular_values.size()),
+         SectionCodec::zstd, [&matrix] { return packed_singular_values(matrix); }});
     SectionSpec weights{
         section::kWeights[i], ScalarType::f32, 0, {1, matrix.num_components, matrix.num_poses}};
     if (matrix.weight_steps.empty() || matrix.num_components == 0) {
@@ -161,8 +161,8 @@ PackedFile::PackedFile(const Model& model, Effort effort) {
     const PlanePredictor vertices(model.topology);
     const PlanePredictor poses = PlanePredictor::chain(model.num_poses());
     const PlanePredictor rows;  // of bases, in no order
-    const auto predictor = [&](Part part) -> const PlanePredictor& {
-        return part == Part::transfer && !clusters.empty() ? rows : vertices;
+    const auto predictor = [&](Attribute attribute) -> const PlanePredictor& {
+        return attribute == Attribute::transfer && !clusters.empty() ? rows : vertices;
     };
     std::vector<Task> tasks;
     tasks.push_back(zstd_task(row_spec(section::kMetadata, ScalarType::u8, metadata.size()),
@@ -189,21 +189,22 @@ PackedFile::PackedFile(const Model& model, Effort effort) {
                                         effort));
         }
     }
-    for (const Part part : kParts) add_frame(tasks, part, model.part(part), poses);
-    const auto add_values = [&](Tag tag, uint32_t index, Part part, const StoredValues& values,
-                                Precision precision) {
-        const LowRankMatrix& matrix = model.part(part);
+    for (const Attribute attribute : kAttributes)
+        add_frame(tasks, attribute, model.attribute(attribute), poses);
+    const auto add_values = [&](Tag tag, uint32_t index, Attribute attribute,
+                                const StoredValues& values, Precision precision) {
+        const LowRankMatrix& matrix = model.attribute(attribute);
         tasks.push_back(values_task(tag, index, matrix.num_planes, matrix.num_points, values,
-                                    precision, predictor(part), effort));
+                                    precision, predictor(attribute), effort));
     };
-    for (const Part part : kParts) {
-        add_values(section::kMean[static_cast<size_t>(part)], 0, part, model.part(part).mean,
-                   Precision::f32);
+    for (const Attribute attribute : kAttributes) {
+        add_values(section::kMean[static_cast<size_t>(attribute)], 0, attribute,
+                   model.attribute(attribute).mean, Precision::f32);
     }
-    for (const auto& [part, k] : component_order(model)) {
-        const LowRankMatrix& matrix = model.part(part);
-        add_values(section::kComponent[static_cast<size_t>(part)], k, part, matrix.components[k],
-                   matrix.precision);
+    for (const auto& [attribute, k] : component_order(model)) {
+        const LowRankMatrix& matrix = model.attribute(attribute);
+        add_values(section::kComponent[static_cast<size_t>(attribute)], k, attribute,
+                   matrix.components[k], matrix.precision);
     }
 
     bytes_.resize(tasks.size());

@@ -7,12 +7,12 @@
 #include <limits>
 
 #include "paim/base/error.h"
-#include "paim/format/paim/matrix_sections.h"
 #include "paim/format/container/mesh_sections.h"
 #include "paim/format/container/metadata.h"
+#include "paim/format/container/sections.h"
+#include "paim/format/paim/matrix_sections.h"
 #include "paim/format/paim/paim_file.h"
 #include "paim/format/paim/paim_metadata.h"
-#include "paim/format/container/sections.h"
 #include "paim/format/paim/prefixes.h"
 #include "paim/format/paim/scenery_sections.h"
 
@@ -70,7 +70,7 @@ Model read_paim(const std::filesystem::path& path, const ReadOptions& options) {
             throw_unsupported("{}: vertices in '{}' order", reader.path(),
                               metadata.text("vertex_order"));
         }
-        model.vertex_order = VertexOrder::local;
+        model.vertex_order = VertexOrder::cache;
     }
     if (metadata.root().contains("clusters")) {
         model.clusters.num_clusters = metadata.integer("clusters", 1, kMaxClusters);
@@ -102,20 +102,20 @@ Model read_paim(const std::filesystem::path& path, const ReadOptions& options) {
     const PlanePredictor predictor = read_predictor(reader, model.topology);
     const uint32_t geometry_components = model.geometry.num_components;
     const uint32_t transfer_components = model.transfer.num_components;
-    read_matrix(reader, Part::geometry, predictor, prefix.geometry_components, model.geometry);
+    read_matrix(reader, Attribute::geometry, predictor, prefix.geometry_components, model.geometry);
     if (clustered) read_clusters(reader, predictor, num_vertices, model.clusters);
-    read_matrix(reader, Part::transfer, clustered ? PlanePredictor() : predictor,
+    read_matrix(reader, Attribute::transfer, clustered ? PlanePredictor() : predictor,
                 prefix.transfer_components, model.transfer);
-    const auto index = [&](Part part, uint32_t num_components, LowRankMatrix& matrix) {
-        matrix.singular_indices =
-            read_singular_indices(metadata, part, num_components, matrix.singular_values.size());
+    const auto index = [&](Attribute attribute, uint32_t num_components, LowRankMatrix& matrix) {
+        matrix.singular_indices = read_singular_indices(metadata, attribute, num_components,
+                                                        matrix.singular_values.size());
         // Those that are there.
         if (!matrix.singular_indices.empty()) {
             matrix.singular_indices.resize(matrix.num_components);
         }
     };
-    index(Part::geometry, geometry_components, model.geometry);
-    index(Part::transfer, transfer_components, model.transfer);
+    index(Attribute::geometry, geometry_components, model.geometry);
+    index(Attribute::transfer, transfer_components, model.transfer);
     model.complete = model.geometry.num_components == geometry_components &&
                      model.transfer.num_components == transfer_components;
     model.scenery = read_scenery(reader, model.layout);

@@ -5,17 +5,17 @@
 #include "paim/base/check.h"
 #include "paim/base/half.h"
 #include "paim/format/container/mesh_sections.h"
+#include "paim/format/container/sections.h"
 #include "paim/format/paim/paim_file.h"
 #include "paim/format/paim/paim_metadata.h"
 #include "paim/format/paim/paim_packer.h"
-#include "paim/format/container/sections.h"
 #include "paim/format/paim/scenery_sections.h"
 
 namespace paim {
 
 namespace {
 
-constexpr Part kParts[] = {Part::geometry, Part::transfer};
+constexpr Attribute kAttributes[] = {Attribute::geometry, Attribute::transfer};
 
 ScalarType scalar_type(Precision precision) {
     return precision == Precision::f16 ? ScalarType::f16 : ScalarType::f32;
@@ -29,15 +29,15 @@ std::vector<ComponentId> component_order(const Model& model) {
         double share;
     };
     std::vector<Ranked> ranked;
-    for (const Part part : kParts) {
-        const LowRankMatrix& matrix = model.part(part);
+    for (const Attribute attribute : kAttributes) {
+        const LowRankMatrix& matrix = model.attribute(attribute);
         const double largest = matrix.singular_values.empty() ? 0.0 : matrix.singular_values[0];
         double energy = 0.0;  // relative to the largest value, which may be too big to square
         for (const double s : matrix.singular_values) energy += (s / largest) * (s / largest);
         for (uint32_t k = 0; k < matrix.num_components; ++k) {
             const double ratio =
                 largest > 0.0 ? matrix.singular_values[matrix.singular_index(k)] / largest : 0.0;
-            ranked.push_back({{part, k}, largest > 0.0 ? ratio * ratio / energy : 0.0});
+            ranked.push_back({{attribute, k}, largest > 0.0 ? ratio * ratio / energy : 0.0});
         }
     }
     std::stable_sort(ranked.begin(), ranked.end(),
@@ -65,10 +65,10 @@ struct PaimWriter::Index {
         specs.push_back(albedo_spec(model.albedo));
         scenery = specs.size();
         for (const SectionSpec& spec : scenery_specs(model.scenery, model.layout)) add(spec);
-        for (const Part part : kParts) {
-            const auto i = static_cast<size_t>(part);
-            const LowRankMatrix& matrix = model.part(part);
-            spectrum[i] = add({section::kSpectrum[i],
+        for (const Attribute attribute : kAttributes) {
+            const auto i = static_cast<size_t>(attribute);
+            const LowRankMatrix& matrix = model.attribute(attribute);
+            spectrum[i] = add({section::kSingularValues[i],
                                ScalarType::f64,
                                0,
                                {1, 1, static_cast<uint32_t>(matrix.singular_values.size())}});
@@ -77,16 +77,16 @@ struct PaimWriter::Index {
                               0,
                               {1, matrix.num_components, matrix.num_poses}});
         }
-        for (const Part part : kParts) {
-            const auto i = static_cast<size_t>(part);
-            const LowRankMatrix& matrix = model.part(part);
+        for (const Attribute attribute : kAttributes) {
+            const auto i = static_cast<size_t>(attribute);
+            const LowRankMatrix& matrix = model.attribute(attribute);
             mean[i] = add(
                 {section::kMean[i], ScalarType::f32, 0, {1, matrix.num_planes, matrix.num_points}});
             component[i].resize(matrix.num_components);
         }
-        for (const auto& [part, k] : component_order(model)) {
-            const auto i = static_cast<size_t>(part);
-            const LowRankMatrix& matrix = model.part(part);
+        for (const auto& [attribute, k] : component_order(model)) {
+            const auto i = static_cast<size_t>(attribute);
+            const LowRankMatrix& matrix = model.attribute(attribute);
             component[i][k] = add({section::kComponent[i],
                                    scalar_type(matrix.precision),
                                    k,
@@ -120,20 +120,20 @@ PaimWriter::PaimWriter(const std::filesystem::path& path, const Model& model, In
     writer_.append(0, index.metadata.data(), index.metadata.size());
     append_mesh(writer_, 1, 2, model.topology, model.albedo);
     append_scenery(writer_, index.scenery, model.scenery);
-    for (const Part part : kParts) {
-        const auto i = static_cast<size_t>(part);
-        const LowRankMatrix& matrix = model.part(part);
+    for (const Attribute attribute : kAttributes) {
+        const auto i = static_cast<size_t>(attribute);
+        const LowRankMatrix& matrix = model.attribute(attribute);
         writer_.append(index.spectrum[i], std::span(matrix.singular_values));
         writer_.append(index.weights[i], std::span(matrix.weights));
     }
 }
 
-void PaimWriter::append_mean(Part part, std::span<const float> rows) {
-    writer_.append(mean_section_[static_cast<size_t>(part)], rows);
+void PaimWriter::append_mean(Attribute attribute, std::span<const float> rows) {
+    writer_.append(mean_section_[static_cast<size_t>(attribute)], rows);
 }
 
 void PaimWriter::append_component(ComponentId id, std::span<const float> rows) {
-    const auto i = static_cast<size_t>(id.part);
+    const auto i = static_cast<size_t>(id.attribute);
     const size_t section = component_section_[i][id.k];
     if (precision_[i] == Precision::f32) {
         writer_.append(section, rows);
@@ -150,13 +150,13 @@ void write_paim(const std::filesystem::path& path, const Model& model) {
         return;
     }
     PaimWriter writer(path, model);
-    for (const Part part : kParts) {
-        const LowRankMatrix& matrix = model.part(part);
+    for (const Attribute attribute : kAttributes) {
+        const LowRankMatrix& matrix = model.attribute(attribute);
         PAIM_CHECK_EQ(matrix.mean.size(), matrix.num_rows());
         PAIM_CHECK_EQ(matrix.components.size(), size_t{matrix.num_components});
-        writer.append_mean(part, matrix.mean.floats());
+        writer.append_mean(attribute, matrix.mean.floats());
         for (uint32_t k = 0; k < matrix.num_components; ++k) {
-            writer.append_component({part, k}, matrix.components[k].floats());
+            writer.append_component({attribute, k}, matrix.components[k].floats());
         }
     }
     writer.commit();

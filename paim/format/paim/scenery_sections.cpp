@@ -5,8 +5,8 @@
 #include <span>
 
 #include "paim/base/check.h"
-#include "paim/format/paim/matrix_sections.h"
 #include "paim/format/container/mesh_sections.h"
+#include "paim/format/paim/matrix_sections.h"
 
 namespace paim {
 

@@ -50,7 +50,7 @@ struct RandomScene {
         for (Vec3f& value : scene.albedo.values) value = Vec3f(number(), number(), number());
         scene.scenery_albedo.values = {Vec3f(0.9f, 0.5f, 0.1f)};
         scene.scenery_terms = &scenery_terms;
-        scene.make_row = [this](size_t v, size_t half, HitRow& row) {
+        scene.make_row = [this](size_t v, size_t half, TransportRow& row) {
             row.clear();
             for (uint32_t u = 0; u < kAll; ++u) {
                 const auto weight = static_cast<float>(rows[half](static_cast<int>(v), u));
@@ -121,7 +121,7 @@ TEST(HitRows, AreTheMeanOfWhatSingleRaysHit) {
     const auto sequence = poses::make_bowl_sequence(200);
     const Topology& topology = sequence->topology();
     const std::vector<Vec3f> positions = sequence->positions(0, 1);
-    const Scene scene(topology, positions);
+    const RayScene scene(topology, positions);
     const auto sampler = make_sampler(SamplerKind::cosine, 0, 64);
     const auto more = make_sampler(SamplerKind::cosine, 64, 64);
     for (const bool from_inside : {true, false}) {
@@ -131,7 +131,7 @@ TEST(HitRows, AreTheMeanOfWhatSingleRaysHit) {
         HitTracer tracer(scene, topology, positions);
         tracer.trace(origin, normal, *sampler, 3);
         tracer.trace(origin, normal, *more, 3);
-        HitRow row;
+        TransportRow row;
         tracer.end(row);
 
         std::vector<double> expected(positions.size(), 0.0);
@@ -140,7 +140,8 @@ TEST(HitRows, AreTheMeanOfWhatSingleRaysHit) {
             RaySet rays;
             batch->generate(normal, 3, rays);
             for (size_t j = 0; j < rays.num_rays; ++j) {
-                const auto hit = scene.first_hit(origin, Vec3f(rays.x[j], rays.y[j], rays.z[j]));
+                const auto hit =
+                    scene.intersect_first(origin, Vec3f(rays.x[j], rays.y[j], rays.z[j]));
                 if (!hit) continue;
                 ++num_hits;
                 if (!from_inside) continue;

@@ -71,7 +71,7 @@ TEST(RayOffset, ConvexMeshesDoNotShadowThemselves) {
         const uint32_t rays = 2 * (500'000 / num_vertices);
         for (const float scale : {1e-6f, 1e-3f, 1.0f, 1e3f, 1e6f}) {
             const PoseSet scaled = mapped(*sphere, scaling(Vec3f::Constant(scale)));
-            EXPECT_EQ(bake(scaled, rays).blocked, 0u) << num_vertices << ' ' << scale;
+            EXPECT_EQ(bake(scaled, rays).occluded, 0u) << num_vertices << ' ' << scale;
         }
     }
 }
@@ -88,13 +88,13 @@ TEST(RayOffset, SquashedAndStretchedSpheresDoNotShadowThemselves) {
             const PoseSet squashed = mapped(*sphere, turn * scaling(factors));
             const PoseStatistics statistics = bake(squashed, 512);
             // Turned, its corners are rounded by 2^-24 of the longest axis, which dents the thin
-            // directions of the mesh: a few grazing rays are blocked rightly. Far below the 0.1 %
+            // directions of the mesh: a few grazing rays are occluded rightly. Far below the 0.1 %
             // that are allowed.
-            EXPECT_LE(static_cast<double>(statistics.blocked),
+            EXPECT_LE(static_cast<double>(statistics.occluded),
                       1e-4 * static_cast<double>(statistics.rays))
                 << factors.transpose() << ", turn " << j;
         }
-        EXPECT_EQ(bake(mapped(*sphere, scaling(factors)), 512).blocked, 0u) << factors.transpose();
+        EXPECT_EQ(bake(mapped(*sphere, scaling(factors)), 512).occluded, 0u) << factors.transpose();
     }
 }
 
@@ -105,7 +105,7 @@ TEST(RayOffset, SpheresAsFarOutAsFloatsCarryThemDoNotShadowThemselves) {
         const auto sphere = make_sphere_sequence(num_vertices);
         for (const Vec3f& far : {Vec3f(30, 0, 0), Vec3f(-17, 17, 18)}) {
             const PoseSet moved = mapped(*sphere, Eigen::Affine3f(Eigen::Translation3f(far)));
-            EXPECT_EQ(bake(moved, 1024).blocked, 0u) << num_vertices;
+            EXPECT_EQ(bake(moved, 1024).occluded, 0u) << num_vertices;
         }
     }
 }
@@ -119,7 +119,7 @@ TEST(RayOffset, NoRayLeavesAClosedCavity) {
                 map = Eigen::AngleAxisf(1.0f, Vec3f(0.3f, -0.5f, 0.81f).normalized()) * map;
                 map = Eigen::Translation3f(Vec3f::Constant(distance * scale)) * map;
                 const PoseStatistics statistics = bake(mapped(*cavity, map), 256);
-                EXPECT_EQ(statistics.blocked, statistics.rays) << num_vertices << ' ' << scale;
+                EXPECT_EQ(statistics.occluded, statistics.rays) << num_vertices << ' ' << scale;
                 EXPECT_EQ(statistics.zero_normals, 0u);
             }
         }
@@ -128,12 +128,12 @@ TEST(RayOffset, NoRayLeavesAClosedCavity) {
 
 TEST(RayOffset, CreasesNeitherLeakNorShadow) {
     // The bottom of a groove between two walls, in any direction. A ray above both walls is open
-    // and one below either is blocked, but for rays so flat that they start above the wall's far
+    // and one below either is occluded, but for rays so flat that they start above the wall's far
     // end: from a height of 1e-4 edges, flatter than 1e-4.
     constexpr double kFlat = 1.1e-4;
     RandomStream random(2);
     const auto uniform = [&] { return 2.0 * random.uniform() - 1.0; };
-    uint64_t num_open = 0, num_blocked = 0;
+    uint64_t num_open = 0, num_occluded = 0;
     for (const double opening_deg : {170.0, 90.0, 30.0, 5.0, 1.0}) {
         const double half = 0.5 * opening_deg * kPi / 180.0;
         const Vec3d left(-std::sin(half), std::cos(half), 0.0),
@@ -162,7 +162,7 @@ TEST(RayOffset, CreasesNeitherLeakNorShadow) {
         const Pose pose = PoseSet(topology, {positions}).load_pose(0);
         const Vec3d bisector = turn * Vec3d(0, 1, 0);
         ASSERT_GT(pose.normals[2].cast<double>().dot(bisector), 0.999);
-        const Scene scene(topology, positions);
+        const RayScene scene(topology, positions);
         const Vec3f start = positions[2] + ray_offsets(topology, positions)[2] * pose.normals[2];
         for (int j = 0; j < 20000; ++j) {
             const Vec3d sphere = Vec3d(uniform(), uniform(), uniform());
@@ -172,14 +172,14 @@ TEST(RayOffset, CreasesNeitherLeakNorShadow) {
             const double above = std::min(here.dot(left_normal), here.dot(right_normal));
             if (std::abs(above) < kFlat) continue;
             const Vec3f direction = d.cast<float>();
-            float blocked = 0.0f;
-            scene.blocked(start, &direction.x(), &direction.y(), &direction.z(), 1, &blocked);
-            ASSERT_EQ(blocked, above > 0.0 ? 0.0f : 1.0f) << opening_deg << ' ' << above;
-            ++(above > 0.0 ? num_open : num_blocked);
+            float occluded = 0.0f;
+            scene.occluded(start, &direction.x(), &direction.y(), &direction.z(), 1, &occluded);
+            ASSERT_EQ(occluded, above > 0.0 ? 0.0f : 1.0f) << opening_deg << ' ' << above;
+            ++(above > 0.0 ? num_open : num_occluded);
         }
     }
     EXPECT_GT(num_open, 10000u);
-    EXPECT_GT(num_blocked, 10000u);
+    EXPECT_GT(num_occluded, 10000u);
 }
 
 }  // namespace

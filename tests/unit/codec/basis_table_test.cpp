@@ -52,12 +52,12 @@ std::vector<uint32_t> bits(std::span<const float> values) {
     return result;
 }
 
-std::vector<float> values(const RowTable& table) {
+std::vector<float> values(const BasisTable& table) {
     return {table.values.begin(), table.values.end()};
 }
 
-TEST(RowTable, IsScaledAndPaddedWithZeros) {
-    RowTable table;
+TEST(BasisTable, IsScaledAndPaddedWithZeros) {
+    BasisTable table;
     table.assign(std::vector<float>{1, 2, 3, 4, 5, 6}, std::vector<float>{10, 100});
     EXPECT_EQ(table.num_planes, 3u);
     EXPECT_EQ(table.padded_planes, 4u);
@@ -69,14 +69,14 @@ TEST(RowTable, IsScaledAndPaddedWithZeros) {
 }
 
 TEST(Combine, IsTheSumItStandsFor) {
-    RowTable table;
+    BasisTable table;
     // Two clusters of a mean and one component, two planes.
     table.assign(std::vector<float>{1, 2, 3, 4, 5, 6, 7, 8}, std::vector<float>{1, 1, 1, 1});
     const std::vector<uint32_t> cluster{1, 0, 1};
     const std::vector<StoredValues> coefficients{StoredValues(std::vector<int8_t>{2, -3, 4})};
     for (const VectorUnit unit : vector_units()) {
         std::vector<float> out(6);
-        combine({table, cluster, coefficients, 2}, 0, 3, out, unit);
+        weighted_sum({table, cluster, coefficients, 2}, 0, 3, out, unit);
         EXPECT_EQ(out, (std::vector<float>{3 + 2 * 4, 1 - 3 * 2, 3 + 4 * 4,  //
                                            7 + 2 * 8, 5 - 3 * 6, 7 + 4 * 8}));
     }
@@ -86,19 +86,19 @@ TEST(Combine, GivesTheSameBytesOnEveryVectorUnit) {
     for (const uint32_t num_planes : {1u, 3u, 4u, 5u, 16u, 17u, 25u, 33u, 75u}) {
         for (const uint32_t num_vertices : {1u, 3u, 64u, 203u}) {
             const Clustered c = random_clustered(num_vertices, num_planes, 18);
-            RowTable table;
+            BasisTable table;
             table.assign(c.rows, c.scales);
             for (const size_t used : {0u, 1u, 7u, 8u, 9u, 18u}) {
-                const RowCombination combination{table, c.cluster,
-                                                 std::span(c.coefficients).first(used), 19};
+                const BasisSum combination{table, c.cluster, std::span(c.coefficients).first(used),
+                                           19};
                 std::vector<float> expected(size_t{num_planes} * num_vertices), out(expected);
-                combine(combination, 0, num_vertices, expected, VectorUnit::plain);
+                weighted_sum(combination, 0, num_vertices, expected, VectorUnit::plain);
                 for (const VectorUnit unit : vector_units()) {
                     std::fill(out.begin(), out.end(), 9.0f);
                     // In two parts, as threads share them.
                     const size_t first_part = num_vertices / 3;
-                    combine(combination, first_part, num_vertices - first_part, out, unit);
-                    combine(combination, 0, first_part, out, unit);
+                    weighted_sum(combination, first_part, num_vertices - first_part, out, unit);
+                    weighted_sum(combination, 0, first_part, out, unit);
                     ASSERT_EQ(bits(out), bits(expected))
                         << num_planes << " planes, " << num_vertices << " vertices, " << used
                         << " components, unit " << static_cast<int>(unit);
@@ -113,24 +113,25 @@ TEST(Combine, ByVertexGivesTheSameBytes) {
     for (const uint32_t num_planes : {1u, 3u, 4u}) {
         for (const uint32_t num_vertices : {1u, 3u, 5u, 64u, 203u}) {
             const Clustered c = random_clustered(num_vertices, num_planes, 18);
-            RowTable table;
+            BasisTable table;
             table.assign(c.rows, c.scales);
             for (const size_t used : {0u, 1u, 7u, 8u, 9u, 18u}) {
-                const RowCombination combination{table, c.cluster,
-                                                 std::span(c.coefficients).first(used), 19};
+                const BasisSum combination{table, c.cluster, std::span(c.coefficients).first(used),
+                                           19};
                 std::vector<float> planes(size_t{num_planes} * num_vertices);
-                combine(combination, 0, num_vertices, planes, VectorUnit::plain);
+                weighted_sum(combination, 0, num_vertices, planes, VectorUnit::plain);
                 const size_t first = num_vertices / 3, count = num_vertices - first;
-                std::vector<float> expected(count * RowTable::kNarrow);
+                std::vector<float> expected(count * BasisTable::kNarrow);
                 for (size_t j = 0; j < count; ++j) {
                     for (size_t i = 0; i < num_planes; ++i) {
-                        expected[j * RowTable::kNarrow + i] = planes[i * num_vertices + first + j];
+                        expected[j * BasisTable::kNarrow + i] =
+                            planes[i * num_vertices + first + j];
                     }
                 }
                 for (const VectorUnit unit : vector_units()) {
                     std::vector<float> out(expected.size() + 1, 9.0f);
-                    combine_by_vertex(combination, first, count,
-                                      std::span(out).first(expected.size()), unit);
+                    weighted_sum_by_vertex(combination, first, count,
+                                           std::span(out).first(expected.size()), unit);
                     EXPECT_EQ(out.back(), 9.0f);
                     out.pop_back();
                     // Signs of zeros aside, which padding may have of either kind.
@@ -138,7 +139,7 @@ TEST(Combine, ByVertexGivesTheSameBytes) {
                         << num_planes << " planes, " << num_vertices << " vertices, " << used
                         << " components, unit " << static_cast<int>(unit);
                     for (size_t j = 0; j < out.size(); ++j) {
-                        if (j % RowTable::kNarrow >= num_planes) continue;
+                        if (j % BasisTable::kNarrow >= num_planes) continue;
                         EXPECT_EQ(std::bit_cast<uint32_t>(out[j]),
                                   std::bit_cast<uint32_t>(expected[j]));
                     }
@@ -148,8 +149,8 @@ TEST(Combine, ByVertexGivesTheSameBytes) {
     }
 }
 
-TEST(RowTable, TakesRowsOfThreePlanes) {
-    RowTable table;
+TEST(BasisTable, TakesRowsOfThreePlanes) {
+    BasisTable table;
     table.assign(std::vector<Vec3f>{Vec3f(1, 2, 3), Vec3f(4, 5, 6)});
     EXPECT_EQ(table.num_planes, 3u);
     EXPECT_EQ(table.padded_planes, 4u);
@@ -158,11 +159,11 @@ TEST(RowTable, TakesRowsOfThreePlanes) {
 
 TEST(Combine, WritesNothingElse) {
     const Clustered c = random_clustered(203, 5, 2);
-    RowTable table;
+    BasisTable table;
     table.assign(c.rows, c.scales);
     for (const VectorUnit unit : vector_units()) {
         std::vector<float> out(size_t{5} * 203, 1000.0f);
-        combine({table, c.cluster, c.coefficients, 3}, 10, 101, out, unit);
+        weighted_sum({table, c.cluster, c.coefficients, 3}, 10, 101, out, unit);
         for (size_t n = 0; n < out.size(); ++n) {
             EXPECT_EQ(out[n] == 1000.0f, n % 203 < 10 || n % 203 >= 111);
         }
@@ -173,20 +174,22 @@ using CombineDeath = ::testing::Test;
 
 TEST(CombineDeath, RefusesWhatDoesNotFit) {
     const Clustered c = random_clustered(10, 2, 2);
-    RowTable table;
+    BasisTable table;
     table.assign(c.rows, c.scales);
     std::vector<float> out(20);
-    EXPECT_DEATH(combine({table, c.cluster, c.coefficients, 2}, 0, 10, out), "check failed");
-    EXPECT_DEATH(combine({table, c.cluster, c.coefficients, 3}, 1, 10, out), "check failed");
-    EXPECT_DEATH(combine({table, c.cluster, c.coefficients, 3}, 0, 10, std::span(out).first(19)),
-                 "check failed");
+    EXPECT_DEATH(weighted_sum({table, c.cluster, c.coefficients, 2}, 0, 10, out), "check failed");
+    EXPECT_DEATH(weighted_sum({table, c.cluster, c.coefficients, 3}, 1, 10, out), "check failed");
+    EXPECT_DEATH(
+        weighted_sum({table, c.cluster, c.coefficients, 3}, 0, 10, std::span(out).first(19)),
+        "check failed");
     std::vector<float> by_vertex(40);
-    EXPECT_DEATH(combine_by_vertex({table, c.cluster, c.coefficients, 3}, 0, 9, by_vertex),
+    EXPECT_DEATH(weighted_sum_by_vertex({table, c.cluster, c.coefficients, 3}, 0, 9, by_vertex),
                  "check failed");
     const Clustered wide = random_clustered(10, 5, 2);
     table.assign(wide.rows, wide.scales);
-    EXPECT_DEATH(combine_by_vertex({table, wide.cluster, wide.coefficients, 3}, 0, 10, by_vertex),
-                 "check failed");
+    EXPECT_DEATH(
+        weighted_sum_by_vertex({table, wide.cluster, wide.coefficients, 3}, 0, 10, by_vertex),
+        "check failed");
 }
 
 }  // namespace

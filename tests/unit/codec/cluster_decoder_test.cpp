@@ -97,14 +97,16 @@ TEST(DecodePlane, IsThePlaneOfEveryDecodedPose) {
     for (const Model& model : {floats, quantise_example(floats), make_clustered_example(2, 3, 2),
                                make_clustered_example(2, 3, 2, true)}) {
         const std::unique_ptr<Decoder> decoder = make_decoder(model);
-        for (const Part part : {Part::geometry, Part::transfer}) {
-            for (uint32_t plane = 0; plane < (part == Part::geometry ? 3u : 12u); ++plane) {
-                const Eigen::MatrixXf all = decode_plane(model, part, plane);
+        for (const Attribute attribute : {Attribute::geometry, Attribute::transfer}) {
+            for (uint32_t plane = 0; plane < (attribute == Attribute::geometry ? 3u : 12u);
+                 ++plane) {
+                const Eigen::MatrixXf all = decode_plane(model, attribute, plane);
                 ASSERT_EQ(all.cols(), 5);
                 for (uint32_t p = 0; p < 5; ++p) {
                     DecodedPose pose;
                     decoder->decode(p, {}, pose);
-                    const auto& values = part == Part::geometry ? pose.positions : pose.transfer;
+                    const auto& values =
+                        attribute == Attribute::geometry ? pose.positions : pose.transfer;
                     for (uint32_t v = 0; v < 4; ++v) {
                         // Sums of a few terms in another order.
                         EXPECT_NEAR(all(v, p), values[plane * 4 + v],

@@ -50,7 +50,7 @@ double mean_edge(const Topology& topology) {
 
 TEST(Locality, IsTheSameMesh) {
     const Topology mesh = scattered_sheet(20);
-    const LocalOrder order = local_order(mesh);
+    const CacheOrder order = cache_order(mesh);
     ASSERT_EQ(order.topology.num_vertices, mesh.num_vertices);
     std::vector<uint32_t> all = order.old_vertex;
     std::sort(all.begin(), all.end());
@@ -63,14 +63,14 @@ TEST(Locality, IsTheSameMesh) {
     }
     // Turned, not mirrored.
     EXPECT_EQ(sorted(back), sorted(mesh.triangles));
-    EXPECT_EQ(local_order(mesh).old_vertex, order.old_vertex);
+    EXPECT_EQ(cache_order(mesh).old_vertex, order.old_vertex);
 }
 
 TEST(Locality, BringsNeighboursTogether) {
     const Topology mesh = scattered_sheet(40);
     // Rows of a sheet are 40 apart; the scattered numbers a third of all 1602.
     EXPECT_GT(mean_edge(mesh), 150.0);
-    EXPECT_LT(mean_edge(local_order(mesh).topology), 60.0);
+    EXPECT_LT(mean_edge(cache_order(mesh).topology), 60.0);
 }
 
 TEST(Locality, PutsVerticesWithoutTrianglesLast) {
@@ -84,13 +84,13 @@ TEST(Locality, PutsVerticesWithoutTrianglesLast) {
         if (!used[v]) alone.push_back(v);
     }
     ASSERT_EQ(alone.size(), 2u);
-    const LocalOrder order = local_order(mesh);
+    const CacheOrder order = cache_order(mesh);
     EXPECT_EQ(std::vector(order.old_vertex.end() - 2, order.old_vertex.end()), alone);
 }
 
 TEST(Locality, OfNoTrianglesIsNoChange) {
     for (const uint32_t count : {0u, 1u, 5u}) {
-        const LocalOrder order = local_order({count, {}});
+        const CacheOrder order = cache_order({count, {}});
         ASSERT_EQ(order.old_vertex.size(), count);
         for (uint32_t v = 0; v < count; ++v) EXPECT_EQ(order.old_vertex[v], v);
         EXPECT_TRUE(order.topology.triangles.empty());
@@ -100,7 +100,7 @@ TEST(Locality, OfNoTrianglesIsNoChange) {
 // Triangles that name a vertex twice are kept: the model has as many as the bake.
 TEST(Locality, KeepsDegenerateTriangles) {
     const Topology mesh{4, {{1, 1, 2}, {3, 3, 3}, {0, 1, 2}}};
-    const LocalOrder order = local_order(mesh);
+    const CacheOrder order = cache_order(mesh);
     std::vector<Triangle> back = order.topology.triangles;
     for (Triangle& t : back) {
         for (uint32_t& v : t) v = order.old_vertex[v];

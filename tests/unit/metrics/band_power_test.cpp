@@ -15,23 +15,23 @@
 namespace paim {
 namespace {
 
-TEST(LightSpectrum, FlatEndsWithTheBake) {
-    const LightSpectrum flat = parse_light_spectrum("flat", 5);
+TEST(BandPower, FlatEndsWithTheBake) {
+    const BandPower flat = parse_band_power("flat", 5);
     EXPECT_EQ(flat.name, "flat");
     for (uint32_t l = 0; l < 5; ++l) EXPECT_EQ(flat.weight(l), 1.0) << l;
     EXPECT_EQ(flat.weight(5), 0.0);
     EXPECT_EQ(flat.weight(1'000'000), 0.0);
 }
 
-TEST(LightSpectrum, NaturalFallsWithTheSquare) {
-    const LightSpectrum natural = parse_light_spectrum("natural", 5);
+TEST(BandPower, NaturalFallsWithTheSquare) {
+    const BandPower natural = parse_band_power("natural", 5);
     EXPECT_EQ(natural.name, "natural");
     for (const uint32_t l : {0u, 1u, 4u, 5u, 99u}) {
         EXPECT_NEAR(natural.weight(l) * (l + 1.0) * (l + 1.0), 1.0, 1e-15) << l;
     }
 }
 
-class MapSpectrum : public testing::Test {
+class MapBandPower : public testing::Test {
   protected:
     // Writes c + a · direction, channel by channel.
     std::string write_map(const Vec3f& constant, const Vec3f& slope) const {
@@ -49,7 +49,7 @@ class MapSpectrum : public testing::Test {
 
     void expect_failure(const std::string& text, ExitCode code, const std::string& part) const {
         try {
-            parse_light_spectrum(text, 5);
+            parse_band_power(text, 5);
             FAIL() << text;
         } catch (const Error& error) {
             EXPECT_EQ(error.code(), code) << error.what();
@@ -61,9 +61,8 @@ class MapSpectrum : public testing::Test {
 };
 
 // c in band 0 has the coefficient c √(4π); a y in band 1 has a √(4π/3), one of three.
-TEST_F(MapSpectrum, IsItsMeanSquareCoefficientPerBand) {
-    const LightSpectrum spectrum =
-        parse_light_spectrum(write_map(Vec3f(1, 2, 2), Vec3f(0.9f, 0, 1.2f)), 5);
+TEST_F(MapBandPower, IsItsMeanSquareCoefficientPerBand) {
+    const BandPower spectrum = parse_band_power(write_map(Vec3f(1, 2, 2), Vec3f(0.9f, 0, 1.2f)), 5);
     EXPECT_EQ(spectrum.name, "map.exr");
     EXPECT_EQ(spectrum.weight(0), 1.0);
     // Pixels of π/128 are taken as constant: (π/128)² of a value at most.
@@ -72,7 +71,7 @@ TEST_F(MapSpectrum, IsItsMeanSquareCoefficientPerBand) {
     EXPECT_EQ(spectrum.weight(64), 0.0);
 }
 
-TEST_F(MapSpectrum, RefusesWhatIsNoLight) {
+TEST_F(MapBandPower, RefusesWhatIsNoLight) {
     expect_failure("naturl", ExitCode::usage,
                    "expected flat, natural or an OpenEXR file, got 'naturl'");
     expect_failure("", ExitCode::usage, "got ''");

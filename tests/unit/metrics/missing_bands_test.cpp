@@ -34,9 +34,9 @@ TEST(MissingBands, FindTheAmplitudeOfJumps) {
 }
 
 TEST(MissingBands, AreSummedUnderTheLight) {
-    EXPECT_EQ(missing_band_energy(jumping(5, 2.0), LightSpectrum::flat(5)), 0.0);
+    EXPECT_EQ(missing_band_energy(jumping(5, 2.0), BandPower::flat(5)), 0.0);
     // A light of two more bands.
-    const LightSpectrum light{"x", {1, 1, 1, 1, 1, 3, 2}, 0.0};
+    const BandPower light{"x", {1, 1, 1, 1, 1, 3, 2}, 0.0};
     const double expected = 2.0 * (3.0 / (5.5 * 5.5) + 2.0 / (6.5 * 6.5));
     EXPECT_NEAR(missing_band_energy(jumping(5, 2.0), light), expected, 1e-14);
 }
@@ -46,7 +46,7 @@ TEST(MissingBands, AreSummedUnderTheLight) {
 TEST(MissingBands, AreBoundedByIntegralsUnderNaturalLight) {
     for (const size_t bands : {5u, 7u, 64u}) {
         const auto b = static_cast<double>(bands);
-        const double energy = missing_band_energy(jumping(bands, 1.0), LightSpectrum::natural());
+        const double energy = missing_band_energy(jumping(bands, 1.0), BandPower::natural());
         EXPECT_GT(energy, (1.0 - 1e-5) / (3.0 * (b + 1.0) * (b + 1.0) * (b + 1.0))) << bands;
         EXPECT_LT(energy, 1.0 / (3.0 * (b - 1.0) * (b - 1.0) * (b - 1.0))) << bands;
     }

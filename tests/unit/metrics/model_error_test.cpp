@@ -57,7 +57,7 @@ class ModelErrorTest : public testing::Test {
 
     // What differs, by the player's decoder: Σ w (t̂ − y)² / Σ w y², and the same of positions.
     static void expect_as_pose_by_pose(const Model& model, const BakeReader& bake,
-                                       const LightSpectrum& spectrum) {
+                                       const BandPower& spectrum) {
         const TransferLayout& layout = bake.identity().layout;
         const auto decoder = make_decoder(model);
         DecodedPose decoded;
@@ -101,7 +101,7 @@ class ModelErrorTest : public testing::Test {
 
     void expect_failure(const Model& model, const BakeReader& bake, const std::string& part) {
         try {
-            measure_model(model, bake, LightSpectrum::natural());
+            measure_model(model, bake, BandPower::natural());
             FAIL() << part;
         } catch (const Error& error) {
             EXPECT_EQ(error.code(), ExitCode::bad_input);
@@ -114,7 +114,7 @@ class ModelErrorTest : public testing::Test {
 };
 
 TEST_F(ModelErrorTest, IsThatOfThePlayersDecoder) {
-    const LightSpectrum natural = LightSpectrum::natural();
+    const BandPower natural = BandPower::natural();
     for (const uint32_t channels : {1u, 3u}) {
         const Model plain = make_example_model(2, channels);
         const BakeReader bake = write_bake(plain, plain.layout, plain.num_poses());
@@ -129,8 +129,8 @@ TEST_F(ModelErrorTest, IsThatOfThePlayersDecoder) {
 TEST_F(ModelErrorTest, CountsBandsAndChannelsThatTheModelLacks) {
     const Model model = make_example_model(2, 1);
     const BakeReader bake = write_bake(model, {TransferKind::diffuse, 3, 3}, model.num_poses());
-    expect_as_pose_by_pose(model, bake, LightSpectrum::flat(3));
-    expect_as_pose_by_pose(make_example_model(1, 3), bake, LightSpectrum::flat(3));
+    expect_as_pose_by_pose(model, bake, BandPower::flat(3));
+    expect_as_pose_by_pose(make_example_model(1, 3), bake, BandPower::flat(3));
 }
 
 TEST_F(ModelErrorTest, RefusesAnotherAnimation) {
@@ -169,7 +169,7 @@ TEST_F(ModelErrorTest, MeasuresTheScenery) {
             const double d = static_cast<double>(positions[j]) - baked.positions[j];
             distances += d * d;
         }
-        const ModelError error = measure_model(model, bake, LightSpectrum::flat(3));
+        const ModelError error = measure_model(model, bake, BandPower::flat(3));
         ASSERT_TRUE(error.scenery.has_value());
         EXPECT_NEAR(error.scenery->transfer.deviation, std::sqrt(deviation / energy), 1e-12);
         EXPECT_NEAR(error.scenery->geometry.rms(), std::sqrt(distances / 4.0), 1e-12);
@@ -180,16 +180,16 @@ TEST_F(ModelErrorTest, MeasuresTheScenery) {
 }
 
 // Vertices in the order that files of integers have are those of the bake.
-TEST_F(ModelErrorTest, FindsTheSceneryInLocalOrder) {
+TEST_F(ModelErrorTest, FindsTheSceneryInCacheOrder) {
     Model model = make_example_model(2, 1);
     model.scenery = make_example_scenery(model.layout);
     // Vertex 3 belongs to no triangle and would come last.
     model.scenery.topology.triangles = {{3, 1, 2}};
     const BakeReader bake = write_bake(model, model.layout, 5);
-    const LocalOrder still = local_order(model.scenery.topology);
+    const CacheOrder still = cache_order(model.scenery.topology);
     ASSERT_NE(still.old_vertex, (std::vector<uint32_t>{0, 1, 2, 3}));
-    model.vertex_order = VertexOrder::local;
-    model.topology = local_order(model.topology).topology;
+    model.vertex_order = VertexOrder::cache;
+    model.topology = cache_order(model.topology).topology;
     model.scenery.topology = still.topology;
     std::vector<float> positions(12), transfer(16);
     for (size_t v = 0; v < 4; ++v) {
@@ -203,7 +203,7 @@ TEST_F(ModelErrorTest, FindsTheSceneryInLocalOrder) {
     }
     model.scenery.positions = positions;
     model.scenery.transfer = transfer;
-    const ModelError error = measure_model(model, bake, LightSpectrum::natural());
+    const ModelError error = measure_model(model, bake, BandPower::natural());
     EXPECT_EQ(error.scenery->geometry.worst(), 0.0);
     EXPECT_EQ(error.scenery->transfer.deviation, 0.0);
     EXPECT_NEAR(error.scenery->transfer.error, error.scenery->transfer.bake_noise, 1e-12);
@@ -231,9 +231,9 @@ TEST_F(ModelErrorTest, IsStatedAndReadBack) {
                        0);
     Model model = make_example_model();
     model.provenance_json =
-        R"({"measured":)" + error_statement_json(error, LightSpectrum::natural()) + "}";
+        R"({"measured":)" + error_statement_json(error, BandPower::natural()) + "}";
     const ErrorStatement statement = read_error_statement(model, "x.paim");
-    EXPECT_EQ(statement.light_spectrum, "natural");
+    EXPECT_EQ(statement.band_power, "natural");
     // One of two vertices is off by the diagonal, 5.
     const std::vector<std::pair<std::string, double>> expected{
         {"transfer_error", 0.3},

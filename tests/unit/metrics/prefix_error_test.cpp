@@ -12,21 +12,22 @@
 namespace paim {
 namespace {
 
-double decoded_energy(const Model& model, const Model& other, Part part,
+double decoded_energy(const Model& model, const Model& other, Attribute attribute,
                       const std::vector<double>& plane_weight) {
     double energy = 0.0;
     for (uint32_t plane = 0; plane < plane_weight.size(); ++plane) {
-        const Eigen::MatrixXd difference = decode_plane(model, part, plane).cast<double>() -
-                                           decode_plane(other, part, plane).cast<double>();
+        const Eigen::MatrixXd difference = decode_plane(model, attribute, plane).cast<double>() -
+                                           decode_plane(other, attribute, plane).cast<double>();
         energy += plane_weight[plane] * difference.squaredNorm();
     }
     return energy;
 }
 
-Model without_values(Model model, Part part) {
-    LowRankMatrix& matrix = part == Part::geometry ? model.geometry : model.transfer;
-    model = part == Part::geometry ? first_components(model, 0, model.transfer.num_components)
-                                   : first_components(model, model.geometry.num_components, 0);
+Model without_values(Model model, Attribute attribute) {
+    LowRankMatrix& matrix = attribute == Attribute::geometry ? model.geometry : model.transfer;
+    model = attribute == Attribute::geometry
+                ? first_components(model, 0, model.transfer.num_components)
+                : first_components(model, model.geometry.num_components, 0);
     matrix.mean = std::vector<float>(matrix.num_rows());
     return model;
 }
@@ -36,20 +37,20 @@ TEST(PrefixError, IsWhatDecodingLacks) {
     for (const Model& model :
          {make_example_model(3, 1), quantise_example(make_example_model(2, 3)),
           make_clustered_example(2, 3, 2, true), make_clustered_example(3, 1, 1)}) {
-        for (const Part part : {Part::geometry, Part::transfer}) {
-            const LowRankMatrix& matrix = model.part(part);
+        for (const Attribute attribute : {Attribute::geometry, Attribute::transfer}) {
+            const LowRankMatrix& matrix = model.attribute(attribute);
             std::vector<double> plane_weight;
             for (uint32_t j = 0; j < matrix.num_planes; ++j) plane_weight.push_back(1.0 / (1 + j));
-            const ComponentEnergy energy = component_energy(model, part, plane_weight);
+            const ComponentEnergy energy = component_energy(model, attribute, plane_weight);
             const double decoded =
-                decoded_energy(model, without_values(model, part), part, plane_weight);
+                decoded_energy(model, without_values(model, attribute), attribute, plane_weight);
             // Decoding adds up in floats: a few roundings of 6e-8, times two as these are squares.
             EXPECT_NEAR(energy.decoded, decoded, 1e-6 * decoded);
             ASSERT_EQ(energy.dropped.size(), size_t{matrix.num_components} + 1);
             EXPECT_EQ(energy.dropped.back(), 0.0);
             for (uint32_t k = 0; k < matrix.num_components; ++k) {
                 const Model coarser = first_components(model, k, k);
-                const double lacking = decoded_energy(model, coarser, part, plane_weight);
+                const double lacking = decoded_energy(model, coarser, attribute, plane_weight);
                 EXPECT_GT(lacking, 0.0);
                 EXPECT_NEAR(energy.dropped[k], lacking, 1e-6 * decoded) << k;
             }
@@ -74,7 +75,7 @@ TEST(PrefixError, WithoutAStatementIsWhatTheMissingComponentsCost) {
     const PrefixErrors errors = prefix_errors(hand_made(), {});
     EXPECT_FALSE(errors.transfer_stated);
     EXPECT_FALSE(errors.position_stated);
-    EXPECT_EQ(errors.light_spectrum, "flat");
+    EXPECT_EQ(errors.band_power, "flat");
     // A transfer of 7 and 1 in turns, of which 3 and −3 are missing: √(9 / 25). Every position is off
     // by (2, 2, 2).
     ASSERT_EQ(errors.transfer.size(), 2u);
@@ -92,7 +93,7 @@ TEST(PrefixError, AddsWhatTheFileStatesInSquares) {
     PrefixErrors errors = prefix_errors(hand_made(), statement);
     EXPECT_TRUE(errors.transfer_stated);
     EXPECT_TRUE(errors.position_stated);
-    EXPECT_EQ(errors.light_spectrum, "natural");
+    EXPECT_EQ(errors.band_power, "natural");
     // The bake's transfer has an energy of 25 a pose decoded and (0.8 / 0.6)² times that not.
     EXPECT_DOUBLE_EQ(errors.transfer[0], std::sqrt(0.09 + 0.36 * 0.36));
     EXPECT_DOUBLE_EQ(errors.transfer[1], 0.3);
@@ -100,11 +101,11 @@ TEST(PrefixError, AddsWhatTheFileStatesInSquares) {
     EXPECT_DOUBLE_EQ(errors.position_rms[1], 2.0);
 
     // Under a map that is not at hand.
-    statement.light_spectrum = "sky.exr";
+    statement.band_power = "sky.exr";
     errors = prefix_errors(hand_made(), statement);
     EXPECT_FALSE(errors.transfer_stated);
     EXPECT_TRUE(errors.position_stated);
-    EXPECT_EQ(errors.light_spectrum, "flat");
+    EXPECT_EQ(errors.band_power, "flat");
     EXPECT_DOUBLE_EQ(errors.transfer[0], 0.6);
     EXPECT_DOUBLE_EQ(errors.position_rms[1], 2.0);
 }

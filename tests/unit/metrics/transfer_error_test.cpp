@@ -37,13 +37,12 @@ Animation random_animation(const TransferLayout& layout, Index num_vertices, Ind
             (baked + 0.2 * gaussian(rows, num_poses, 3)).cast<float>()};
 }
 
-TransferErrorMeter new_meter(const Animation& a, const LightSpectrum& spectrum,
-                             const MatrixXd& kept) {
+TransferErrorMeter new_meter(const Animation& a, const BandPower& spectrum, const MatrixXd& kept) {
     return {a.layout, static_cast<uint32_t>(a.num_vertices), static_cast<uint32_t>(a.num_poses()),
             spectrum, kept};
 }
 
-TransferError measure(const Animation& a, const LightSpectrum& spectrum, const MatrixXd& kept) {
+TransferError measure(const Animation& a, const BandPower& spectrum, const MatrixXd& kept) {
     TransferErrorMeter meter = new_meter(a, spectrum, kept);
     for (uint32_t j = 0; j < a.layout.num_planes(); ++j) {
         const auto plane = static_cast<Index>(j);
@@ -69,7 +68,7 @@ double squared(const MatrixXf& matrix) {
 
 TEST(TransferError, OfFlatLightIsTheRelativeFrobeniusError) {
     const Animation a = random_animation({TransferKind::diffuse, 3, 3}, 300, 7);
-    const TransferError error = measure(a, LightSpectrum::flat(3), every_pose(7));
+    const TransferError error = measure(a, BandPower::flat(3), every_pose(7));
     const double baked = squared(a.baked);
     const double deviation = (a.decoded.cast<double>() - a.baked.cast<double>()).squaredNorm();
     // Sums of 57,000 squares in double, in another order.
@@ -85,8 +84,8 @@ TEST(TransferError, WeighsBandsByTheLight) {
     a.baked << 3, 1, 2, 0, 0, 2, 2, 0;    // ‖y‖² = 10 and 12
     a.decoded << 2, 1, 2, 0, 2, 2, 2, 0;  // off by 1² and 2²
     a.noise << 1, 0, 0, 2, 0, 0, 0, 0;    // 1 and 4
-    const TransferError flat = measure(a, LightSpectrum::flat(2), mean_only(2));
-    const TransferError natural = measure(a, LightSpectrum::natural(), mean_only(2));
+    const TransferError flat = measure(a, BandPower::flat(2), mean_only(2));
+    const TransferError natural = measure(a, BandPower::natural(), mean_only(2));
     // Roundings of a few numbers.
     EXPECT_NEAR(flat.deviation, std::sqrt(5.0 / 22.0), 1e-15);
     EXPECT_NEAR(natural.deviation, std::sqrt(2.0 / 13.0), 1e-15);
@@ -102,7 +101,7 @@ TEST(TransferError, IsTheErrorOfRadianceUnderRandomLights) {
     const Animation a = random_animation(layout, 40, 3);
     const MatrixXd y = a.baked.cast<double>();
     const MatrixXd difference = a.decoded.cast<double>() - y;
-    for (const LightSpectrum& spectrum : {LightSpectrum::flat(3), LightSpectrum::natural()}) {
+    for (const BandPower& spectrum : {BandPower::flat(3), BandPower::natural()}) {
         constexpr int kLights = 4000;
         double sums[2] = {}, squares[2] = {};
         for (int n = 0; n < kLights; ++n) {
@@ -143,7 +142,7 @@ TEST(TransferError, IsTheErrorOfRadianceUnderRandomLights) {
 TEST(TransferError, KeepingEverythingLeavesTheBakesNoise) {
     Animation a = random_animation({TransferKind::diffuse, 2, 1}, 500, 9);
     a.decoded = a.baked;
-    const TransferError error = measure(a, LightSpectrum::natural(), every_pose(9));
+    const TransferError error = measure(a, BandPower::natural(), every_pose(9));
     EXPECT_EQ(error.deviation, 0.0);
     // The kept space is everything to roundings.
     EXPECT_NEAR(error.error / error.bake_noise, 1.0, 1e-12);
@@ -154,7 +153,7 @@ TEST(TransferError, KeepingEverythingLeavesTheBakesNoise) {
 TEST(TransferError, DecodingNothingLosesTheSignalAndTheNoise) {
     Animation a = random_animation({TransferKind::diffuse, 2, 1}, 500, 9);
     a.decoded.setZero();
-    const TransferError error = measure(a, LightSpectrum::flat(2), every_pose(9));
+    const TransferError error = measure(a, BandPower::flat(2), every_pose(9));
     EXPECT_EQ(error.deviation, 1.0);
     // √(‖y‖² − ‖d‖²) / ‖y‖, to roundings of sums.
     EXPECT_NEAR(error.error, std::sqrt(1.0 - squared(a.noise) / squared(a.baked)), 1e-13);
@@ -165,7 +164,7 @@ TEST(TransferError, CountsBandsThatAreNotKept) {
     Animation a = random_animation({TransferKind::diffuse, 2, 1}, 300, 5);
     a.decoded = a.baked;
     a.decoded.bottomRows(3 * a.num_vertices).setZero();
-    const TransferError error = measure(a, LightSpectrum::flat(2), every_pose(5));
+    const TransferError error = measure(a, BandPower::flat(2), every_pose(5));
     EXPECT_EQ(error.bands[0].deviation, 0.0);
     EXPECT_EQ(error.bands[1].deviation, error.bands[1].baked);
     EXPECT_EQ(error.bands[1].passed, 0.0);
@@ -202,7 +201,7 @@ class KnownTruth : public testing::Test {
 
     void expect_true_error(const MatrixXd& decoded, const char* what) {
         animation_.decoded = decoded.cast<float>();
-        const TransferError error = measure(animation_, LightSpectrum::flat(2), kept_);
+        const TransferError error = measure(animation_, BandPower::flat(2), kept_);
         const double true_energy = (decoded - truth_).squaredNorm();
         // By chance: |d|² and |n|² are sums of squares of normal numbers of variance σ², and
         // ⟨t̂ − t, n⟩ one of products with a fixed part of at most ‖t‖; the former counted twice in
@@ -246,7 +245,7 @@ TEST(TransferError, FindsTheWorstVertexAndPose) {
     a.decoded(1, 0) += 2;
     a.decoded(2, 1) += 1;
     a.decoded(2, 0) -= 1;
-    const TransferError error = measure(a, LightSpectrum::flat(1), every_pose(2));
+    const TransferError error = measure(a, BandPower::flat(1), every_pose(2));
     EXPECT_EQ(error.worst_vertex, 1u);
     EXPECT_NEAR(error.worst_vertex_deviation, std::sqrt(4.0 / 6.0), 1e-15);
     EXPECT_EQ(error.worst_pose, 0u);
@@ -256,7 +255,7 @@ TEST(TransferError, FindsTheWorstVertexAndPose) {
 TEST(TransferError, OfNumbersThatAreNoneIsNone) {
     Animation a = random_animation({TransferKind::diffuse, 1, 1}, 4, 3);
     a.decoded(2, 1) = std::numeric_limits<float>::quiet_NaN();
-    const TransferError error = measure(a, LightSpectrum::flat(1), every_pose(3));
+    const TransferError error = measure(a, BandPower::flat(1), every_pose(3));
     EXPECT_TRUE(std::isnan(error.deviation));
     EXPECT_TRUE(std::isnan(error.error));
     EXPECT_TRUE(std::isnan(error.worst_vertex_deviation));
@@ -268,9 +267,9 @@ TEST(TransferError, OfNothingIsNothingOrInfinite) {
     Animation a = random_animation({TransferKind::diffuse, 2, 1}, 4, 3);
     a.baked.setZero();
     a.noise.setZero();
-    EXPECT_TRUE(std::isinf(measure(a, LightSpectrum::natural(), every_pose(3)).deviation));
+    EXPECT_TRUE(std::isinf(measure(a, BandPower::natural(), every_pose(3)).deviation));
     a.decoded.setZero();
-    const TransferError error = measure(a, LightSpectrum::natural(), every_pose(3));
+    const TransferError error = measure(a, BandPower::natural(), every_pose(3));
     EXPECT_EQ(error.deviation, 0.0);
     EXPECT_EQ(error.total(), 0.0);
 }
@@ -280,7 +279,7 @@ TEST(TransferError, DoesNotDependOnThreads) {
     const Animation a = random_animation({TransferKind::diffuse, 2, 1}, 2001, 6);
     const auto run = [&](int num_threads) {
         const ThreadLimit limit(num_threads);
-        return measure(a, LightSpectrum::natural(), mean_only(6));
+        return measure(a, BandPower::natural(), mean_only(6));
     };
     const TransferError one = run(1), many = run(4);
     EXPECT_EQ(one.deviation, many.deviation);
@@ -292,7 +291,7 @@ TEST(TransferError, DoesNotDependOnThreads) {
 
 TEST(TransferErrorDeathTest, RefusesWhatMakesNoSense) {
     const Animation a = random_animation({TransferKind::diffuse, 1, 1}, 4, 3);
-    const LightSpectrum flat = LightSpectrum::flat(1);
+    const BandPower flat = BandPower::flat(1);
     const auto twice = [&] {
         TransferErrorMeter meter = new_meter(a, flat, every_pose(3));
         for (int n = 0; n < 2; ++n) meter.add(0, a.baked, a.noise, a.decoded);

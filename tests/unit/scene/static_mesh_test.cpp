@@ -76,7 +76,7 @@ TEST(StaticMesh, BlocksAsIfItWerePartOfTheMesh) {
             ASSERT_EQ(part.transfer[i * num_lower + v], whole.transfer[i * num_all + v]) << v;
         }
     }
-    EXPECT_GT(part.statistics.blocked, 0u);
+    EXPECT_GT(part.statistics.occluded, 0u);
 }
 
 TEST(StaticMesh, IsBakedOnceAloneAndFoundAgain) {
@@ -97,8 +97,8 @@ TEST(StaticMesh, IsBakedOnceAloneAndFoundAgain) {
     ASSERT_TRUE(reader.scenery());
     // Nothing above the upper plate's front, which faces down: open to all below but the lower
     // plate, which it does not see.
-    EXPECT_EQ(reader.scenery()->pose.statistics.blocked, 0u);
-    EXPECT_GT(reader.read_pose(0).statistics.blocked, 0u);
+    EXPECT_EQ(reader.scenery()->pose.statistics.occluded, 0u);
+    EXPECT_GT(reader.read_pose(0).statistics.occluded, 0u);
     std::filesystem::remove(bake_scenery_file(bake));
     run();  // goes on: the poses are there, the scenery is made anew
     EXPECT_EQ(read_file(bake_scenery_file(bake), 1 << 20), bytes);

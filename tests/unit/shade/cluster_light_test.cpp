@@ -62,7 +62,7 @@ TEST(ClusterLight, IsTheProductOfEveryRowWithTheLight) {
             const Model model = make_clustered_example(3, channels, 2, integers);
             ClusterLight cluster_light(model);
             std::vector<Vec3f> products;
-            cluster_light.light_products(2.0, {}, light, products);
+            cluster_light.basis_radiance(2.0, {}, light, products);
             ASSERT_EQ(products.size(), 6u);
             for (uint32_t row = 0; row < 6; ++row) {
                 for (uint32_t channel = 0; channel < 3; ++channel) {
@@ -81,7 +81,7 @@ TEST(ClusterLight, KeepsWithinLimits) {
     std::vector<Vec3f> products;
     const LightCoefficients light = make_light(3);
     const DecodeLimits limits{.transfer_components = 1, .bands = 2, .cluster_components = 1};
-    cluster_light.light_products(3.0, limits, light, products);
+    cluster_light.basis_radiance(3.0, limits, light, products);
     for (uint32_t row = 0; row < 6; ++row) {
         const Sum expected = row_product(model, row, 1, 3, 2, 1, light);
         EXPECT_NEAR(products[row][1], row % 3 == 2 ? 0.0 : expected.value,
@@ -100,7 +100,7 @@ TEST(ClusterLight, ShadesAMeanAndItsComponent) {
     model.transfer.mean = std::vector<int8_t>{4, 6};
     model.clusters = {1, 1, {0, 0}, {std::vector<int8_t>{-4, 1}}, {1.0f, 1.0f}};
     std::vector<Vec3f> products, radiance;
-    ClusterLight(model).light_products(0.0, {}, {1, {Vec3f(5, 10, 20)}}, products);
+    ClusterLight(model).basis_radiance(0.0, {}, {1, {Vec3f(5, 10, 20)}}, products);
     EXPECT_EQ(products, (std::vector<Vec3f>{Vec3f(10, 20, 40), Vec3f(15, 30, 60)}));
     shade_clusters(model.clusters, products, 1, {{Vec3f(1, 1, 0.5f)}}, radiance);
     EXPECT_EQ(radiance, (std::vector<Vec3f>{Vec3f(-50, -100, -100), Vec3f(25, 50, 50)}));
@@ -170,7 +170,7 @@ TEST(ClusterLight, EqualsDecodingAndShading) {
                     const LightCoefficients light = make_light(light_bands);
                     decoder->decode(1.6, limits, pose);
                     shade(pose.layout, pose.transfer, model.albedo, light, expected);
-                    cluster_light.light_products(1.6, limits, light, products);
+                    cluster_light.basis_radiance(1.6, limits, light, products);
                     shade_clusters(model.clusters, products, limits.cluster_components,
                                    model.albedo, radiance);
                     ASSERT_EQ(radiance.size(), expected.size());
@@ -193,12 +193,12 @@ TEST(ClusterLight, GivesTheSameBytesInAnyOrderOfFrames) {
     const LightCoefficients light = make_light(2);
     ClusterLight reused(model);
     std::vector<Vec3f> products, radiance, again;
-    reused.light_products(3.5, {.cluster_components = 1}, make_light(1), products);
+    reused.basis_radiance(3.5, {.cluster_components = 1}, make_light(1), products);
     for (const double time : {4.0, 0.0, 2.25}) {
-        reused.light_products(time, {}, light, products);
+        reused.basis_radiance(time, {}, light, products);
         shade_clusters(model.clusters, products, 3, model.albedo, radiance);
         std::vector<Vec3f> fresh;
-        ClusterLight(model).light_products(time, {}, light, fresh);
+        ClusterLight(model).basis_radiance(time, {}, light, fresh);
         EXPECT_EQ(products, fresh);
         shade_clusters(model.clusters, fresh, 3, model.albedo, again);
         EXPECT_EQ(radiance, again);

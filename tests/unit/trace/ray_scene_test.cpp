@@ -14,39 +14,39 @@ namespace {
 const Topology kTriangle{3, {{0, 1, 2}}};
 const std::vector<Vec3f> kCorners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
 
-TEST(Scene, HitsBothSidesAtTheRightPlace) {
-    const Scene scene(kTriangle, kCorners);
+TEST(RayScene, HitsBothSidesAtTheRightPlace) {
+    const RayScene scene(kTriangle, kCorners);
     for (const float side : {1.0f, -1.0f}) {
-        const auto hit = scene.first_hit({0.25f, 0.5f, 2.0f * side}, {0, 0, -side});
+        const auto hit = scene.intersect_first({0.25f, 0.5f, 2.0f * side}, {0, 0, -side});
         ASSERT_TRUE(hit);
         EXPECT_NEAR(hit->distance, 2.0f, 1e-6f);
         EXPECT_EQ(hit->triangle, 0u);
         EXPECT_NEAR(hit->u, 0.25f, 1e-6f);
         EXPECT_NEAR(hit->v, 0.5f, 1e-6f);
     }
-    EXPECT_FALSE(scene.first_hit({0.75f, 0.75f, 1}, {0, 0, -1}));
-    EXPECT_FALSE(scene.first_hit({0.25f, 0.25f, 1}, {0, 0, 1}));
+    EXPECT_FALSE(scene.intersect_first({0.75f, 0.75f, 1}, {0, 0, -1}));
+    EXPECT_FALSE(scene.intersect_first({0.25f, 0.25f, 1}, {0, 0, 1}));
 }
 
-TEST(Scene, CountsBlockedDirections) {
-    const Scene scene(kTriangle, kCorners);
+TEST(RayScene, CountsBlockedDirections) {
+    const RayScene scene(kTriangle, kCorners);
     const float x[] = {0, 0, 1}, y[] = {0, 0, 0}, z[] = {-1, 1, 0};
-    float blocked[3];
-    EXPECT_EQ(scene.blocked({0.2f, 0.2f, 1}, x, y, z, 3, blocked), 1u);
-    EXPECT_EQ(blocked[0], 1.0f);
-    EXPECT_EQ(blocked[1], 0.0f);
-    EXPECT_EQ(blocked[2], 0.0f);
+    float occluded[3];
+    EXPECT_EQ(scene.occluded({0.2f, 0.2f, 1}, x, y, z, 3, occluded), 1u);
+    EXPECT_EQ(occluded[0], 1.0f);
+    EXPECT_EQ(occluded[1], 0.0f);
+    EXPECT_EQ(occluded[2], 0.0f);
 }
 
-TEST(Scene, PacketsAnswerAsSingleRays) {
+TEST(RayScene, PacketsAnswerAsSingleRays) {
     // Any count, so that packets that are not full are among them.
     const auto sequence = poses::make_bowl_sequence(600);
     const auto positions = sequence->positions(0, 1);
-    const Scene scene(sequence->topology(), positions);
+    const RayScene scene(sequence->topology(), positions);
     RandomStream random(4);
     uint32_t total = 0;
     for (uint32_t count = 0; count < 100; ++count) {
-        std::vector<float> x(count), y(count), z(count), blocked(count + 1, -1.0f);
+        std::vector<float> x(count), y(count), z(count), occluded(count + 1, -1.0f);
         const auto coordinate = [&] { return static_cast<float>(random.uniform() - 0.5); };
         for (size_t j = 0; j < count; ++j) {
             const Vec3f direction = Vec3f(coordinate(), coordinate(), coordinate()).normalized();
@@ -56,17 +56,17 @@ TEST(Scene, PacketsAnswerAsSingleRays) {
         }
         const Vec3f origin(coordinate(), coordinate(), coordinate());
         uint32_t expected = 0;
-        const uint32_t num_blocked =
-            scene.blocked(origin, x.data(), y.data(), z.data(), count, blocked.data());
+        const uint32_t num_occluded =
+            scene.occluded(origin, x.data(), y.data(), z.data(), count, occluded.data());
         for (size_t j = 0; j < count; ++j) {
-            const bool hit = scene.first_hit(origin, {x[j], y[j], z[j]}).has_value();
-            ASSERT_EQ(blocked[j], hit ? 1.0f : 0.0f) << count << ' ' << j;
+            const bool hit = scene.intersect_first(origin, {x[j], y[j], z[j]}).has_value();
+            ASSERT_EQ(occluded[j], hit ? 1.0f : 0.0f) << count << ' ' << j;
             expected += hit ? 1 : 0;
         }
         std::vector<Hit> hits(count + 1, Hit{-1.0f, 7, 0.0f, 0.0f});
-        scene.first_hits(origin, x.data(), y.data(), z.data(), count, hits.data());
+        scene.intersect(origin, x.data(), y.data(), z.data(), count, hits.data());
         for (size_t j = 0; j < count; ++j) {
-            const auto hit = scene.first_hit(origin, {x[j], y[j], z[j]});
+            const auto hit = scene.intersect_first(origin, {x[j], y[j], z[j]});
             ASSERT_EQ(hits[j].triangle, hit ? hit->triangle : kNoTriangle);
             if (!hit) continue;
             // Packets and single rays multiply in another order.
@@ -75,53 +75,54 @@ TEST(Scene, PacketsAnswerAsSingleRays) {
             EXPECT_NEAR(hits[j].v, hit->v, 1e-4f);
         }
         EXPECT_EQ(hits[count].distance, -1.0f);
-        EXPECT_EQ(num_blocked, expected);
-        EXPECT_EQ(blocked[count], -1.0f);
+        EXPECT_EQ(num_occluded, expected);
+        EXPECT_EQ(occluded[count], -1.0f);
         total += expected;
     }
     EXPECT_GT(total, 500u);   // of 4950: the bowl is in the way of some,
     EXPECT_LT(total, 4500u);  // not of all
 }
 
-TEST(Scene, HitsTheSameAtAnyScale) {
+TEST(RayScene, HitsTheSameAtAnyScale) {
     // Powers of two, so that the scaled mesh is exactly the same.
     for (const int exponent : {-120, -60, 0, 60, 120}) {
         const float scale = std::ldexp(1.0f, exponent);
         std::vector<Vec3f> corners = kCorners;
         for (Vec3f& x : corners) x *= scale;
-        const Scene scene(kTriangle, corners);
-        const auto hit = scene.first_hit(scale * Vec3f(0.25f, 0.5f, 2.0f), {0, 0, -1});
+        const RayScene scene(kTriangle, corners);
+        const auto hit = scene.intersect_first(scale * Vec3f(0.25f, 0.5f, 2.0f), {0, 0, -1});
         ASSERT_TRUE(hit) << exponent;
         EXPECT_NEAR(hit->distance / scale, 2.0f, 1e-6f);
         const float zero[] = {0}, down[] = {-1};
-        float blocked[1];
-        EXPECT_EQ(scene.blocked(scale * Vec3f(0.25f, 0.5f, 2.0f), zero, zero, down, 1, blocked),
+        float occluded[1];
+        EXPECT_EQ(scene.occluded(scale * Vec3f(0.25f, 0.5f, 2.0f), zero, zero, down, 1, occluded),
                   1u);
     }
 }
 
-TEST(Scene, CountsTheSecondMeshAfterTheFirst) {
+TEST(RayScene, CountsTheSecondMeshAfterTheFirst) {
     // The second one lies nearer to the ray's start and is smaller.
     std::vector<Vec3f> nearer = kCorners;
     for (Vec3f& x : nearer) x = 0.5f * x + Vec3f(0, 0, 1);
-    const Scene scene(kTriangle, kCorners, kTriangle, nearer);
-    const auto both = scene.first_hit({0.1f, 0.1f, 2}, {0, 0, -1});
+    const RayScene scene(kTriangle, kCorners, kTriangle, nearer);
+    const auto both = scene.intersect_first({0.1f, 0.1f, 2}, {0, 0, -1});
     ASSERT_TRUE(both);
     EXPECT_EQ(both->triangle, kTriangle.triangles.size());
     const float zeros[] = {0, 0}, down[] = {-1, 1};
     Hit hits[2];
-    scene.first_hits({0.1f, 0.1f, 2}, zeros, zeros, down, 2, hits);
+    scene.intersect({0.1f, 0.1f, 2}, zeros, zeros, down, 2, hits);
     EXPECT_EQ(hits[0].triangle, kTriangle.triangles.size());
     EXPECT_EQ(hits[1].triangle, kNoTriangle);
-    const auto first = scene.first_hit({0.1f, 0.1f, 0.5f}, {0, 0, -1});
+    const auto first = scene.intersect_first({0.1f, 0.1f, 0.5f}, {0, 0, -1});
     ASSERT_TRUE(first);
     EXPECT_EQ(first->triangle, 0u);
-    const auto alone = Scene({}, {}, kTriangle, nearer).first_hit({0.1f, 0.1f, 2}, {0, 0, -1});
+    const auto alone =
+        RayScene({}, {}, kTriangle, nearer).intersect_first({0.1f, 0.1f, 2}, {0, 0, -1});
     ASSERT_TRUE(alone);
     EXPECT_EQ(alone->triangle, 0u);
 }
 
-TEST(Scene, TrianglesWithoutAreaAreNeverHit) {
+TEST(RayScene, TrianglesWithoutAreaAreNeverHit) {
     // Needles from a corner that lies anywhere, their other corners twice and three times as far
     // off: these products are exact, and so all three are on a line. Rays aimed at points of it
     // would hit some of them, for rounding leaves their products with an area.
@@ -130,26 +131,26 @@ TEST(Scene, TrianglesWithoutAreaAreNeverHit) {
         const auto coordinate = [&] { return static_cast<float>(random.uniform() - 0.5); };
         const Vec3f x = Vec3f(coordinate(), coordinate(), coordinate());
         const std::vector<Vec3f> corners{x, 8.0f * x, 4.0f * x};
-        const Scene scene(kTriangle, corners);
+        const RayScene scene(kTriangle, corners);
         const Vec3f from(coordinate(), coordinate(), coordinate());
         const Vec3f at = (2.0f + 10.0f * std::abs(coordinate())) * x;
         const Vec3f d = (at - from).normalized();
-        float blocked = 0.0f;
-        EXPECT_EQ(scene.blocked(from, &d.x(), &d.y(), &d.z(), 1, &blocked), 0u) << j;
-        EXPECT_FALSE(scene.first_hit(from, d)) << j;
+        float occluded = 0.0f;
+        EXPECT_EQ(scene.occluded(from, &d.x(), &d.y(), &d.z(), 1, &occluded), 0u) << j;
+        EXPECT_FALSE(scene.intersect_first(from, d)) << j;
     }
 }
 
-TEST(Scene, HoldsNothingWithoutTriangles) {
+TEST(RayScene, HoldsNothingWithoutTriangles) {
     const Topology isolated{1, {}};
-    const Scene scene(isolated, std::vector<Vec3f>{{0, 0, 0}});
-    EXPECT_FALSE(scene.first_hit({0, 0, 1}, {0, 0, -1}));
+    const RayScene scene(isolated, std::vector<Vec3f>{{0, 0, 0}});
+    EXPECT_FALSE(scene.intersect_first({0, 0, 1}, {0, 0, -1}));
 }
 
-TEST(Scene, LetsNoRayOutOfAClosedMesh) {
+TEST(RayScene, LetsNoRayOutOfAClosedMesh) {
     const auto sequence = poses::make_sphere_sequence(600);
     const auto positions = sequence->positions(0, 1);
-    const Scene scene(sequence->topology(), positions);
+    const RayScene scene(sequence->topology(), positions);
     RandomStream random(3);
     for (int j = 0; j < 20000; ++j) {
         // Towards vertices and points of edges too, where cracks would be.
@@ -160,7 +161,7 @@ TEST(Scene, LetsNoRayOutOfAClosedMesh) {
         const Vec3f target =
             j % 2 == 0 ? positions[t[0]]
                        : Vec3f((1.0f - along) * positions[t[0]] + along * positions[t[1]]);
-        ASSERT_TRUE(scene.first_hit(Vec3f::Zero(), target.normalized())) << j;
+        ASSERT_TRUE(scene.intersect_first(Vec3f::Zero(), target.normalized())) << j;
     }
 }
 

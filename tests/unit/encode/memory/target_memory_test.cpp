@@ -37,11 +37,11 @@ TEST(TargetMemory, GrowsWithEveryDimension) {
     EXPECT_LT(target_memory_bytes(more), least);
 }
 
-TEST(TargetMemory, HoldsTheScores) {
+TEST(TargetMemory, HoldsTheFactors) {
     TargetSize size = kOctopus;
     // Mean and components of 25 and 3 planes, as floats.
-    const uint64_t scores = uint64_t{4} * 10000 * (25 * 21 + 3 * 13);
-    EXPECT_GT(target_held_bytes(size), scores);
+    const uint64_t factors = uint64_t{4} * 10000 * (25 * 21 + 3 * 13);
+    EXPECT_GT(target_held_bytes(size), factors);
     size.transfer_components += 10;
     EXPECT_GE(target_held_bytes(size) - target_held_bytes(kOctopus), uint64_t{4} * 10000 * 25 * 10);
 }

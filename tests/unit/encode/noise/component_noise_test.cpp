@@ -66,11 +66,11 @@ class KnownNoise : public testing::Test {
         const PrincipalComponents all = components();
         const MatrixXd v = all.v.leftCols(num_components);
         const Eigen::VectorXd mean = transfer_.cast<double>().rowwise().mean();
-        MatrixXd scores = (transfer_.cast<double>().colwise() - mean) * v;
+        MatrixXd factors = (transfer_.cast<double>().colwise() - mean) * v;
         if (shrinkage != nullptr) {
             std::vector<std::vector<float>> columns(num_components);
             for (uint32_t k = 0; k < num_components; ++k) {
-                const Eigen::VectorXf column = scores.col(k).cast<float>();
+                const Eigen::VectorXf column = factors.col(k).cast<float>();
                 columns[k].assign(column.begin(), column.end());
             }
             // In two blocks that part within a plane.
@@ -81,11 +81,11 @@ class KnownNoise : public testing::Test {
             shrinkage->apply(1000, tail);
             for (uint32_t k = 0; k < num_components; ++k) {
                 columns[k].insert(columns[k].end(), tail[k].begin(), tail[k].end());
-                scores.col(k) =
+                factors.col(k) =
                     Eigen::Map<const Eigen::VectorXf>(columns[k].data(), kRows).cast<double>();
             }
         }
-        return (scores * v.transpose()).colwise() + mean;
+        return (factors * v.transpose()).colwise() + mean;
     }
 
     const double noise_level_ = 0.3;

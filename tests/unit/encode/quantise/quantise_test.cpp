@@ -13,23 +13,23 @@ namespace {
 
 constexpr uint32_t kAll = 1000;  // more components than there are
 
-std::vector<double> alike(const Scores& scores) {
-    return std::vector<double>(scores.num_planes, 1.0);
+std::vector<double> alike(const ScaledFactors& factors) {
+    return std::vector<double>(factors.num_planes, 1.0);
 }
 
-double decoded(const Scores& scores, const Quantiser& quantiser) {
-    return decoded_error(model_of(quantise(scores, quantiser), scores.num_points), scores,
+double decoded(const ScaledFactors& factors, const Quantiser& quantiser) {
+    return decoded_error(model_of(quantise(factors, quantiser), factors.num_points), factors,
                          quantiser.plane_weight);
 }
 
 TEST(Quantise, ErrorIsThatOfWhatIsDecoded) {
-    const Scores scores = random_scores();
+    const ScaledFactors factors = random_factors();
     const std::vector<double> weights{1.0, 4.0, 0.25, 0.01};
     for (const double step : {0.3, 0.05, 0.004}) {
         for (const uint32_t kept : {0u, 2u, kAll}) {
             const Quantiser quantiser{step, kept, weights};
-            const double stated = quantised_error(scores, quantiser);
-            const double found = decoded(scores, quantiser);
+            const double stated = quantised_error(factors, quantiser);
+            const double found = decoded(factors, quantiser);
             // Weights are least squares, so that rounding them only adds: P weights of a component
             // cost what P of its 1600 values do, 0.75 % of P step²/12 each on average. Floats:
             // 2^-24 of values near 1 is nothing beside a step.
@@ -40,57 +40,57 @@ TEST(Quantise, ErrorIsThatOfWhatIsDecoded) {
 }
 
 TEST(Quantise, FineStepsCostATwelfthOfTheirSquare) {
-    const Scores scores = random_scores({5000, 4, 12, {1.0, 1.0, 1.0}});
+    const ScaledFactors factors = random_factors({5000, 4, 12, {1.0, 1.0, 1.0}});
     const double step = 1e-3;
     const double values = 4.0 * 20000.0;
-    const double error = quantised_error(scores, {step, kAll, alike(scores)});
+    const double error = quantised_error(factors, {step, kAll, alike(factors)});
     // The square of a uniform error has a relative deviation of √0.8: 0.3 % of 80000, five times
     // that. The dead zone moves one value of 10000 by at most 0.1 step.
     EXPECT_NEAR(error / (12.0 * values * step * step / 12.0), 1.0, 0.016);
 }
 
 TEST(Quantise, StepsOfPlanesWeighAlike) {
-    const Scores scores = random_scores();
+    const ScaledFactors factors = random_factors();
     const std::vector<double> weights{1.0, 4.0, 0.25, 0.01};
     const Quantiser quantiser{0.01, kAll, weights};
-    const LowRankMatrix matrix = quantise(scores, quantiser);
+    const LowRankMatrix matrix = quantise(factors, quantiser);
     const std::vector<float> expected{0.01f, 0.005f, 0.02f, 0.1f};
     ASSERT_EQ(matrix.steps.size(), 4u);
     for (uint32_t j = 0; j < 4; ++j) EXPECT_FLOAT_EQ(matrix.steps[j], expected[j]);
     // So that each plane has about as much of the error: 1600 squares, deviation 2.3 %.
-    const Model model = model_of(matrix, scores.num_points);
-    const double share = quantised_error(scores, quantiser) / 4.0;
+    const Model model = model_of(matrix, factors.num_points);
+    const double share = quantised_error(factors, quantiser) / 4.0;
     for (uint32_t j = 0; j < 4; ++j) {
         std::vector<double> one(4, 0.0);
         one[j] = weights[j];
-        EXPECT_NEAR(decoded_error(model, scores, one) / share, 1.0, 0.15) << j;
+        EXPECT_NEAR(decoded_error(model, factors, one) / share, 1.0, 0.15) << j;
     }
 }
 
 TEST(Quantise, ComponentsWeakerThanTheStepVanish) {
-    const Scores scores = random_scores({400, 4, 12, {1.0, 0.059, 0.02, 0.5}});
-    const Quantiser quantiser{0.1, kAll, alike(scores)};
-    const LowRankMatrix matrix = quantise(scores, quantiser);
+    const ScaledFactors factors = random_factors({400, 4, 12, {1.0, 0.059, 0.02, 0.5}});
+    const Quantiser quantiser{0.1, kAll, alike(factors)};
+    const LowRankMatrix matrix = quantise(factors, quantiser);
     EXPECT_EQ(matrix.num_components, 2u);
     ASSERT_EQ(matrix.components.size(), 2u);
     EXPECT_EQ(matrix.weight_steps.size(), 2u);
     EXPECT_EQ(matrix.weights.size(), 2u * 12);
-    EXPECT_NEAR(decoded(scores, quantiser) / quantised_error(scores, quantiser), 1.0, 0.02);
-    EXPECT_EQ(quantise(scores, {10.0, kAll, alike(scores)}).num_components, 0u);
+    EXPECT_NEAR(decoded(factors, quantiser) / quantised_error(factors, quantiser), 1.0, 0.02);
+    EXPECT_EQ(quantise(factors, {10.0, kAll, alike(factors)}).num_components, 0u);
 }
 
 // A weight that costs as much as a value of its component would be zero in all poses.
 TEST(Quantise, ComponentsWithoutWeightsAreDropped) {
-    Scores scores = random_scores({400, 1, 64, {1.0, 1.0}});
-    std::fill(scores.components[1].begin(), scores.components[1].end(), 0.0f);
-    scores.components[1][7] = 0.1f;
-    const LowRankMatrix matrix = quantise(scores, {0.1, kAll, alike(scores)});
+    ScaledFactors factors = random_factors({400, 1, 64, {1.0, 1.0}});
+    std::fill(factors.components[1].begin(), factors.components[1].end(), 0.0f);
+    factors.components[1][7] = 0.1f;
+    const LowRankMatrix matrix = quantise(factors, {0.1, kAll, alike(factors)});
     EXPECT_EQ(matrix.num_components, 1u);
 }
 
 TEST(Quantise, WeightsAreMultiplesOfStepsThatCostAsMuchAsAValue) {
-    const Scores scores = random_scores();
-    const LowRankMatrix matrix = quantise(scores, {0.02, kAll, alike(scores)});
+    const ScaledFactors factors = random_factors();
+    const LowRankMatrix matrix = quantise(factors, {0.02, kAll, alike(factors)});
     ASSERT_EQ(matrix.num_components, 3u);
     for (uint32_t k = 0; k < 3; ++k) {
         double squares = 0.0;
@@ -108,22 +108,22 @@ TEST(Quantise, WeightsAreMultiplesOfStepsThatCostAsMuchAsAValue) {
 // Columns of integers that are sums of two others: what is left of a pivot is rounding.
 TEST(Quantise, IntegersThatDependOnEachOtherHaveOrdinaryWeights) {
     for (uint32_t trial = 0; trial < 40; ++trial) {
-        Scores scores = random_scores({300 + trial, 1, 12, {1.0, 1.0, 1.0, 1.0, 1.0}});
+        ScaledFactors factors = random_factors({300 + trial, 1, 12, {1.0, 1.0, 1.0, 1.0, 1.0}});
         RandomStream random(trial);
         const auto integer = [&](double count) { return std::floor(count * random.uniform()); };
         std::vector<double> a(5), b(5);
         for (double& x : a) x = 1.0 + integer(20.0);
         for (double& x : b) x = integer(9.0);
-        for (size_t n = 0; n < scores.mean.size(); ++n) {
+        for (size_t n = 0; n < factors.mean.size(); ++n) {
             const double x = integer(7.0) - 3.0;
             const double y = integer(5.0) - 2.0;
             for (size_t k = 0; k < 5; ++k) {
-                scores.components[k][n] =
+                factors.components[k][n] =
                     static_cast<float>(a[k] * x + b[k] * y + 0.9 * (random.uniform() - 0.5));
             }
         }
         const Quantiser quantiser{1.0, kAll, {1.0}};
-        const LowRankMatrix matrix = quantise(scores, quantiser);
+        const LowRankMatrix matrix = quantise(factors, quantiser);
         ASSERT_EQ(matrix.num_components, 5u);
         for (const float weight : matrix.weights) {
             // The shares of five components, each at most √12 in a pose.
@@ -131,45 +131,45 @@ TEST(Quantise, IntegersThatDependOnEachOtherHaveOrdinaryWeights) {
         }
         // Rounding adds step²/12 · P for each of 5 · 12 weights, 60; five times that where they
         // round alike; and no more than a weight's whole step, 12 times that.
-        const double rounding = decoded(scores, quantiser) - quantised_error(scores, quantiser);
+        const double rounding = decoded(factors, quantiser) - quantised_error(factors, quantiser);
         EXPECT_LE(rounding, 12.0 * 300.0) << trial;
     }
 }
 
 TEST(Quantise, LargestStepIsTheLargest) {
-    const Scores scores = random_scores({2000, 4, 12, {1.0, 0.5, 0.25}});
-    const Quantiser any{1.0, kAll, alike(scores)};
-    const double all = quantised_error(scores, {100.0, kAll, alike(scores)});
+    const ScaledFactors factors = random_factors({2000, 4, 12, {1.0, 0.5, 0.25}});
+    const Quantiser any{1.0, kAll, alike(factors)};
+    const double all = quantised_error(factors, {100.0, kAll, alike(factors)});
     for (const double share : {1e-1, 1e-3, 1e-6}) {
         Quantiser found = any;
-        found.step = largest_step(scores, any, share * all);
-        EXPECT_LE(quantised_error(scores, found), share * all);
+        found.step = largest_step(factors, any, share * all);
+        EXPECT_LE(quantised_error(factors, found), share * all);
         // Errors of steps next to each other differ by 0.5 % as 32000 values happen to be rounded.
         found.step *= 1.03;
-        EXPECT_GT(quantised_error(scores, found), share * all);
+        EXPECT_GT(quantised_error(factors, found), share * all);
     }
 }
 
 TEST(Quantise, LargestStepKnowsItsLimits) {
-    Scores scores = random_scores();
-    const Quantiser any{1.0, kAll, alike(scores)};
-    EXPECT_EQ(largest_step(scores, any, 0.0), 0.0);
+    ScaledFactors factors = random_factors();
+    const Quantiser any{1.0, kAll, alike(factors)};
+    EXPECT_EQ(largest_step(factors, any, 0.0), 0.0);
     // Anything is good enough: the largest value is one step.
-    EXPECT_NEAR(largest_step(scores, any, 1e9), 1.0, 1e-3);
-    std::fill(scores.mean.begin(), scores.mean.end(), 0.0f);
-    for (auto& component : scores.components) std::fill(component.begin(), component.end(), 0.0f);
-    EXPECT_EQ(largest_step(scores, any, 0.0), 1.0);
-    const LowRankMatrix nothing = quantise(scores, any);
+    EXPECT_NEAR(largest_step(factors, any, 1e9), 1.0, 1e-3);
+    std::fill(factors.mean.begin(), factors.mean.end(), 0.0f);
+    for (auto& component : factors.components) std::fill(component.begin(), component.end(), 0.0f);
+    EXPECT_EQ(largest_step(factors, any, 0.0), 1.0);
+    const LowRankMatrix nothing = quantise(factors, any);
     EXPECT_EQ(nothing.num_components, 0u);
-    EXPECT_EQ(quantised_error(scores, any), 0.0);
+    EXPECT_EQ(quantised_error(factors, any), 0.0);
 }
 
 TEST(Quantise, SmallestStepFitsItsBits) {
-    const Scores scores = random_scores();
+    const ScaledFactors factors = random_factors();
     for (const Precision precision : {Precision::i8, Precision::i16}) {
         Quantiser quantiser{1.0, kAll, {1.0, 4.0, 0.25, 0.01}};
-        quantiser.step = smallest_step(scores, quantiser, precision);
-        const LowRankMatrix matrix = quantise(scores, quantiser);
+        quantiser.step = smallest_step(factors, quantiser, precision);
+        const LowRankMatrix matrix = quantise(factors, quantiser);
         float largest = 0.0f;
         for (size_t r = 0; r < matrix.num_rows(); ++r) {
             largest = std::max(largest, std::abs(matrix.mean[r]));
@@ -184,7 +184,7 @@ TEST(Quantise, SmallestStepFitsItsBits) {
         if (precision == Precision::i8) continue;
         quantiser.step *= 0.999;
         try {
-            quantise(scores, quantiser);
+            quantise(factors, quantiser);
             FAIL() << "fits";
         } catch (const Error& error) {
             EXPECT_EQ(error.code(), ExitCode::unsupported);
@@ -193,13 +193,13 @@ TEST(Quantise, SmallestStepFitsItsBits) {
 }
 
 TEST(Quantise, OnePoseIsAMean) {
-    Scores scores = random_scores({50, 2, 1, {}});
-    const Quantiser quantiser{0.01, kAll, alike(scores)};
-    const LowRankMatrix matrix = quantise(scores, quantiser);
+    ScaledFactors factors = random_factors({50, 2, 1, {}});
+    const Quantiser quantiser{0.01, kAll, alike(factors)};
+    const LowRankMatrix matrix = quantise(factors, quantiser);
     EXPECT_EQ(matrix.num_components, 0u);
     EXPECT_EQ(matrix.num_poses, 1u);
     // Floats of the decoded mean, 2^-24 of 1, beside errors of 0.003.
-    EXPECT_NEAR(decoded(scores, quantiser) / quantised_error(scores, quantiser), 1.0, 1e-4);
+    EXPECT_NEAR(decoded(factors, quantiser) / quantised_error(factors, quantiser), 1.0, 1e-4);
 }
 
 }  // namespace

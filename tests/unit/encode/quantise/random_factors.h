@@ -1,4 +1,4 @@
-// Scores with random components, and slow sums of what matrices decode to.
+// ScaledFactors with random components, and slow sums of what matrices decode to.
 #pragma once
 
 #include <Eigen/QR>
@@ -12,7 +12,7 @@
 
 namespace paim {
 
-struct ScoresShape {
+struct FactorsShape {
     uint32_t num_points = 400;
     uint32_t num_planes = 4;
     uint32_t num_poses = 12;
@@ -20,18 +20,18 @@ struct ScoresShape {
 };
 
 // Values are uniform in ± the size of their component; the mean has ± 1.
-inline Scores random_scores(const ScoresShape& shape = {}) {
+inline ScaledFactors random_factors(const FactorsShape& shape = {}) {
     RandomStream random(3);
     const auto number = [&](double size) {
         return static_cast<float>(size * (2.0 * random.uniform() - 1.0));
     };
-    Scores scores;
-    scores.num_points = shape.num_points;
-    scores.num_planes = shape.num_planes;
+    ScaledFactors factors;
+    factors.num_points = shape.num_points;
+    factors.num_planes = shape.num_planes;
     const size_t num_rows = size_t{shape.num_points} * shape.num_planes;
-    for (size_t r = 0; r < num_rows; ++r) scores.mean.push_back(number(1.0));
+    for (size_t r = 0; r < num_rows; ++r) factors.mean.push_back(number(1.0));
     for (const double size : shape.sizes) {
-        auto& component = scores.components.emplace_back();
+        auto& component = factors.components.emplace_back();
         for (size_t r = 0; r < num_rows; ++r) component.push_back(number(size));
     }
     // Orthogonal to the constant and to each other, of unit RMS.
@@ -42,31 +42,32 @@ inline Scores random_scores(const ScoresShape& shape = {}) {
     columns.col(0).setOnes();
     const Eigen::MatrixXd q = Eigen::HouseholderQR<Eigen::MatrixXd>(columns).householderQ() *
                               Eigen::MatrixXd::Identity(num_poses, 1 + count);
-    scores.weights = std::sqrt(shape.num_poses) * q.rightCols(count).transpose();
-    for (const double size : shape.sizes) scores.singular_values.push_back(size);
-    return scores;
+    factors.weights = std::sqrt(shape.num_poses) * q.rightCols(count).transpose();
+    for (const double size : shape.sizes) factors.singular_values.push_back(size);
+    return factors;
 }
 
 // One plane over all poses, [N][P].
-inline Eigen::MatrixXd exact_plane(const Scores& scores, uint32_t j) {
+inline Eigen::MatrixXd exact_plane(const ScaledFactors& factors, uint32_t j) {
     const auto column = [&](const std::vector<float>& values) {
-        return Eigen::Map<const Eigen::VectorXf>(scores.plane(values, j).data(), scores.num_points)
+        return Eigen::Map<const Eigen::VectorXf>(factors.plane(values, j).data(),
+                                                 factors.num_points)
             .cast<double>();
     };
-    Eigen::MatrixXd plane = column(scores.mean) * Eigen::RowVectorXd::Ones(scores.weights.cols());
-    for (uint32_t k = 0; k < scores.num_components(); ++k) {
-        plane += column(scores.components[k]) * scores.weights.row(k);
+    Eigen::MatrixXd plane = column(factors.mean) * Eigen::RowVectorXd::Ones(factors.weights.cols());
+    for (uint32_t k = 0; k < factors.num_components(); ++k) {
+        plane += column(factors.components[k]) * factors.weights.row(k);
     }
     return plane;
 }
 
-// Weighted squares of what the transfer of a model decodes to beside the scores.
-inline double decoded_error(const Model& model, const Scores& scores,
+// Weighted squares of what the transfer of a model decodes to beside the factors.
+inline double decoded_error(const Model& model, const ScaledFactors& factors,
                             const std::vector<double>& plane_weight) {
     double sum = 0.0;
-    for (uint32_t j = 0; j < scores.num_planes; ++j) {
-        const Eigen::MatrixXd decoded = decode_plane(model, Part::transfer, j).cast<double>();
-        sum += plane_weight[j] * (decoded - exact_plane(scores, j)).squaredNorm();
+    for (uint32_t j = 0; j < factors.num_planes; ++j) {
+        const Eigen::MatrixXd decoded = decode_plane(model, Attribute::transfer, j).cast<double>();
+        sum += plane_weight[j] * (decoded - exact_plane(factors, j)).squaredNorm();
     }
     return sum;
 }

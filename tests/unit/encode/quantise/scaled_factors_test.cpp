@@ -1,4 +1,4 @@
-// Scores of a known matrix in another order of vertices, thinned, and stored as floats.
+// ScaledFactors of a known matrix in another order of vertices, thinned, and stored as floats.
 #include "compressor/encode/quantise/scaled_factors.h"
 
 #include <gtest/gtest.h>
@@ -34,17 +34,17 @@ std::vector<uint32_t> shuffled() {
     return old_vertex;
 }
 
-TEST(Scores, AreTheMatrixInAnotherOrder) {
+TEST(ScaledFactors, AreTheMatrixInAnotherOrder) {
     const Eigen::MatrixXf matrix = random_rows();
     const MatrixRows rows(matrix);
     const PrincipalComponents pca = principal_components(rows);
     ASSERT_EQ(pca.rank(), kPoses - 1);
     const auto old_vertex = shuffled();
-    const Scores scores = read_scores(rows, pca, pca.rank(), nullptr, old_vertex, 1);
-    ASSERT_EQ(scores.num_points, kVertices);
-    ASSERT_EQ(scores.num_planes, kPlanes);
+    const ScaledFactors factors = read_factors(rows, pca, pca.rank(), nullptr, old_vertex, 1);
+    ASSERT_EQ(factors.num_points, kVertices);
+    ASSERT_EQ(factors.num_planes, kPlanes);
     for (uint32_t j = 0; j < kPlanes; ++j) {
-        const Eigen::MatrixXd plane = exact_plane(scores, j);
+        const Eigen::MatrixXd plane = exact_plane(factors, j);
         for (uint32_t v = 0; v < kVertices; ++v) {
             const Eigen::RowVectorXd expected =
                 matrix.row(Index{j * kVertices + old_vertex[v]}).cast<double>();
@@ -54,57 +54,57 @@ TEST(Scores, AreTheMatrixInAnotherOrder) {
     }
 }
 
-TEST(Scores, HaveOrthogonalWeightsOfUnitRms) {
+TEST(ScaledFactors, HaveOrthogonalWeightsOfUnitRms) {
     const Eigen::MatrixXf matrix = random_rows();
     const MatrixRows rows(matrix);
     const PrincipalComponents pca = principal_components(rows);
-    const Scores scores = read_scores(rows, pca, 5, nullptr, shuffled(), 4);
-    ASSERT_EQ(scores.num_components(), 5u);
-    ASSERT_EQ(scores.weights.rows(), 5);
-    const Eigen::MatrixXd gram = scores.weights * scores.weights.transpose() / kPoses;
+    const ScaledFactors factors = read_factors(rows, pca, 5, nullptr, shuffled(), 4);
+    ASSERT_EQ(factors.num_components(), 5u);
+    ASSERT_EQ(factors.weights.rows(), 5);
+    const Eigen::MatrixXd gram = factors.weights * factors.weights.transpose() / kPoses;
     EXPECT_LT((gram - Eigen::MatrixXd::Identity(5, 5)).cwiseAbs().maxCoeff(), 1e-12);
-    EXPECT_LT(scores.weights.rowwise().sum().cwiseAbs().maxCoeff(), 1e-12);
+    EXPECT_LT(factors.weights.rowwise().sum().cwiseAbs().maxCoeff(), 1e-12);
     // Components then carry the singular values: Σ c² P = s².
     for (uint32_t k = 0; k < 5; ++k) {
         double sum = 0.0;
-        for (const float c : scores.components[k]) sum += double{c} * double{c};
+        for (const float c : factors.components[k]) sum += double{c} * double{c};
         EXPECT_NEAR(sum * kPoses / std::pow(pca.singular_values[k], 2.0), 1.0, 1e-6);
     }
 }
 
-TEST(Scores, SampleKeepsEveryNthPoint) {
-    const Scores scores = random_scores({100, 4, 12, {1.0}});
-    const Scores few = sample(scores, 240);  // of 800 values: every third
+TEST(ScaledFactors, SampleKeepsEveryNthPoint) {
+    const ScaledFactors factors = random_factors({100, 4, 12, {1.0}});
+    const ScaledFactors few = sample(factors, 240);  // of 800 values: every third
     ASSERT_EQ(few.num_points, 34u);
     ASSERT_EQ(few.mean.size(), 4u * 34);
     for (uint32_t j = 0; j < 4; ++j) {
         for (uint32_t n = 0; n < 34; ++n) {
-            EXPECT_EQ(few.mean[j * 34 + n], scores.mean[j * 100 + 3 * n]);
-            EXPECT_EQ(few.components[0][j * 34 + n], scores.components[0][j * 100 + 3 * n]);
+            EXPECT_EQ(few.mean[j * 34 + n], factors.mean[j * 100 + 3 * n]);
+            EXPECT_EQ(few.components[0][j * 34 + n], factors.components[0][j * 100 + 3 * n]);
         }
     }
-    EXPECT_EQ(sample(scores, 1'000'000).mean, scores.mean);
-    EXPECT_EQ(sample(scores, 0).num_points, 1u);
+    EXPECT_EQ(sample(factors, 1'000'000).mean, factors.mean);
+    EXPECT_EQ(sample(factors, 0).num_points, 1u);
 }
 
-TEST(Scores, TailErrorsAreWhatDroppedComponentsLeave) {
-    const Scores scores = random_scores();
+TEST(ScaledFactors, TailErrorsAreWhatDroppedComponentsLeave) {
+    const ScaledFactors factors = random_factors();
     const std::vector<double> weight{1.0, 4.0, 0.25, 0.01};
-    const std::vector<double> tails = tail_errors(scores, weight);
+    const std::vector<double> tails = tail_errors(factors, weight);
     ASSERT_EQ(tails.size(), 4u);
     for (uint32_t k = 0; k <= 3; ++k) {
-        const Model model = model_of(float_part(scores, k, Precision::f32), scores.num_points);
+        const Model model = model_of(float_part(factors, k, Precision::f32), factors.num_points);
         // Floats: 2^-24 of values near 1, 19200 of them.
-        EXPECT_NEAR(decoded_error(model, scores, weight), tails[k], 1e-6 * tails[0] + 1e-9) << k;
+        EXPECT_NEAR(decoded_error(model, factors, weight), tails[k], 1e-6 * tails[0] + 1e-9) << k;
     }
 }
 
 TEST(FloatPart, HasComponentsOfUnitRms) {
-    Scores scores = random_scores();
-    std::fill(scores.components[2].begin(), scores.components[2].end(), 0.0f);
-    const LowRankMatrix matrix = float_part(scores, 1000, Precision::f32);
+    ScaledFactors factors = random_factors();
+    std::fill(factors.components[2].begin(), factors.components[2].end(), 0.0f);
+    const LowRankMatrix matrix = float_part(factors, 1000, Precision::f32);
     EXPECT_EQ(matrix.num_components, 3u);
-    EXPECT_EQ(matrix.mean.floats(), scores.mean);
+    EXPECT_EQ(matrix.mean.floats(), factors.mean);
     for (uint32_t k = 0; k < 2; ++k) {
         double sum = 0.0;
         for (const float c : matrix.components[k].floats()) sum += double{c} * double{c};
@@ -113,17 +113,17 @@ TEST(FloatPart, HasComponentsOfUnitRms) {
 }
 
 TEST(FloatPart, RoundsToHalves) {
-    const Scores scores = random_scores();
-    const LowRankMatrix matrix = float_part(scores, 3, Precision::f16);
+    const ScaledFactors factors = random_factors();
+    const LowRankMatrix matrix = float_part(factors, 3, Precision::f16);
     for (const StoredValues& component : matrix.components) {
         for (const float c : component.floats()) EXPECT_EQ(from_half(to_half(c)), c);
     }
     // Halves of values up to √3 are off by 2^-11 of themselves at most, as components are: no more
     // than that of the energy beside the mean, and at least a tenth (uniform rounding: about 0.2).
-    const Model model = model_of(matrix, scores.num_points);
+    const Model model = model_of(matrix, factors.num_points);
     const std::vector<double> alike(4, 1.0);
-    const double energy = tail_errors(scores, alike)[0];
-    const double relative = std::sqrt(decoded_error(model, scores, alike) / energy);
+    const double energy = tail_errors(factors, alike)[0];
+    const double relative = std::sqrt(decoded_error(model, factors, alike) / energy);
     EXPECT_LT(relative, std::exp2(-11));
     EXPECT_GT(relative, 0.1 * std::exp2(-11));
 }

@@ -42,8 +42,8 @@ void expect_first_bands(const Model& trimmed, const Model& whole, uint32_t bands
         for (uint32_t i = 0; i < bands * bands; ++i) {
             const uint32_t to = trimmed.layout.plane(channel, i);
             const uint32_t from = whole.layout.plane(channel, i);
-            EXPECT_EQ(decode_plane(trimmed, Part::transfer, to),
-                      decode_plane(whole, Part::transfer, from));
+            EXPECT_EQ(decode_plane(trimmed, Attribute::transfer, to),
+                      decode_plane(whole, Attribute::transfer, from));
             for (size_t v = 0; v < 4; ++v) {
                 EXPECT_EQ(trimmed.scenery.transfer.values[to * 4 + v],
                           whole.scenery.transfer.values[from * 4 + v]);
@@ -142,7 +142,8 @@ TEST(TrimBands, TakesThemFromBasesOfClusters) {
     trim_bands(model);
     ASSERT_EQ(model.layout.bands, 2u);
     for (uint32_t i = 0; i < 4; ++i) {
-        EXPECT_EQ(decode_plane(model, Part::transfer, i), decode_plane(whole, Part::transfer, i));
+        EXPECT_EQ(decode_plane(model, Attribute::transfer, i),
+                  decode_plane(whole, Attribute::transfer, i));
     }
 }
 

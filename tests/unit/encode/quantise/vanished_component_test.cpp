@@ -16,9 +16,9 @@ namespace {
 
 // The second and third of four components are below half a step.
 LowRankMatrix quantised() {
-    Scores scores = random_scores({400, 4, 12, {1.0, 0.05, 0.05, 0.5}});
-    scores.singular_values = {8.0, 4.0, 2.0, 1.0, 0.5};
-    return quantise(scores, {0.1, 1000, std::vector<double>(4, 1.0)});
+    ScaledFactors factors = random_factors({400, 4, 12, {1.0, 0.05, 0.05, 0.5}});
+    factors.singular_values = {8.0, 4.0, 2.0, 1.0, 0.5};
+    return quantise(factors, {0.1, 1000, std::vector<double>(4, 1.0)});
 }
 
 // A file whose transfer is that, of one band and grey.
@@ -47,13 +47,13 @@ TEST(VanishedComponent, OthersKeepTheirSingularValues) {
 }
 
 TEST(VanishedComponent, FirstOnesNeedNoIndices) {
-    Scores scores = random_scores({400, 4, 12, {1.0, 0.5, 0.05}});
-    const LowRankMatrix some = quantise(scores, {0.1, 1000, std::vector<double>(4, 1.0)});
+    ScaledFactors factors = random_factors({400, 4, 12, {1.0, 0.5, 0.05}});
+    const LowRankMatrix some = quantise(factors, {0.1, 1000, std::vector<double>(4, 1.0)});
     EXPECT_EQ(some.num_components, 2u);
     EXPECT_TRUE(some.singular_indices.empty());
     EXPECT_DOUBLE_EQ(theory_error(some), theory_error(some.singular_values, 2));
     EXPECT_DOUBLE_EQ(energy_error(some), energy_error(some.singular_values, 2));
-    const LowRankMatrix none = quantise(scores, {10.0, 1000, std::vector<double>(4, 1.0)});
+    const LowRankMatrix none = quantise(factors, {10.0, 1000, std::vector<double>(4, 1.0)});
     EXPECT_TRUE(none.singular_indices.empty());
     EXPECT_DOUBLE_EQ(theory_error(none), 1.0);
 }
@@ -65,11 +65,11 @@ TEST(VanishedComponent, OthersAreWhereTheirEnergyPutsThem) {
     model.geometry.singular_values = {3.0, 3.0};
     model.transfer.singular_values = {8.0, 7.9, 7.9, 1.0};
     const std::vector<ComponentId> expected{
-        {Part::geometry, 0}, {Part::transfer, 0}, {Part::transfer, 1}};
+        {Attribute::geometry, 0}, {Attribute::transfer, 0}, {Attribute::transfer, 1}};
     // Shares 0.5, 0.34 and 0.005. The second value would have 0.33.
     EXPECT_EQ(component_order(model), expected);
     model.geometry.singular_values = {1.0, 2.0, 2.0};  // 0.11
-    EXPECT_EQ(component_order(model)[1], (ComponentId{Part::geometry, 0}));
+    EXPECT_EQ(component_order(model)[1], (ComponentId{Attribute::geometry, 0}));
 }
 
 TEST(VanishedComponent, FilesSayWhichAreLeft) {
@@ -88,7 +88,7 @@ TEST(VanishedComponent, FilesSayWhichAreLeft) {
 TEST(VanishedComponent, IndicesThatMakeNoSenseAreRefused) {
     const auto read = [](const std::string& indices, size_t num_values) {
         const Metadata metadata("{\"transfer_singular_indices\":" + indices + "}", "x.paim");
-        return read_singular_indices(metadata, Part::transfer, 2, num_values);
+        return read_singular_indices(metadata, Attribute::transfer, 2, num_values);
     };
     EXPECT_EQ(read("[0,3]", 4), (std::vector<uint32_t>{0, 3}));
     for (const char* bad : {"[0,4]", "[3,0]", "[1,1]", "[-1,2]", "[0,1.5]", "[0]", "[0,1,2]",
@@ -103,7 +103,7 @@ TEST(VanishedComponent, IndicesThatMakeNoSenseAreRefused) {
     }
     EXPECT_THROW(read("[0,1]", 0), Error);
     const Metadata silent("{}", "x.paim");
-    EXPECT_TRUE(read_singular_indices(silent, Part::transfer, 2, 4).empty());
+    EXPECT_TRUE(read_singular_indices(silent, Attribute::transfer, 2, 4).empty());
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ class QuantiseScenery : public testing::Test {
     Model encode(const BakeReader& bake, double error) const {
         EncodeTarget target;
         target.transfer_error = error;
-        target.spectrum = LightSpectrum::flat(4);
+        target.spectrum = BandPower::flat(4);
         encode_to_target(bake, options_, target, output_);
         return read_paim(output_);
     }
@@ -42,7 +42,7 @@ TEST_F(QuantiseScenery, IsAsCoarseAsTheTargetAllows) {
         const Model model = encode(bake, error);
         EXPECT_FALSE(model.scenery.transfer.values.holds_floats());
         EXPECT_FALSE(model.scenery.positions.values.holds_floats());
-        const ModelError measured = measure_model(model, bake, LightSpectrum::flat(4));
+        const ModelError measured = measure_model(model, bake, BandPower::flat(4));
         // Steps end within 0.5 % of the largest that are good, and errors of rounding are those of
         // 6400 and 1200 values.
         EXPECT_LE(measured.scenery->transfer.total(), error);
@@ -60,7 +60,7 @@ TEST_F(QuantiseScenery, IsAsCoarseAsTheTargetAllows) {
 TEST_F(QuantiseScenery, IsWithinTheTargetWithNoiseOfItsOwn) {
     const BakeReader bake = this->bake(0.02);
     const Model model = encode(bake, 0.08);
-    const ModelError measured = measure_model(model, bake, LightSpectrum::flat(4));
+    const ModelError measured = measure_model(model, bake, BandPower::flat(4));
     EXPECT_GT(measured.scenery->transfer.bake_noise, 0.02);
     EXPECT_LE(measured.scenery->transfer.total(), 0.08);
     EXPECT_GT(measured.scenery->transfer.total(), 0.07);
@@ -84,7 +84,7 @@ TEST_F(QuantiseScenery, IsRefusedByNameWhereItsNoiseIsTooLarge) {
 TEST_F(QuantiseScenery, LeavesFloatsAsTheyAre) {
     options_.precision = Precision::f32;
     const BakeReader bake = this->bake(0.001);
-    const ModelError measured = measure_model(encode(bake, 0.02), bake, LightSpectrum::flat(4));
+    const ModelError measured = measure_model(encode(bake, 0.02), bake, BandPower::flat(4));
     EXPECT_EQ(measured.scenery->geometry.worst(), 0.0);
     EXPECT_EQ(measured.scenery->transfer.deviation, 0.0);
 }

@@ -6,8 +6,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "compressor/encode/search/problem.h"
 #include "compressor/encode/memory/memory_plan.h"
+#include "compressor/encode/search/problem.h"
 #include "paim/base/error.h"
 #include "paim/base/parallel.h"
 #include "paim/codec/component_planes.h"
@@ -38,7 +38,7 @@ class TargetEncode : public testing::Test {
         EncodeTarget target;
         target.transfer_error = error;
         target.codec = codec;
-        target.spectrum = LightSpectrum::flat(bake.identity().layout.bands);
+        target.spectrum = BandPower::flat(bake.identity().layout.bands);
         return target;
     }
 
@@ -74,10 +74,10 @@ TEST_F(TargetEncode, FilesAreWithinTheErrorsThatTheyState) {
             EXPECT_EQ(summary.size_bytes, std::filesystem::file_size(output_));
             EXPECT_EQ(summary.chosen().components, model.transfer.num_components);
             EXPECT_NE(model.provenance_json.find(R"("noise":"shrink")"), std::string::npos);
-            const LightSpectrum spectrum = LightSpectrum::flat(4);
+            const BandPower spectrum = BandPower::flat(4);
             const auto measured = named_errors(measure_model(model, bake, spectrum));
             const ErrorStatement stated = read_error_statement(model, output_);
-            EXPECT_EQ(stated.light_spectrum, "flat");
+            EXPECT_EQ(stated.band_power, "flat");
             ASSERT_EQ(stated.errors.size(), measured.size());
             for (size_t j = 0; j < measured.size(); ++j) {
                 EXPECT_EQ(stated.errors[j].value, measured[j].value) << measured[j].name;
@@ -95,14 +95,14 @@ TEST_F(TargetEncode, DeviationIsThatOfReorderedVertices) {
     const BakeReader bake = this->bake();
     const TargetSummary summary = encode(bake, target(bake, 0.03));
     const Model model = read_paim(output_);
-    ASSERT_EQ(model.vertex_order, VertexOrder::local);
-    const LocalOrder order = local_order(bake.topology());
+    ASSERT_EQ(model.vertex_order, VertexOrder::cache);
+    const CacheOrder order = cache_order(bake.topology());
     double deviation = 0.0, energy = 0.0, distances = 0.0;
     for (uint32_t p = 0; p < bake.num_poses(); ++p) {
         const BakedPose pose = bake.read_pose(p);
         for (uint32_t j = 0; j < 16; ++j) {
             const bool kept = j < model.layout.num_coefficients();
-            const Eigen::MatrixXf plane = kept ? decode_plane(model, Part::transfer, j)
+            const Eigen::MatrixXf plane = kept ? decode_plane(model, Attribute::transfer, j)
                                                : Eigen::MatrixXf::Zero(400, bake.num_poses());
             for (uint32_t v = 0; v < 400; ++v) {
                 const double y = double{pose.transfer[j * 400 + order.old_vertex[v]]};
@@ -111,7 +111,7 @@ TEST_F(TargetEncode, DeviationIsThatOfReorderedVertices) {
             }
         }
         for (uint32_t j = 0; j < 3; ++j) {
-            const Eigen::MatrixXf plane = decode_plane(model, Part::geometry, j);
+            const Eigen::MatrixXf plane = decode_plane(model, Attribute::geometry, j);
             for (uint32_t v = 0; v < 400; ++v) {
                 distances += std::pow(
                     double{plane(v, p)} - double{pose.positions[j * 400 + order.old_vertex[v]]},
@@ -167,7 +167,7 @@ TEST_F(TargetEncode, GreyScenesHaveOneChannelAndColouredOnesThree) {
             const TargetSummary summary = encode(bake, target(bake, 0.02, codec));
             const Model model = read_paim(output_);
             EXPECT_EQ(model.layout.channels, channels);
-            const TransferError again = measure_model(model, bake, LightSpectrum::flat(3)).transfer;
+            const TransferError again = measure_model(model, bake, BandPower::flat(3)).transfer;
             EXPECT_EQ(again.total(), summary.error.transfer.total());
             EXPECT_LE(again.total(), 0.02);
         }
@@ -202,7 +202,7 @@ TEST_F(TargetEncode, RefusesTooFewBands) {
                    "2 of its 4 bands leave");
     options_.bands = 4;
     EncodeTarget natural = target(bake, 0.01);
-    natural.spectrum = LightSpectrum::natural();
+    natural.spectrum = BandPower::natural();
     expect_refused(bake, natural, ExitCode::threshold_exceeded, "its 4 bands leave out");
 }
 
@@ -286,7 +286,7 @@ TEST_F(TargetEncode, TransferOfNothingCostsNothing) {
         const Model model = read_paim(output_);
         EXPECT_EQ(model.transfer.num_components, 0u);
         EXPECT_EQ(model.layout.bands, 1u);
-        EXPECT_EQ(decode_plane(model, Part::transfer, 0).cwiseAbs().maxCoeff(), 0.0f);
+        EXPECT_EQ(decode_plane(model, Attribute::transfer, 0).cwiseAbs().maxCoeff(), 0.0f);
     }
 }
 
@@ -324,7 +324,7 @@ TEST_F(TargetEncode, FloatsMeetTheTargetToo) {
         EXPECT_LE(summary.error.transfer.total(), 0.02);
         const Model model = read_paim(output_);
         EXPECT_EQ(model.transfer.precision, precision);
-        EXPECT_EQ(measure_model(model, bake, LightSpectrum::flat(4)).transfer.total(),
+        EXPECT_EQ(measure_model(model, bake, BandPower::flat(4)).transfer.total(),
                   summary.error.transfer.total());
         EXPECT_EQ(summary.chosen().components, model.transfer.num_components);
     }
@@ -347,21 +347,21 @@ TEST_F(TargetEncode, RefusesMemoryThatDoesNotSuffice) {
     expect_refused(bake, target(bake, 0.01), ExitCode::unsupported, "but --memory allows 1 MB");
 }
 
-TEST_F(TargetEncode, MaterialIsInLocalOrder) {
+TEST_F(TargetEncode, ProblemIsInCacheOrder) {
     const BakeReader bake = this->bake();
-    const Material material = read_material(bake, options_, target(bake, 0.001));
-    const LocalOrder order = local_order(bake.topology());
+    const EncodeProblem problem = read_problem(bake, options_, target(bake, 0.001));
+    const CacheOrder order = cache_order(bake.topology());
     EXPECT_NE(order.old_vertex[1], order.old_vertex[0] + 1);
-    EXPECT_EQ(material.frame.topology.triangles, order.topology.triangles);
+    EXPECT_EQ(problem.frame.topology.triangles, order.topology.triangles);
     // The mean of the first coordinate is the same in every pose.
     const BakedPose pose = bake.read_pose(0);
     for (uint32_t v = 0; v < 400; ++v) {
-        EXPECT_FLOAT_EQ(material.geometry.mean[v], pose.positions[order.old_vertex[v]]);
+        EXPECT_FLOAT_EQ(problem.geometry.mean[v], pose.positions[order.old_vertex[v]]);
     }
     // What the components leave of a bake with little noise: less than its noise,
     // 0.001 beside an RMS of some 0.3.
-    EXPECT_LT(material.floor.transfer.error, 0.004);
-    EXPECT_GT(material.transfer_energy, 0.0);
+    EXPECT_LT(problem.floor.transfer.error, 0.004);
+    EXPECT_GT(problem.transfer_energy, 0.0);
 }
 
 }  // namespace

@@ -34,8 +34,8 @@ struct Decomposition {
         corrected = left.corrected();
         u.resize(matrix.rows(), static_cast<Index>(rank));
         const double length = std::sqrt(static_cast<double>(matrix.rows()));
-        left.project(matrix, [&](Index first, const VectorXd&, const MatrixXd& scores) {
-            u.middleRows(first, scores.rows()) = scores / length;
+        left.project(matrix, [&](Index first, const VectorXd&, const MatrixXd& factors) {
+            u.middleRows(first, factors.rows()) = factors / length;
         });
     }
 };

@@ -102,7 +102,7 @@ TEST_F(BakeDirectory, RoundTrips) {
         EXPECT_EQ(pose.noise, expected.noise);
         for (const PoseStatistics& statistics : {pose.statistics, reader.read_statistics(p)}) {
             EXPECT_EQ(statistics.rays, expected.statistics.rays);
-            EXPECT_EQ(statistics.blocked, expected.statistics.blocked);
+            EXPECT_EQ(statistics.occluded, expected.statistics.occluded);
             EXPECT_EQ(statistics.zero_normals, expected.statistics.zero_normals);
             EXPECT_EQ(statistics.back_hits, 3u);
             EXPECT_EQ(statistics.above_target, expected.statistics.above_target);

@@ -280,7 +280,7 @@ TEST(IndexCodec, KeepsTrianglesUpToTurning) {
     Topology topology = grid(30);
     topology.triangles.push_back({5, 5, 9});      // degenerate
     topology.triangles.push_back({899, 0, 400});  // far apart
-    const LocalOrder order = local_order(topology);
+    const CacheOrder order = cache_order(topology);
     const auto bytes = encode_triangles(order.topology);
     std::vector<Triangle> back(order.topology.triangles.size());
     ASSERT_TRUE(decode_triangles(bytes, back));
@@ -299,10 +299,10 @@ TEST(IndexCodec, KeepsTrianglesUpToTurning) {
     EXPECT_TRUE(decode_triangles(encode_triangles({3, {}}), none));
 }
 
-TEST(LocalOrder, IsAPermutationThatKeepsTheMesh) {
+TEST(CacheOrder, IsAPermutationThatKeepsTheMesh) {
     Topology topology = grid(12);
     topology.num_vertices += 3;  // without triangles
-    const LocalOrder order = local_order(topology);
+    const CacheOrder order = cache_order(topology);
     ASSERT_EQ(order.old_vertex.size(), 147u);
     std::vector<int> seen(147, 0);
     for (const uint32_t old : order.old_vertex) ++seen[old];
@@ -321,7 +321,7 @@ TEST(LocalOrder, IsAPermutationThatKeepsTheMesh) {
     std::sort(old_triangles.begin(), old_triangles.end());
     std::sort(new_triangles.begin(), new_triangles.end());
     EXPECT_EQ(old_triangles, new_triangles);
-    EXPECT_TRUE(local_order({4, {}}).topology.triangles.empty());
+    EXPECT_TRUE(cache_order({4, {}}).topology.triangles.empty());
 }
 
 // Two planes of six values as docs/format.md has them: digits by their size, then gaps, low bytes and

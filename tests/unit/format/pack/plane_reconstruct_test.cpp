@@ -136,7 +136,7 @@ void expect_values(const std::vector<Plane<Integer>>& planes, const PlanePredict
         sources.push_back(planes[j].source(out.data() + j * num_points));
     }
     Buffer rows;
-    ASSERT_TRUE(undo_planes(std::span(sources), predictor, num_points, rows));
+    ASSERT_TRUE(reconstruct_planes(std::span(sources), predictor, num_points, rows));
     EXPECT_EQ(out.back(), 99);  // nothing is written past the end
     for (size_t j = 0; j < planes.size(); ++j) {
         for (size_t v = 0; v < num_points; ++v) {
@@ -225,9 +225,8 @@ TEST(PlaneUndo, TakesAnyNumberOfPlanes) {
 // Means of all small numbers and of extremes, by one to four parents: as floors of exact sums.
 template <typename Integer>
 void expect_exact_means() {
-    constexpr int kMost = std::numeric_limits<Integer>::max();
-    const int choices[] = {-kMost, 1 - kMost, 2 - kMost, -2,        -1,        0,
-                           1,      2,         3,         kMost - 2, kMost - 1, kMost};
+    constexpr int kMax = std::numeric_limits<Integer>::max();
+    const int choices[] = {-kMax, 1 - kMax, 2 - kMax, -2, -1, 0, 1, 2, 3, kMax - 2, kMax - 1, kMax};
     for (uint32_t num_parents = 1; num_parents <= 4; ++num_parents) {
         Topology fan{num_parents + 1, {}};
         for (uint32_t v = 0; v < num_parents; ++v) fan.triangles.push_back({num_parents, v, v});
@@ -297,7 +296,7 @@ TEST(PlaneUndo, JudgesAnyBytesAsTheSlowReferenceDoes) {
         PlaneSource<int8_t> plane{header,      digits.data(), gaps.data(),
                                   lows.data(), highs.data(),  out.data()};
         Buffer rows;
-        ASSERT_EQ(undo_planes(std::span(&plane, 1), predictor, 30, rows), good) << trial;
+        ASSERT_EQ(reconstruct_planes(std::span(&plane, 1), predictor, 30, rows), good) << trial;
         if (good) {
             EXPECT_EQ(out, values);
         }

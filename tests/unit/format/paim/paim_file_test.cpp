@@ -50,7 +50,7 @@ TEST(PaimFile, RoundTrips) {
 Model packed_example(bool clustered) {
     Model model = clustered ? make_clustered_example(3, 3, 2, true)
                             : quantise_example(make_example_model(3, 3));
-    model.vertex_order = VertexOrder::local;
+    model.vertex_order = VertexOrder::cache;
     LowRankMatrix& matrix = model.transfer;
     matrix.weight_steps = {0.25f, 0.0f, 1e-3f};
     for (size_t j = 0; j < matrix.weights.size(); ++j) {
@@ -79,8 +79,8 @@ TEST(PaimFile, RoundTripsIntegersAndClusters) {
             std::rotate(turned.begin(), first, turned.end());
             EXPECT_EQ(turned, model.topology.triangles[t]);
         }
-        for (const Part part : {Part::geometry, Part::transfer}) {
-            const LowRankMatrix &a = read.part(part), &b = model.part(part);
+        for (const Attribute attribute : {Attribute::geometry, Attribute::transfer}) {
+            const LowRankMatrix &a = read.attribute(attribute), &b = model.attribute(attribute);
             EXPECT_EQ(a.precision, Precision::i16);
             EXPECT_EQ(a.num_points, b.num_points);
             EXPECT_EQ(a.steps, b.steps);
@@ -98,7 +98,7 @@ TEST(PaimFile, RoundTripsIntegersAndClusters) {
         EXPECT_EQ(read.clusters.cluster, model.clusters.cluster);
         EXPECT_EQ(read.clusters.coefficients, model.clusters.coefficients);
         EXPECT_EQ(read.clusters.scales, model.clusters.scales);
-        EXPECT_EQ(read.vertex_order, VertexOrder::local);
+        EXPECT_EQ(read.vertex_order, VertexOrder::cache);
         EXPECT_EQ(read.scenery.positions, model.scenery.positions);
         EXPECT_EQ(read.scenery.transfer, model.scenery.transfer);
         EXPECT_EQ(read.scenery.topology.triangles.size(), 2u);
@@ -349,9 +349,9 @@ TEST(PaimFile, OrdersComponentsByShareOfEnergy) {
     Model model = make_example_model();
     model.geometry.singular_values = {10.0, 1.0, 0.1};  // shares 0.99, 0.0099, 0.000099
     model.transfer.singular_values = {1.0, 0.5, 0.25};  // shares 0.76, 0.19, 0.048
-    const std::vector<ComponentId> expected{{Part::geometry, 0}, {Part::transfer, 0},
-                                            {Part::transfer, 1}, {Part::transfer, 2},
-                                            {Part::geometry, 1}, {Part::geometry, 2}};
+    const std::vector<ComponentId> expected{{Attribute::geometry, 0}, {Attribute::transfer, 0},
+                                            {Attribute::transfer, 1}, {Attribute::transfer, 2},
+                                            {Attribute::geometry, 1}, {Attribute::geometry, 2}};
     EXPECT_EQ(component_order(model), expected);
 }
 
