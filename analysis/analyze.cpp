@@ -16,14 +16,15 @@
 #include "paim/base/file.h"
 #include "paim/base/parallel.h"
 #include "paim/cli/progress.h"
-#include "paim/format/paim/paim_file.h"
+#include "paim/format/paim/paim_read.h"
+#include "paim/format/paim/paim_write.h"
 
 namespace paim {
 
 namespace {
 
 // All components in f32, through the same encoder and file as the tools use.
-Model encode_everything(const BakeReader& bake, const std::filesystem::path& directory) {
+Asset encode_everything(const BakeReader& bake, const std::filesystem::path& directory) {
     struct Remover {
         std::filesystem::path path;
         ~Remover() {
@@ -85,7 +86,7 @@ void analyze(const AnalyzeOptions& options) {
     const bool quiet = options.quiet || options.json;
     const BakeReader bake(options.bake_directory);
     const std::vector<NamedLight> lights =
-        load_lights(options.environments, bake.identity().layout.bands);
+        load_lights(options.environments, bake.identity().layout.in_bands);
     const size_t most_settings = 2 * (options.components.size() + 1) + options.bands.size() + 1;
     check_memory(options, most_settings * lights.size());
     const bool with_plots = have_gnuplot();
@@ -93,7 +94,7 @@ void analyze(const AnalyzeOptions& options) {
     bake.verify_all();  // before anything is written
     ensure_directory(options.output);
 
-    const Model model = encode_everything(bake, options.output);
+    const Asset model = encode_everything(bake, options.output);
     const Stage stage(bake, lights, stage_camera(bake, options.azimuth_rad, options.elevation_rad),
                       options.size_pixels, options.num_poses);
     std::vector<Curve> curves = plan_curves(bake, model, options.components, options.bands);
@@ -114,7 +115,7 @@ void analyze(const AnalyzeOptions& options) {
         "relative "
         "to the bake itself.",
         bake.identity().num_vertices, bake.identity().num_triangles, bake.num_poses(),
-        stage.poses().size(), model.layout.bands);
+        stage.poses().size(), model.moving().layout.in_bands);
     write_report(options.output, "Error analysis of " + model.name, summary, curves, stage,
                  references, with_plots);
     if (options.json) {

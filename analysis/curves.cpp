@@ -8,7 +8,8 @@
 #include <set>
 #include <span>
 
-#include "paim/format/paim/paim_file.h"
+#include "paim/format/paim/paim_read.h"
+#include "paim/format/paim/paim_write.h"
 #include "paim/metrics/singular_value_error.h"
 
 namespace paim {
@@ -25,18 +26,18 @@ std::vector<uint32_t> settings(uint32_t all, const std::vector<uint32_t>& others
 }
 
 // The size of the model's file if it kept only this.
-uint64_t limited_size_bytes(const Model& model, const DecodeLimits& limits) {
-    Model limited;
-    limited.topology.num_vertices = model.topology.num_vertices;
-    limited.topology.triangles.resize(model.topology.triangles.size());
-    limited.albedo = model.albedo;
-    limited.layout = model.layout;
-    limited.layout.bands = std::min(limits.bands, model.layout.bands);
+uint64_t limited_size_bytes(const Asset& model, const DecodeLimits& limits) {
+    Asset limited;
+    limited.moving().topology.num_vertices = model.moving().topology.num_vertices;
+    limited.moving().topology.triangles.resize(model.moving().topology.triangles.size());
+    limited.moving().albedo = model.moving().albedo;
+    limited.moving().layout = model.moving().layout;
+    limited.moving().layout.in_bands = std::min(limits.bands, model.moving().layout.in_bands);
     limited.frames_per_second = model.frames_per_second;
     limited.name = model.name;
     limited.provenance_json = model.provenance_json;
-    const auto limit_part = [](const LowRankMatrix& from, uint32_t num_planes, uint32_t limit) {
-        LowRankMatrix to;
+    const auto limit_part = [](const LowRank& from, uint32_t num_planes, uint32_t limit) {
+        LowRank to;
         to.num_points = from.num_points;
         to.num_planes = num_planes;
         to.num_poses = from.num_poses;
@@ -45,9 +46,9 @@ uint64_t limited_size_bytes(const Model& model, const DecodeLimits& limits) {
         to.singular_values = from.singular_values;
         return to;
     };
-    limited.geometry = limit_part(model.geometry, 3, limits.geometry_components);
-    limited.transfer =
-        limit_part(model.transfer, limited.layout.num_planes(), limits.transfer_components);
+    limited.moving().positions = limit_part(model.moving().positions, 3, limits.geometry_components);
+    limited.moving().transfer->matrix =
+        limit_part(model.moving().transfer->matrix, limited.moving().layout.num_planes(), limits.transfer_components);
     return paim_size_bytes(limited);
 }
 
@@ -55,7 +56,7 @@ uint64_t limited_size_bytes(const Model& model, const DecodeLimits& limits) {
 // spectrum   singular values, or what plays their part; size(value) of them are kept
 // limit      the limit that a setting is
 template <typename Size>
-Curve plan_curve(const Model& model, const char* name, const char* title, uint32_t all,
+Curve plan_curve(const Asset& model, const char* name, const char* title, uint32_t all,
                  const std::vector<uint32_t>& others, std::span<const double> spectrum,
                  const Size& size, uint32_t DecodeLimits::*limit) {
     Curve curve{name, title, {}, {}, {}};
@@ -95,7 +96,7 @@ std::vector<double> coefficient_norms(const BakeReader& bake) {
     return energies;
 }
 
-std::vector<Curve> plan_curves(const BakeReader& bake, const Model& model,
+std::vector<Curve> plan_curves(const BakeReader& bake, const Asset& model,
                                const std::vector<uint32_t>& components,
                                const std::vector<uint32_t>& bands) {
     const auto as_it_is = [](uint32_t value) { return value; };
@@ -103,13 +104,13 @@ std::vector<Curve> plan_curves(const BakeReader& bake, const Model& model,
     std::vector<Curve> curves;
     curves.push_back(
         plan_curve(model, "geometry_components", "Geometry components (all of the transfer)",
-                   model.geometry.num_components, components, model.geometry.singular_values,
+                   model.moving().positions.num_components, components, model.moving().positions.singular_values,
                    as_it_is, &DecodeLimits::geometry_components));
     curves.push_back(
         plan_curve(model, "transfer_components", "Transfer components (all of the geometry)",
-                   model.transfer.num_components, components, model.transfer.singular_values,
+                   model.moving().transfer->matrix.num_components, components, model.moving().transfer->matrix.singular_values,
                    as_it_is, &DecodeLimits::transfer_components));
-    curves.push_back(plan_curve(model, "bands", "Bands (all components)", model.layout.bands, bands,
+    curves.push_back(plan_curve(model, "bands", "Bands (all components)", model.moving().layout.in_bands, bands,
                                 coefficient_norms(bake), squared, &DecodeLimits::bands));
     return curves;
 }

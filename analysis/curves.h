@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "paim/codec/decoder.h"
-#include "paim/codec/model.h"
+#include "paim/codec/mesh_decoder.h"
+#include "paim/codec/asset.h"
 #include "paim/format/bake/bake_directory.h"
 #include "paim/image/image.h"
 #include "paim/metrics/array_error.h"
@@ -46,7 +46,7 @@ std::vector<double> coefficient_norms(const BakeReader& bake);
 
 // The three curves of the paper, not measured yet: all there is, then those of the asked-for
 // components and bands that are less. The model holds all components in f32.
-std::vector<Curve> plan_curves(const BakeReader& bake, const Model& model,
+std::vector<Curve> plan_curves(const BakeReader& bake, const Asset& model,
                                const std::vector<uint32_t>& components,
                                const std::vector<uint32_t>& bands);
 

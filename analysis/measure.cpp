@@ -7,7 +7,7 @@
 #include <chrono>
 #include <span>
 
-#include "paim/codec/make_decoder.h"
+#include "paim/codec/mesh_decoder.h"
 #include "paim/metrics/image_error.h"
 
 namespace paim {
@@ -45,7 +45,7 @@ double median(std::vector<double> values) {
 
 }  // namespace
 
-std::vector<Image> measure_curves(const BakeReader& bake, const Model& model, const Stage& stage,
+std::vector<Image> measure_curves(const BakeReader& bake, const Asset& model, const Stage& stage,
                                   std::vector<Curve>& curves,
                                   const std::function<void()>& on_step) {
     using Clock = std::chrono::steady_clock;

@@ -29,7 +29,7 @@ std::vector<NamedLight> load_lights(const std::vector<std::filesystem::path>& en
             name = fmt::format("{} ({})", stem, copy);
         }
         const EnvironmentLight light(std::move(image));
-        lights.push_back({name, light.coefficients(Vec3f::Zero(), static_cast<int>(bands))});
+        lights.push_back({name, light.coefficients(static_cast<int>(bands))});
     };
     if (environments.empty()) add("sky", make_sky());
     for (const auto& path : environments) add(path.stem().string(), read_exr(path));
@@ -75,7 +75,7 @@ std::vector<Image> Stage::render_pose(const DecodedPose& pose) const {
         if (!bake_.scenery()) continue;
         // With as many bands as the pose has.
         LightCoefficients kept = light;
-        kept.bands = std::min(light.bands, static_cast<int>(pose.layout.bands));
+        kept.bands = std::min(light.bands, static_cast<int>(pose.layout.in_bands));
         std::vector<Vec3f> scenery;
         shade(bake_.identity().layout, bake_.scenery()->pose.transfer, bake_.scenery()->albedo,
               kept, scenery);

@@ -9,8 +9,9 @@
 
 #include "paim/base/error.h"
 #include "paim/base/parallel.h"
-#include "paim/format/paim/paim_file.h"
-#include "paim/metrics/model_error.h"
+#include "paim/format/paim/paim_read.h"
+#include "paim/format/paim/paim_write.h"
+#include "paim/metrics/asset_error.h"
 
 namespace paim {
 
@@ -39,7 +40,7 @@ BandPower choose_band_power(const AnalyzeOptions& options, const ErrorStatement&
     return parse_band_power(statement.band_power, bands);
 }
 
-std::vector<Comparison> compare(const ModelError& error, const ErrorStatement& statement,
+std::vector<Comparison> compare(const AssetError& error, const ErrorStatement& statement,
                                 bool same_light) {
     std::vector<Comparison> comparisons;
     for (const NamedError& measured : named_errors(error)) {
@@ -54,7 +55,7 @@ std::vector<Comparison> compare(const ModelError& error, const ErrorStatement& s
     return comparisons;
 }
 
-void print_json(const AnalyzeOptions& options, const ModelError& error, const BandPower& spectrum,
+void print_json(const AnalyzeOptions& options, const AssetError& error, const BandPower& spectrum,
                 const std::vector<Comparison>& comparisons) {
     nlohmann::ordered_json json;
     json["paim"] = options.verify.string();
@@ -95,12 +96,12 @@ void print_text(const AnalyzeOptions& options, const BandPower& spectrum,
 
 void verify(const AnalyzeOptions& options) {
     const ThreadLimit threads(options.num_threads);
-    const Model model = read_paim(options.verify);
+    const Asset model = read_paim(options.verify);
     const ErrorStatement statement = read_error_statement(model, options.verify);
     const BakeReader bake(options.bake_directory);
-    const BandPower spectrum = choose_band_power(options, statement, bake.identity().layout.bands);
+    const BandPower spectrum = choose_band_power(options, statement, bake.identity().layout.in_bands);
     bake.verify_all();
-    const ModelError error = measure_model(model, bake, spectrum);
+    const AssetError error = measure_asset(model, bake, spectrum);
     const std::vector<Comparison> comparisons =
         compare(error, statement, spectrum.name == statement.band_power);
     if (options.json) {

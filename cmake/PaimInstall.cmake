@@ -14,11 +14,11 @@ set(private_headers
     codec/vector_kernels.h
     format/bake/bake_manifest.h
     format/pack/index_codec.h
-    format/paim/matrix_sections.h
+    format/paim/section_reader.h
     format/container/mesh_sections.h
     format/container/metadata.h
     format/paim/paim_metadata.h
-    format/paim/paim_packer.h
+    format/paim/packed_file.h
     format/container/sections.h
     format/pack/plane_codec.h
     format/pack/plane_packing.h

@@ -64,7 +64,7 @@ void check_encoding_memory(const CompressOptions& options, const PoseSource& pos
     size.num_poses = poses.num_poses();
     size.num_threads = static_cast<uint64_t>(max_parallelism());
     size.num_vertices = poses.topology().num_vertices;
-    size.bands = layout.bands;
+    size.bands = layout.in_bands;
     const uint64_t num_still_values = 6 + 2 * uint64_t{layout.num_planes()};
     size.scenery_bytes = num_still_values * scenery.topology.num_vertices * sizeof(float) +
                          scenery.topology.triangles.size() * sizeof(Triangle) +
@@ -219,7 +219,7 @@ void check_band_power(const CompressOptions& options, uint32_t bands) {
 ordered_json encode_target_to(const CompressOptions& options, const EncodeOptions& encode_options,
                               const BakeReader& reader) {
     EncodeTarget target = *options.target;
-    target.spectrum = parse_band_power(options.band_power, reader.identity().layout.bands);
+    target.spectrum = parse_band_power(options.band_power, reader.identity().layout.in_bands);
     const auto say = [&](const char* step) {
         if (!options.quiet && !options.json) fmt::print(stderr, "{} ...\n", step);
     };
@@ -240,7 +240,7 @@ ordered_json encode_to(const CompressOptions& options, const std::filesystem::pa
     EncodeOptions encode_options = options.encode;
     encode_options.name = options.output.stem().string();
     check_memory(reader, encode_options);
-    check_band_power(options, reader.identity().layout.bands);
+    check_band_power(options, reader.identity().layout.in_bands);
     reader.verify_all();
     if (options.target) return encode_target_to(options, encode_options, reader);
     cli::Progress encoding("encoding", "rows", num_rows_to_read(reader, encode_options),
@@ -248,10 +248,10 @@ ordered_json encode_to(const CompressOptions& options, const std::filesystem::pa
     const EncodeSummary summary = encode(reader, encode_options, options.output,
                                          [&](uint64_t rows) { encoding.advance(rows); });
     encoding.finish();
-    std::optional<ModelError> error;
+    std::optional<AssetError> error;
     if (options.encode.measure) {
         error =
-            state_errors(options.output, reader, BandPower::flat(reader.identity().layout.bands),
+            state_errors(options.output, reader, BandPower::flat(reader.identity().layout.in_bands),
                          encode_options.memory_bytes);
     }
     ordered_json json;

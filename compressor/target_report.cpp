@@ -26,7 +26,7 @@ ordered_json target_json(const TargetSummary& summary) {
     json["multiply_adds"] = chosen.multiply_adds;
     json["transfer_target"] = summary.transfer_target;
     json["geometry_target"] = summary.geometry_target;
-    json["best_transfer_error"] = summary.floor;
+    json["best_transfer_error"] = summary.best_achievable;
     for (const NamedError& error : named_errors(summary.error)) {
         json["measured"][error.name] = error.value;
     }
@@ -65,15 +65,15 @@ std::string target_text(const std::string& file, const TargetSummary& summary) {
         "  transfer: {:.3g} % measured, {:.3g} % allowed, {:.2g} % at best with these components; "
         "from the bake: worst vertex {:.3g} %, "
         "worst pose {:.3g} %\n",
-        100.0 * transfer.total(), 100.0 * summary.transfer_target, 100.0 * summary.floor,
+        100.0 * transfer.total(), 100.0 * summary.transfer_target, 100.0 * summary.best_achievable,
         100.0 * transfer.worst_vertex_deviation, 100.0 * transfer.worst_pose_deviation);
     text += fmt::format(
         "  geometry: {} components, RMS distance {:.3g} measured, {:.3g} allowed ({:.2g} % of the "
         "diagonal), worst {:.3g}; KG {:.3g} %, E_RMS {:.3g}\n",
         summary.geometry_components, geometry.rms(), summary.geometry_target,
         100.0 * geometry.relative_rms(), geometry.worst(), geometry.kg_error(), geometry.e_rms());
-    if (!summary.error.scenery) return text;
-    const SceneryError& scenery = *summary.error.scenery;
+    if (!summary.error.still) return text;
+    const SceneryError& scenery = *summary.error.still;
     text += fmt::format(
         "  scenery: transfer {:.3g} % measured, worst vertex {:.3g} %; RMS distance {:.3g}, worst "
         "{:.3g}\n",

@@ -90,7 +90,7 @@ class App {
     ViewRange range() const {
         const UploadPlan& plan = renderer_->plan();
         return {scene_->model.num_poses(), plan.geometry_components, plan.transfer_components,
-                plan.layout.bands, plan.cluster_components};
+                plan.layout.in_bands, plan.cluster_components};
     }
 
     // Takes what has been read since the last frame; all else of the view stays.

@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "paim/base/parallel.h"
-#include "paim/codec/make_decoder.h"
-#include "paim/codec/pose_parts.h"
+#include "paim/codec/mesh_decoder.h"
+#include "paim/codec/rebuild_planes.h"
 #include "paim/light/environment.h"
-#include "paim/shade/cluster_light.h"
+#include "paim/codec/cpca/cpca_player.h"
 #include "paim/shade/shade.h"
 #include "player/gl/check.h"
 #include "player/gl/headless_context.h"
@@ -68,24 +68,24 @@ Times measure_gpu(SceneRenderer& renderer, Frame frame, const gl::Target& target
 // Positions and radiance of one frame on the CPU.
 class CpuFrame {
   public:
-    explicit CpuFrame(const Model& model) : model_(model), decoder_(make_decoder(model)) {
+    explicit CpuFrame(const Asset& model) : model_(model), decoder_(make_decoder(model)) {
         if (!model.clusters.empty()) cluster_light_.emplace(model);
     }
 
     void compute(const Frame& frame, const LightCoefficients& light) {
         if (!cluster_light_) {
             decoder_->decode(frame.time, frame.limits, pose_);
-            shade(pose_.layout, pose_.transfer, model_.albedo, light, radiance_);
+            shade(pose_.layout, pose_.transfer, model_.moving().albedo, light, radiance_);
             return;
         }
         decode_positions(model_, frame.time, frame.limits, pose_);
         cluster_light_->basis_radiance(frame.time, frame.limits, light, products_);
-        shade_clusters(model_.clusters, products_, frame.limits.cluster_components, model_.albedo,
+        shade_clusters(model_.clusters, products_, frame.limits.cluster_components, model_.moving().albedo,
                        radiance_);
     }
 
   private:
-    const Model& model_;
+    const Asset& model_;
     std::unique_ptr<Decoder> decoder_;
     std::optional<ClusterLight> cluster_light_;
     DecodedPose pose_;
@@ -97,7 +97,7 @@ class CpuFrame {
 Times measure_cpu(const Options& options, const Scene& scene, Frame frame) {
     const uint32_t bands = options.limits.bands;
     const LightCoefficients light =
-        EnvironmentLight(scene.environment).coefficients(Vec3f::Zero(), static_cast<int>(bands));
+        EnvironmentLight(scene.environment).coefficients(static_cast<int>(bands));
     CpuFrame cpu(scene.model);
     const int num_frames = *options.bench_frames;
     return measure(num_frames, [&](int i) {
@@ -145,7 +145,7 @@ void run_bench(const Options& options, const Scene& scene) {
                    times.min_ms);
     };
     fmt::print("{}\n{} frames of {} x {} samples, {} vertices\n", context->description(),
-               num_frames, target.width(), target.height(), scene.model.topology.num_vertices);
+               num_frames, target.width(), target.height(), scene.model.moving().topology.num_vertices);
     const Cost cost = frame_cost(scene.model, options.limits);
     fmt::print("{:.3f} MB of textures, {} multiply-adds a vertex, positions included",
                1e-6 * static_cast<double>(renderer.texture_bytes()), cost.multiply_adds);

@@ -12,7 +12,8 @@
 #include "paim/codec/sequence_bounds.h"
 #include "paim/format/container/container_reader.h"
 #include "paim/format/container/sections.h"
-#include "paim/format/paim/paim_file.h"
+#include "paim/format/paim/paim_read.h"
+#include "paim/format/paim/paim_write.h"
 
 namespace paim::player {
 
@@ -39,8 +40,8 @@ uint64_t table_end(const std::filesystem::path& path) {
     return end <= header.file_size_bytes ? end : 0;
 }
 
-uint32_t num_components(const Model& model) {
-    return model.geometry.num_components + model.transfer.num_components;
+uint32_t num_components(const Asset& model) {
+    return model.moving().positions.num_components + model.moving().transfer->matrix.num_components;
 }
 
 std::string size_text(uint64_t size_bytes) {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "paim/codec/model.h"
+#include "paim/codec/asset.h"
 #include "paim/format/paim/prefixes.h"
 #include "paim/mesh/bounds.h"
 
@@ -40,7 +40,7 @@ struct Beginning {
 Beginning inspect_beginning(const std::filesystem::path& path);
 
 struct LoadedModel {
-    Model model;
+    Asset model;
     Bounds bounds;  // of the whole animation, with the components that are there
     LoadProgress progress;
     bool replaced = false;  // comes from another file than the model before

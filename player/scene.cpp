@@ -8,7 +8,8 @@
 
 #include "paim/base/error.h"
 #include "paim/codec/sequence_bounds.h"
-#include "paim/format/paim/paim_file.h"
+#include "paim/format/paim/paim_read.h"
+#include "paim/format/paim/paim_write.h"
 #include "paim/image/exr.h"
 #include "paim/light/environment.h"
 #include "paim/light/sky.h"
@@ -47,7 +48,7 @@ Scene make_scene(Options& options, LoadedModel loaded) {
     scene.bounds = loaded.bounds;
     scene.size_bytes = loaded.progress.size_bytes;
     if (options.progressive) scene.progress = loaded.progress;
-    const Model& model = scene.model;
+    const Asset& model = scene.model;
 
     const double last_pose = static_cast<double>(model.num_poses()) - 1.0;
     if (options.pose > last_pose) {
@@ -56,12 +57,12 @@ Scene make_scene(Options& options, LoadedModel loaded) {
     }
     DecodeLimits& limits = options.limits;
     lower_limit("--geometry-components", "geometry components", limits.geometry_components,
-                model.geometry.num_components, model.complete);
+                model.moving().positions.num_components, model.complete);
     lower_limit("--transfer-components", "transfer components", limits.transfer_components,
-                model.transfer.num_components, model.complete);
+                model.moving().transfer->matrix.num_components, model.complete);
     lower_limit("--cluster-components", "cluster components", limits.cluster_components,
                 model.clusters.num_components, true);
-    lower_limit("--bands", "bands", limits.bands, model.layout.bands, true);
+    lower_limit("--bands", "bands", limits.bands, model.moving().layout.in_bands, true);
 
     scene.environment =
         options.environment_path ? load_environment(*options.environment_path) : make_sky();

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "paim/codec/model.h"
+#include "paim/codec/asset.h"
 #include "paim/image/image.h"
 #include "paim/mesh/bounds.h"
 #include "player/file_beginning.h"
@@ -12,7 +12,7 @@
 namespace paim::player {
 
 struct Scene {
-    Model model;
+    Asset model;
     Image environment;                     // lat-long, linear radiance, finite and not negative
     Bounds bounds;                         // of the whole animation
     uint64_t size_bytes = 0;               // of the .paim file, as far as it is there

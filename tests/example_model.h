@@ -6,21 +6,21 @@
 #include <functional>
 
 #include "paim/base/seed.h"
-#include "paim/codec/model.h"
+#include "paim/codec/asset.h"
 
 namespace paim {
 
 // A tetrahedron with random components. Weights fall off, so that components have an order.
-inline Model make_example_model(uint32_t bands = 2, uint32_t channels = 1, uint32_t num_poses = 5,
+inline Asset make_example_model(uint32_t bands = 2, uint32_t channels = 1, uint32_t num_poses = 5,
                                 uint32_t num_components = 3) {
     RandomStream random(7);
-    Model model;
+    Asset model;
     model.name = "example";
     model.provenance_json = R"({"made":"by a test"})";
-    model.topology = {4, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
-    model.layout = {TransferKind::diffuse, bands, channels};
+    model.moving().topology = {4, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+    model.moving().layout = {TransferKind::diffuse, bands, channels};
     const auto fill = [&](uint32_t num_planes) {
-        LowRankMatrix matrix;
+        LowRank matrix;
         matrix.num_points = 4;
         matrix.num_planes = num_planes;
         matrix.num_poses = num_poses;
@@ -40,15 +40,15 @@ inline Model make_example_model(uint32_t bands = 2, uint32_t channels = 1, uint3
         }
         return matrix;
     };
-    model.geometry = fill(3);
-    model.transfer = fill(model.layout.num_planes());
+    model.moving().positions = fill(3);
+    model.moving().transfer->matrix = fill(model.moving().layout.num_planes());
     return model;
 }
 
 // The same with integers instead of floats: i16 components, of which the last are i8.
-inline Model quantise_example(Model model) {
+inline Asset quantise_example(Asset model) {
     RandomStream random(9);
-    for (LowRankMatrix* matrix : {&model.geometry, &model.transfer}) {
+    for (LowRank* matrix : {&model.moving().positions, &model.moving().transfer->matrix}) {
         const auto integer = [&](double limit) { return limit * (2.0 * random.uniform() - 1.0); };
         matrix->precision = Precision::i16;
         for (uint32_t j = 0; j < matrix->num_planes; ++j) {
@@ -73,11 +73,11 @@ inline Model quantise_example(Model model) {
 
 // The tetrahedron with clustered transfer: two clusters of two vertices, and so many components in
 // each; components over time and numbers as in make_example_model().
-inline Model make_clustered_example(uint32_t bands = 2, uint32_t channels = 1,
+inline Asset make_clustered_example(uint32_t bands = 2, uint32_t channels = 1,
                                     uint32_t num_cluster_components = 1, bool integers = false) {
     RandomStream random(10);
     const auto number = [&] { return static_cast<float>(2.0 * random.uniform() - 1.0); };
-    Model model = make_example_model(bands, channels);
+    Asset model = make_example_model(bands, channels);
     VertexClusters& clusters = model.clusters;
     clusters.num_clusters = 2;
     clusters.num_components = num_cluster_components;
@@ -93,7 +93,7 @@ inline Model make_clustered_example(uint32_t bands = 2, uint32_t channels = 1,
     }
     clusters.scales.resize(clusters.num_rows());
     std::generate(clusters.scales.begin(), clusters.scales.end(), number);
-    LowRankMatrix& matrix = model.transfer;
+    LowRank& matrix = model.moving().transfer->matrix;
     matrix.num_points = clusters.num_rows();
     std::vector<float> rows(matrix.num_rows());
     const auto fill = [&] {

@@ -8,9 +8,9 @@
 #include "analysis/bench/ratio.h"
 #include "paim/base/parallel.h"
 #include "paim/base/seed.h"
-#include "paim/codec/make_decoder.h"
-#include "paim/codec/pose_parts.h"
-#include "paim/shade/cluster_light.h"
+#include "paim/codec/mesh_decoder.h"
+#include "paim/codec/rebuild_planes.h"
+#include "paim/codec/cpca/cpca_player.h"
 
 namespace paim::bench {
 
@@ -32,9 +32,9 @@ StoredValues random_values(Precision precision, size_t count) {
     return random_values<float>(count, 1.0);
 }
 
-LowRankMatrix random_matrix(uint32_t num_points, uint32_t num_planes, uint32_t num_components,
+LowRank random_matrix(uint32_t num_points, uint32_t num_planes, uint32_t num_components,
                             Precision precision) {
-    LowRankMatrix matrix;
+    LowRank matrix;
     matrix.num_points = num_points;
     matrix.num_planes = num_planes;
     matrix.num_poses = 50;
@@ -47,20 +47,20 @@ LowRankMatrix random_matrix(uint32_t num_points, uint32_t num_planes, uint32_t n
     return matrix;
 }
 
-Model svd_model(uint32_t num_vertices, uint32_t num_components, Precision precision) {
-    Model model;
-    model.topology.num_vertices = num_vertices;
-    model.layout = {TransferKind::diffuse, kBands, 1};
-    model.geometry = random_matrix(num_vertices, 3, num_components, precision);
-    model.transfer =
-        random_matrix(num_vertices, model.layout.num_planes(), num_components, precision);
+Asset svd_model(uint32_t num_vertices, uint32_t num_components, Precision precision) {
+    Asset model;
+    model.moving().topology.num_vertices = num_vertices;
+    model.moving().layout = {TransferKind::diffuse, kBands, 1};
+    model.moving().positions = random_matrix(num_vertices, 3, num_components, precision);
+    model.moving().transfer->matrix =
+        random_matrix(num_vertices, model.moving().layout.num_planes(), num_components, precision);
     return model;
 }
 
 // 256 clusters of 8 components. Vertices come in runs of a dozen of one cluster, as they do along the
 // surface of a mesh.
-Model clustered_model(uint32_t num_vertices, uint32_t num_components, Precision precision) {
-    Model model = svd_model(num_vertices, num_components, precision);
+Asset clustered_model(uint32_t num_vertices, uint32_t num_components, Precision precision) {
+    Asset model = svd_model(num_vertices, num_components, precision);
     VertexClusters& clusters = model.clusters;
     clusters.num_clusters = 256;
     clusters.num_components = 8;
@@ -71,15 +71,15 @@ Model clustered_model(uint32_t num_vertices, uint32_t num_components, Precision 
     }
     clusters.coefficients.assign(clusters.num_components, random_values(precision, num_vertices));
     clusters.scales.assign(clusters.num_rows(), 0.5f);
-    model.transfer =
-        random_matrix(clusters.num_rows(), model.layout.num_planes(), num_components, precision);
+    model.moving().transfer->matrix =
+        random_matrix(clusters.num_rows(), model.moving().layout.num_planes(), num_components, precision);
     return model;
 }
 
 // Bytes that a frame with everything in it is made from.
-size_t bytes_read(const Model& model) {
+size_t bytes_read(const Asset& model) {
     size_t bytes = 0;
-    for (const LowRankMatrix* matrix : {&model.geometry, &model.transfer}) {
+    for (const LowRank* matrix : {&model.moving().positions, &model.moving().transfer->matrix}) {
         bytes += matrix->mean.size_bytes();
         for (const StoredValues& component : matrix->components) bytes += component.size_bytes();
         bytes += 2 * sizeof(float) * matrix->num_components;  // of two poses
@@ -91,8 +91,8 @@ size_t bytes_read(const Model& model) {
 }
 
 // What decoding leaves: positions and `planes` values of a vertex.
-size_t bytes_written(const Model& model, uint32_t planes) {
-    return sizeof(float) * (size_t{3} + planes) * model.topology.num_vertices;
+size_t bytes_written(const Asset& model, uint32_t planes) {
+    return sizeof(float) * (size_t{3} + planes) * model.moving().topology.num_vertices;
 }
 
 // One call of memcpy a thread.
@@ -120,7 +120,7 @@ class Copy {
 //   of_balanced_bandwidth   the same of a copy that moves as many bytes as the decoder: half as many
 //                           as it reads and writes together
 //   read_GB_s               what the decoder reads in a second
-void measure(benchmark::State& state, const Model& model, size_t num_bytes_written,
+void measure(benchmark::State& state, const Asset& model, size_t num_bytes_written,
              const std::function<void(double time)>& decode_frame) {
     const auto num_threads = static_cast<int>(state.range(0));
     const ThreadLimit limit(num_threads);
@@ -146,14 +146,14 @@ void measure(benchmark::State& state, const Model& model, size_t num_bytes_writt
     state.counters["of_copy_bandwidth_cpu"] = median(cpu_ratios);
     state.counters["of_balanced_bandwidth"] = median(balanced_ratios);
     state.counters["read_GB_s"] = 1e-9 * static_cast<double>(bytes_read(model)) / median(our_times);
-    state.counters["per_vertex_ns"] = 1e9 * median(our_times) / model.topology.num_vertices;
+    state.counters["per_vertex_ns"] = 1e9 * median(our_times) / model.moving().topology.num_vertices;
 }
 
 // Positions and transfer of every vertex.
-void decode(benchmark::State& state, const Model& model) {
+void decode(benchmark::State& state, const Asset& model) {
     const std::unique_ptr<Decoder> decoder = make_decoder(model);
     DecodedPose pose;
-    measure(state, model, bytes_written(model, model.layout.num_planes()), [&](double time) {
+    measure(state, model, bytes_written(model, model.moving().layout.num_planes()), [&](double time) {
         decoder->decode(time, {}, pose);
         benchmark::DoNotOptimize(pose.transfer.data());
     });
@@ -173,7 +173,7 @@ void decode_clusters(benchmark::State& state, uint32_t num_vertices, uint32_t nu
 // is left of the transfer is each vertex's radiance.
 void light_clusters(benchmark::State& state, uint32_t num_vertices, uint32_t num_components,
                     Precision precision) {
-    const Model model = clustered_model(num_vertices, num_components, precision);
+    const Asset model = clustered_model(num_vertices, num_components, precision);
     const LightCoefficients light{kBands, std::vector<Vec3f>(kBands * kBands, Vec3f(1, 2, 3))};
     ClusterLight cluster_light(model);
     DecodedPose pose;
@@ -181,7 +181,7 @@ void light_clusters(benchmark::State& state, uint32_t num_vertices, uint32_t num
     measure(state, model, bytes_written(model, 3), [&](double time) {
         decode_positions(model, time, {}, pose);
         cluster_light.basis_radiance(time, {}, light, products);
-        shade_clusters(model.clusters, products, model.clusters.num_components, model.albedo,
+        shade_clusters(model.clusters, products, model.clusters.num_components, model.moving().albedo,
                        radiance);
         benchmark::DoNotOptimize(pose.positions.data());
         benchmark::DoNotOptimize(radiance.data());

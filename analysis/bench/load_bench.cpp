@@ -17,7 +17,8 @@
 #include "paim/format/container/container_reader.h"
 #include "paim/format/container/sections.h"
 #include "paim/format/pack/zstd_codec.h"
-#include "paim/format/paim/paim_file.h"
+#include "paim/format/paim/paim_read.h"
+#include "paim/format/paim/paim_write.h"
 #include "paim/mesh/cache_order.h"
 
 namespace paim::bench {
@@ -71,9 +72,9 @@ StoredValues waves(const CacheOrder& order, uint32_t num_sides, uint32_t num_pla
 
 // Amplitudes fall from a quarter of the range to about two steps.
 template <typename Integer>
-LowRankMatrix wave_matrix(const CacheOrder& order, uint32_t num_sides, uint32_t num_planes,
+LowRank wave_matrix(const CacheOrder& order, uint32_t num_sides, uint32_t num_planes,
                           uint32_t num_components) {
-    LowRankMatrix matrix;
+    LowRank matrix;
     matrix.num_points = order.topology.num_vertices;
     matrix.num_planes = num_planes;
     matrix.num_poses = 100;
@@ -93,24 +94,24 @@ LowRankMatrix wave_matrix(const CacheOrder& order, uint32_t num_sides, uint32_t 
 }
 
 template <typename Integer>
-Model wave_model(uint32_t num_rings, uint32_t num_sides, uint32_t num_components) {
+Asset wave_model(uint32_t num_rings, uint32_t num_sides, uint32_t num_components) {
     const CacheOrder order = cache_order(torus(num_rings, num_sides));
-    Model model;
-    model.topology = order.topology;
+    Asset model;
+    model.moving().topology = order.topology;
     model.vertex_order = VertexOrder::cache;
-    model.layout = {TransferKind::diffuse, kBands, 1};
-    model.geometry = wave_matrix<Integer>(order, num_sides, 3, num_components);
-    model.transfer =
-        wave_matrix<Integer>(order, num_sides, model.layout.num_planes(), num_components);
+    model.moving().layout = {TransferKind::diffuse, kBands, 1};
+    model.moving().positions = wave_matrix<Integer>(order, num_sides, 3, num_components);
+    model.moving().transfer->matrix =
+        wave_matrix<Integer>(order, num_sides, model.moving().layout.num_planes(), num_components);
     model.name = "waves";
     model.provenance_json = "{}";
     return model;
 }
 
 // Means and components, as they lie in memory.
-size_t bytes_of_values(const Model& model) {
+size_t bytes_of_values(const Asset& model) {
     size_t bytes = 0;
-    for (const LowRankMatrix* matrix : {&model.geometry, &model.transfer}) {
+    for (const LowRank* matrix : {&model.moving().positions, &model.moving().transfer->matrix}) {
         bytes += matrix->mean.size_bytes();
         for (const StoredValues& component : matrix->components) bytes += component.size_bytes();
     }
@@ -118,9 +119,9 @@ size_t bytes_of_values(const Model& model) {
     return bytes;
 }
 
-size_t num_values(const Model& model) {
+size_t num_values(const Asset& model) {
     size_t count = 0;
-    for (const LowRankMatrix* matrix : {&model.geometry, &model.transfer}) {
+    for (const LowRank* matrix : {&model.moving().positions, &model.moving().transfer->matrix}) {
         count += matrix->num_rows() * (1 + size_t{matrix->num_components});
     }
     for (const StoredValues& values : model.clusters.coefficients) count += values.size();
@@ -178,7 +179,7 @@ void keep_memory(Memory memory) {
 //   bits_per_value     of the file
 void load(benchmark::State& state, const fs::path& path) {
     const ThreadLimit limit(1);
-    const Model model = read_paim(path);
+    const Asset model = read_paim(path);
     const auto decoded_bytes = static_cast<double>(bytes_of_values(model));
     const auto count = static_cast<double>(num_values(model));
     BareFrames frames(path);

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "paim/base/seed.h"
-#include "paim/codec/svd_decoder.h"
+#include "paim/codec/mesh_decoder.h"
 #include "paim/sh/basis.h"
 #include "paim/shade/shade.h"
 
@@ -20,8 +20,8 @@ void fill(std::vector<float>& values, size_t count) {
     for (float& value : values) value = static_cast<float>(random.uniform()) - 0.5f;
 }
 
-LowRankMatrix random_matrix(uint32_t num_vertices, uint32_t num_planes, uint32_t num_components) {
-    LowRankMatrix matrix;
+LowRank random_matrix(uint32_t num_vertices, uint32_t num_planes, uint32_t num_components) {
+    LowRank matrix;
     matrix.num_points = num_vertices;
     matrix.num_planes = num_planes;
     matrix.num_poses = 50;
@@ -44,11 +44,11 @@ void per_item(benchmark::State& state, const char* name, double num_items) {
 }
 
 void decode(benchmark::State& state, uint32_t num_vertices, uint32_t num_components) {
-    Model model;
-    model.topology.num_vertices = num_vertices;
-    model.layout = {TransferKind::diffuse, kBands, 1};
-    model.geometry = random_matrix(num_vertices, 3, num_components);
-    model.transfer = random_matrix(num_vertices, model.layout.num_planes(), num_components);
+    Asset model;
+    model.moving().topology.num_vertices = num_vertices;
+    model.moving().layout = {TransferKind::diffuse, kBands, 1};
+    model.moving().positions = random_matrix(num_vertices, 3, num_components);
+    model.moving().transfer->matrix = random_matrix(num_vertices, model.moving().layout.num_planes(), num_components);
     const SvdDecoder decoder(model);
     DecodedPose pose;
     double time = 0.0;

@@ -6,7 +6,8 @@
 #include <algorithm>
 
 #include "paim/format/bake/bake_directory.h"
-#include "paim/format/paim/paim_file.h"
+#include "paim/format/paim/paim_read.h"
+#include "paim/format/paim/paim_write.h"
 #include "paim/metrics/singular_value_error.h"
 
 namespace paim {
@@ -15,7 +16,7 @@ using nlohmann::ordered_json;
 
 namespace {
 
-ordered_json describe_part(const LowRankMatrix& matrix) {
+ordered_json describe_part(const LowRank& matrix) {
     ordered_json json;
     json["components"] = matrix.num_components;
     json["precision"] = precision_name(matrix.precision);
@@ -29,22 +30,22 @@ ordered_json describe_part(const LowRankMatrix& matrix) {
 }
 
 ordered_json describe_paim(const std::filesystem::path& path) {
-    const Model model = read_paim(path);
+    const Asset model = read_paim(path);
     ordered_json json;
     json["file"] = path.string();
     json["kind"] = "paim";
     json["name"] = model.name;
     json["size_bytes"] = std::filesystem::file_size(path);
-    json["num_vertices"] = model.topology.num_vertices;
-    json["num_triangles"] = model.topology.triangles.size();
+    json["num_vertices"] = model.moving().topology.num_vertices;
+    json["num_triangles"] = model.moving().topology.triangles.size();
     json["num_poses"] = model.num_poses();
     json["frames_per_second"] = model.frames_per_second;
-    json["bands"] = model.layout.bands;
-    json["channels"] = model.layout.channels;
+    json["bands"] = model.moving().layout.in_bands;
+    json["channels"] = model.moving().layout.channels;
     json["origin"] = {model.origin.x(), model.origin.y(), model.origin.z()};
-    json["albedo"] = model.albedo.values.size() == 1 ? "uniform" : "per vertex";
+    json["albedo"] = model.moving().albedo.values.size() == 1 ? "uniform" : "per vertex";
     const double per_pose =
-        static_cast<double>(model.topology.num_vertices) * static_cast<double>(model.num_poses());
+        static_cast<double>(model.moving().topology.num_vertices) * static_cast<double>(model.num_poses());
     json["bits_per_vertex_per_pose"] =
         per_pose > 0.0 ? 8.0 * json["size_bytes"].get<double>() / per_pose : 0.0;
     if (!model.scenery.empty()) {
@@ -57,8 +58,8 @@ ordered_json describe_paim(const std::filesystem::path& path) {
         json["clusters"] = model.clusters.num_clusters;
         json["cluster_components"] = model.clusters.num_components;
     }
-    json["geometry"] = describe_part(model.geometry);
-    json["transfer"] = describe_part(model.transfer);
+    json["geometry"] = describe_part(model.moving().positions);
+    json["transfer"] = describe_part(model.moving().transfer->matrix);
     json["provenance"] = ordered_json::parse(model.provenance_json);
     return json;
 }
@@ -75,7 +76,7 @@ ordered_json describe_bake(const std::filesystem::path& path) {
     json["num_poses"] = bake.num_poses();
     json["first_pose"] = identity.poses.front().name;
     json["last_pose"] = identity.poses.back().name;
-    json["bands"] = identity.layout.bands;
+    json["bands"] = identity.layout.in_bands;
     json["channels"] = identity.layout.channels;
     json["sampler"] = identity.sampler;
     json["streams"] = identity.streams;

@@ -5,7 +5,8 @@
 
 #include <optional>
 
-#include "paim/format/paim/paim_file.h"
+#include "paim/format/paim/paim_read.h"
+#include "paim/format/paim/paim_write.h"
 #include "paim/format/paim/prefixes.h"
 #include "paim/metrics/prefix_error.h"
 
@@ -18,7 +19,7 @@ namespace {
 // Long lists are thinned out to so many rows, the first and the last among them.
 constexpr size_t kMaxRows = 20;
 
-std::optional<ErrorStatement> find_statement(const Model& model,
+std::optional<ErrorStatement> find_statement(const Asset& model,
                                              const std::filesystem::path& path) {
     if (!ordered_json::parse(model.provenance_json).contains("measured")) return {};
     return read_error_statement(model, path);
@@ -27,7 +28,7 @@ std::optional<ErrorStatement> find_statement(const Model& model,
 }  // namespace
 
 ordered_json describe_prefixes(const std::filesystem::path& path) {
-    const Model model = read_paim(path);
+    const Asset model = read_paim(path);
     const PrefixErrors errors = prefix_errors(model, find_statement(model, path));
     const uint64_t size_bytes = std::filesystem::file_size(path);
     ordered_json json;
@@ -39,8 +40,8 @@ ordered_json describe_prefixes(const std::filesystem::path& path) {
     json["prefixes"] = ordered_json::array();
     for (const Prefix& prefix : read_prefixes(path)) {
         // A table may have sections that META does not count.
-        const auto kg = std::min(prefix.geometry_components, model.geometry.num_components);
-        const auto kt = std::min(prefix.transfer_components, model.transfer.num_components);
+        const auto kg = std::min(prefix.geometry_components, model.moving().positions.num_components);
+        const auto kt = std::min(prefix.transfer_components, model.moving().transfer->matrix.num_components);
         json["prefixes"].push_back({{"size_bytes", prefix.size_bytes},
                                     {"share_of_file", static_cast<double>(prefix.size_bytes) /
                                                           static_cast<double>(size_bytes)},

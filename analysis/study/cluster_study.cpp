@@ -133,7 +133,7 @@ void run(const std::vector<std::string>& words) {
     } else {
         bake = std::make_unique<BakeReader>(words[0]);
         const TransferLayout& layout = bake->identity().layout;
-        rows = std::make_unique<TransferRows>(*bake, layout.bands);
+        rows = std::make_unique<TransferRows>(*bake, layout.in_bands);
         points = std::make_unique<RowPlanes>(*rows, static_cast<uint32_t>(layout.num_planes()));
     }
     const double total = sum_of_squares(*points);

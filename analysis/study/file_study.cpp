@@ -12,7 +12,8 @@
 #include "paim/base/file.h"
 #include "paim/cli/parse.h"
 #include "paim/cli/run_main.h"
-#include "paim/format/paim/paim_file.h"
+#include "paim/format/paim/paim_read.h"
+#include "paim/format/paim/paim_write.h"
 #include "paim/metrics/rates.h"
 
 namespace {
@@ -40,9 +41,9 @@ class Study {
         options.memory_bytes = 4'000'000'000;
         EncodeTarget target = setting.target;
         target.transfer_error = error;
-        target.spectrum = BandPower::flat(bake_.identity().layout.bands);
+        target.spectrum = BandPower::flat(bake_.identity().layout.in_bands);
         const TargetSummary summary = encode_to_target(bake_, options, target, file_);
-        const ModelError measured = measure_model(read_paim(file_), bake_, target.spectrum);
+        const AssetError measured = measure_asset(read_paim(file_), bake_, target.spectrum);
         const Candidate& chosen = summary.chosen();
         const std::string clusters =
             chosen.clusters == 0 ? ""

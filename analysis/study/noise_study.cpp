@@ -45,7 +45,7 @@ double expected_error(const Case& c, Index num_components, const MatrixXf& appro
     const MatrixXd kept = orthonormal_pose_space(
         {weights.data(), static_cast<size_t>(weights.size())}, static_cast<uint32_t>(poses));
     TransferErrorMeter meter(c.layout, static_cast<uint32_t>(vertices),
-                             static_cast<uint32_t>(poses), BandPower::flat(c.layout.bands), kept);
+                             static_cast<uint32_t>(poses), BandPower::flat(c.layout.in_bands), kept);
     for (uint32_t plane = 0; plane < c.layout.num_planes(); ++plane) {
         const Index first = static_cast<Index>(plane) * vertices;
         meter.add(plane, c.baked.transfer.middleRows(first, vertices),

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "compressor/encode/data/bake_rows.h"
-#include "compressor/encode/data/playable_scenery.h"
+#include "compressor/encode/data/still_part.h"
 #include "compressor/encode/data/provenance.h"
 #include "compressor/encode/memory/memory_plan.h"
 #include "compressor/encode/noise/component_noise.h"
@@ -15,7 +15,8 @@
 #include "compressor/encode/state_errors.h"
 #include "compressor/encode/svd/principal_components.h"
 #include "paim/base/file.h"
-#include "paim/format/paim/paim_file.h"
+#include "paim/codec/svd/svd_transfer.h"
+#include "paim/format/paim/paim_write.h"
 #include "paim/metrics/singular_value_error.h"
 
 namespace paim {
@@ -23,10 +24,10 @@ namespace paim {
 namespace {
 
 // Everything about a part but its mean and components, which are streamed later.
-LowRankMatrix start_matrix(const BakeReader& bake, const RowSource& rows,
+LowRank start_matrix(const BakeReader& bake, const RowSource& rows,
                            const PrincipalComponents& components, uint32_t num_components,
                            const EncodeOptions& options) {
-    LowRankMatrix matrix;
+    LowRank matrix;
     matrix.num_points = bake.identity().num_vertices;
     matrix.num_planes = static_cast<uint32_t>(rows.num_rows() / matrix.num_points);
     matrix.num_poses = bake.num_poses();
@@ -58,7 +59,7 @@ double transfer_energy(const BakeReader& bake, const PoseStatistics& total,
                        const TransferLayout& layout) {
     const std::vector<double>& rms = total.transfer_rms;
     double energy = 0.0;
-    for (size_t l = 0; l < layout.bands; ++l) {
+    for (size_t l = 0; l < layout.in_bands; ++l) {
         energy += static_cast<double>((2 * l + 1) * layout.channels) * rms[l] * rms[l];
     }
     return energy * bake.identity().num_vertices * bake.num_poses();
@@ -75,7 +76,7 @@ std::string provenance(const BakeIdentity& identity, const PoseStatistics& total
 }  // namespace
 
 uint64_t num_rows_to_read(const BakeReader& bake, const EncodeOptions& options) {
-    const uint32_t bands = std::min(options.bands, bake.identity().layout.bands);
+    const uint32_t bands = std::min(options.bands, bake.identity().layout.in_bands);
     return 2 * GeometryRows(bake).num_rows() + 4 * TransferRows(bake, bands).num_rows();
 }
 
@@ -91,26 +92,25 @@ EncodeSummary encode(const BakeReader& bake, const EncodeOptions& options,
         encode_size(bake, options), options.memory_bytes, bake.directory().string());
     remove_abandoned_files(std::filesystem::absolute(output).parent_path(),
                            output.filename().string() + ".");
-    Model model;
-    model.topology = bake.topology();
-    model.albedo = bake.albedo();
-    model.layout = bake.identity().layout;
-    model.layout.bands = std::min(options.bands, model.layout.bands);
-    model.origin = bake.identity().origin;
-    model.frames_per_second = options.frames_per_second;
-    model.name = options.name;
-    model.scenery = playable_scenery(bake, model.layout.bands);
+    Asset asset;
+    asset.origin = bake.identity().origin;
+    asset.frames_per_second = options.frames_per_second;
+    asset.name = options.name;
+    CodedMesh& mesh = asset.moving();
+    mesh.topology = bake.topology();
+    mesh.albedo = bake.albedo();
+    mesh.layout = bake.identity().layout.with_bands(options.bands);
 
     const GeometryRows baked_geometry(bake);
-    const TransferRows baked_transfer(bake, model.layout.bands);
+    const TransferRows baked_transfer(bake, mesh.layout.in_bands);
     const ReportingRows geometry_rows(baked_geometry, on_rows);
-    const TransferRows baked_noise(bake, model.layout.bands, TransferRows::Content::noise);
+    const TransferRows baked_noise(bake, mesh.layout.in_bands, TransferRows::Content::noise);
     const ReportingRows transfer_rows(baked_transfer, on_rows);
     const ReportingRows noise_rows(baked_noise, on_rows);
     const PrincipalComponents geometry = principal_components(geometry_rows, in_flight);
     const PrincipalComponents transfer = principal_components(transfer_rows, in_flight);
     const ComponentNoise noise =
-        measure_component_noise(transfer_rows, noise_rows, model.layout, transfer, in_flight);
+        measure_component_noise(transfer_rows, noise_rows, mesh.layout, transfer, in_flight);
     const Shrinkage shrinkage(noise);
 
     EncodeSummary summary;
@@ -121,7 +121,7 @@ EncodeSummary encode(const BakeReader& bake, const EncodeOptions& options,
         choose_components(options.transfer, noise, options.automatic_transfer_error);
     summary.geometry_rank = geometry.rank();
     summary.transfer_rank = transfer.rank();
-    summary.bands = model.layout.bands;
+    summary.bands = mesh.layout.in_bands;
     summary.geometry_theory_error =
         theory_error(geometry.singular_values, summary.geometry_components);
     summary.transfer_theory_error =
@@ -138,28 +138,31 @@ EncodeSummary encode(const BakeReader& bake, const EncodeOptions& options,
                                    ? shrinkage.expected_error(summary.transfer_components)
                                    : expected_error_unshrunk(noise, summary.transfer_components);
     const PoseStatistics total = bake.total_statistics();
-    if (const double energy = transfer_energy(bake, total, model.layout); energy > 0.0) {
+    if (const double energy = transfer_energy(bake, total, mesh.layout); energy > 0.0) {
         summary.expected_truncation_error = std::sqrt(error.truncation / energy);
         summary.expected_noise_error = std::sqrt(error.noise / energy);
     }
-    model.provenance_json = provenance(bake.identity(), total, summary);
-    model.geometry =
+    asset.provenance_json = provenance(bake.identity(), total, summary);
+    mesh.positions =
         start_matrix(bake, geometry_rows, geometry, summary.geometry_components, options);
-    model.transfer =
-        start_matrix(bake, transfer_rows, transfer, summary.transfer_components, options);
+    mesh.transfer = SvdTransfer(
+        start_matrix(bake, transfer_rows, transfer, summary.transfer_components, options));
+    if (auto still = still_part(bake, mesh.layout.in_bands)) {
+        asset.parts.push_back(std::move(*still));
+    }
 
     if (options.measure) {
-        check_measuring_memory(paim_size_bytes(model), model.topology.num_vertices,
-                               model.num_poses(), bake_size(bake).scenery_bytes,
+        check_measuring_memory(paim_size_bytes(asset), mesh.topology.num_vertices,
+                               asset.num_poses(), bake_size(bake).scenery_bytes,
                                options.memory_bytes, output.string());
     }
-    PaimWriter writer(output, model);
+    PaimWriter writer(output, asset);
     stream(writer, Attribute::geometry, geometry_rows, geometry, summary.geometry_components,
            nullptr, in_flight);
     stream(writer, Attribute::transfer, transfer_rows, transfer, summary.transfer_components,
            summary.shrunk ? &shrinkage : nullptr, in_flight);
     writer.commit();
-    summary.size_bytes = paim_size_bytes(model);
+    summary.size_bytes = paim_size_bytes(asset);
     return summary;
 }
 

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "compressor/encode/noise/rank_selection.h"
-#include "paim/codec/model.h"
+#include "paim/codec/asset.h"
 #include "paim/format/bake/bake_directory.h"
 
 namespace paim {

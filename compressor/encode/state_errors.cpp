@@ -5,7 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "paim/base/error.h"
-#include "paim/format/paim/paim_file.h"
+#include "paim/format/paim/paim_read.h"
+#include "paim/format/paim/paim_write.h"
 
 namespace paim {
 
@@ -44,7 +45,7 @@ void check_measuring_memory(const EncodeSize& bake, const TransferLayout& layout
         return uint64_t{0};
     };
     TransferLayout kept = layout;
-    kept.bands = std::min(options.bands, layout.bands);
+    kept = layout.with_bands(options.bands);
     const uint64_t value = options.precision == Precision::f16 ? 2 : 4;
     const uint64_t of_vertex = 3 * (4 + value * counted(options.geometry, 0)) +
                                kept.num_planes() * (4 + value * counted(options.transfer, most));
@@ -53,17 +54,17 @@ void check_measuring_memory(const EncodeSize& bake, const TransferLayout& layout
                            options.memory_bytes, what);
 }
 
-ModelError state_errors(const std::filesystem::path& file, const BakeReader& bake,
+AssetError state_errors(const std::filesystem::path& file, const BakeReader& bake,
                         const BandPower& spectrum, uint64_t memory_bytes) {
     check_measuring_memory(std::filesystem::file_size(file), bake.identity().num_vertices,
                            bake.num_poses(), bake_size(bake).scenery_bytes, memory_bytes,
                            file.string());
-    Model model = read_paim(file);
-    const ModelError error = measure_model(model, bake, spectrum);
-    auto provenance = nlohmann::ordered_json::parse(model.provenance_json);
+    Asset asset = read_paim(file);
+    const AssetError error = measure_asset(asset, bake, spectrum);
+    auto provenance = nlohmann::ordered_json::parse(asset.provenance_json);
     provenance["measured"] = nlohmann::ordered_json::parse(error_statement_json(error, spectrum));
-    model.provenance_json = provenance.dump();
-    write_paim(file, model);
+    asset.provenance_json = provenance.dump();
+    write_paim(file, asset);
     return error;
 }
 

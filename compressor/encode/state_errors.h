@@ -7,7 +7,7 @@
 
 #include "compressor/encode/memory/memory_plan.h"
 #include "paim/format/bake/bake_directory.h"
-#include "paim/metrics/model_error.h"
+#include "paim/metrics/asset_error.h"
 
 namespace paim {
 
@@ -28,7 +28,7 @@ void check_measuring_memory(const EncodeSize& bake, const TransferLayout& layout
 // Measures the file against the bake that it was just made from and rewrites it, all or nothing, with
 // the errors in its provenance ("measured"). The whole model is in memory meanwhile.
 // Errors: unsupported as check_measuring_memory() (the file stays as it is); output failed.
-ModelError state_errors(const std::filesystem::path& file, const BakeReader& bake,
+AssetError state_errors(const std::filesystem::path& file, const BakeReader& bake,
                         const BandPower& spectrum, uint64_t memory_bytes);
 
 }  // namespace paim

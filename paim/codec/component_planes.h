@@ -5,12 +5,12 @@
 
 #include <cstdint>
 
-#include "paim/codec/model.h"
+#include "paim/codec/asset.h"
 
 namespace paim {
 
-// Plane 0 … 2 of the positions (scene units), or plane (layout.plane(channel, i)) of the transfer.
+// Plane 0 … 2 of the positions (scene units), or plane layout.plane(channel, i) of the transfer.
 // returns [V][P]
-Eigen::MatrixXf decode_plane(const Model& model, Attribute attribute, uint32_t plane);
+Eigen::MatrixXf decode_plane(const CodedMesh& mesh, Attribute attribute, uint32_t plane);
 
 }  // namespace paim

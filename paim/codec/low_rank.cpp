@@ -1,67 +1,101 @@
-// Rebuilding a low-rank matrix.
-// Based on: Cardoso and Kry, Error Analysis of Precomputed Radiance Transfer for Deforming
-//           Geometry, 2012
+// A mean and weighted components: what they bound, and how they are cut short.
 #include "paim/codec/low_rank.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "paim/base/parallel.h"
-#include "paim/codec/accumulate.h"
+#include "paim/base/check.h"
 
 namespace paim {
 
-void interpolate_weights(const LowRankMatrix& matrix, double time, std::vector<float>& weights) {
-    const double last = static_cast<double>(matrix.num_poses) - 1.0;
-    const double clamped = std::clamp(std::isnan(time) ? 0.0 : time, 0.0, last);
-    const auto p = static_cast<size_t>(clamped);
-    const size_t next = std::min(p + 1, size_t{matrix.num_poses} - 1);
-    const auto fraction = static_cast<float>(clamped - static_cast<double>(p));
-    weights.resize(matrix.num_components);
+namespace {
+
+// The largest magnitude of each plane, in steps; a value that is not finite makes it +inf.
+std::vector<double> plane_maxima(const StoredValues& values, uint32_t num_planes,
+                                 uint32_t num_points) {
+    std::vector<double> maxima(num_planes, 0.0);
+    PAIM_CHECK_EQ(values.size(), size_t{num_planes} * num_points);
+    for (uint32_t plane = 0; plane < num_planes; ++plane) {
+        float largest = 0.0f;
+        bool finite = true;
+        values.for_each(size_t{plane} * num_points, num_points, [&](size_t, float value) {
+            finite = finite && std::isfinite(value);
+            largest = std::max(largest, std::abs(value));
+        });
+        maxima[plane] = finite ? double{largest} : HUGE_VAL;
+    }
+    return maxima;
+}
+
+// Without looking at values that their type already bounds.
+std::vector<double> type_maxima(const StoredValues& values, uint32_t num_planes,
+                                uint32_t num_points) {
+    if (values.holds_floats()) return plane_maxima(values, num_planes, num_points);
+    return std::vector<double>(num_planes,
+                               largest_integer(values.holds_i8() ? Precision::i8 : Precision::i16));
+}
+
+using Maxima = std::vector<double> (*)(const StoredValues&, uint32_t, uint32_t);
+
+std::vector<double> bounds_of(const LowRank& matrix, Maxima maxima_of) {
+    std::vector<double> bounds = maxima_of(matrix.mean, matrix.num_planes, matrix.num_points);
     for (uint32_t k = 0; k < matrix.num_components; ++k) {
-        const float* row = matrix.weights.data() + size_t{k} * matrix.num_poses;
-        weights[k] = row[p] + fraction * (row[next] - row[p]);
+        double weight = 0.0;
+        for (uint32_t p = 0; p < matrix.num_poses; ++p) {
+            weight = std::max(
+                weight, std::abs(double{matrix.weights[size_t{k} * matrix.num_poses + p]}));
+        }
+        const std::vector<double> maxima =
+            maxima_of(matrix.components[k], matrix.num_planes, matrix.num_points);
+        for (uint32_t j = 0; j < matrix.num_planes; ++j) bounds[j] += weight * maxima[j];
     }
+    for (uint32_t j = 0; j < matrix.num_planes; ++j) bounds[j] *= double{matrix.step(j)};
+    return bounds;
 }
 
-void rebuild_planes(const LowRankMatrix& matrix, std::span<const uint32_t> planes,
-                    std::span<const float> weights, uint32_t num_components,
-                    std::vector<float>& out) {
-    // Long enough that components are read in long runs, and short enough that all threads have
-    // something to do even of three planes.
-    constexpr size_t kPoints = 8192;
-    const size_t num_points = matrix.num_points;
-    const size_t num_pieces = (num_points + kPoints - 1) / kPoints;
-    out.resize(planes.size() * num_points);
-    const std::span components = std::span(matrix.components).first(num_components);
-    parallel_for(planes.size() * num_pieces, 1, [&](size_t task, size_t) {
-        const size_t j = task / num_pieces;
-        const size_t first = task % num_pieces * kPoints;
-        const size_t count = std::min(kPoints, num_points - first);
-        accumulate(matrix.mean, components, weights.first(num_components), matrix.step(planes[j]),
-                   planes[j] * num_points + first,
-                   std::span(out).subspan(j * num_points + first, count));
-    });
+}  // namespace
+
+LowRank LowRank::still(uint32_t num_planes, StoredValues values, std::vector<float> steps) {
+    PAIM_CHECK(num_planes > 0);
+    PAIM_CHECK_EQ(values.size() % num_planes, size_t{0});
+    LowRank matrix;
+    matrix.num_points = static_cast<uint32_t>(values.size() / num_planes);
+    matrix.num_planes = num_planes;
+    matrix.num_poses = 1;
+    matrix.precision = values.holds_floats() ? Precision::f32
+                       : values.holds_i8()   ? Precision::i8
+                                             : Precision::i16;
+    matrix.mean = std::move(values);
+    matrix.steps = std::move(steps);
+    return matrix;
 }
 
-Eigen::MatrixXf rebuild_sequence(const LowRankMatrix& matrix, uint32_t plane) {
-    using Eigen::Index;
-    const auto num_points = static_cast<Index>(matrix.num_points);
-    const auto num_components = static_cast<Index>(matrix.num_components);
-    const size_t first_row = plane * size_t{matrix.num_points};
-    Eigen::VectorXf mean(num_points);
-    matrix.mean.widen(first_row, std::span(mean.data(), matrix.num_points));
-    Eigen::MatrixXf components(num_points, num_components);
-    for (Index k = 0; k < num_components; ++k) {
-        matrix.components[static_cast<size_t>(k)].widen(
-            first_row, std::span(components.col(k).data(), matrix.num_points));
+std::vector<float> LowRank::mean_floats() const {
+    std::vector<float> result(mean.size());
+    mean.widen(0, result);
+    if (steps.empty()) return result;
+    for (size_t j = 0; j < result.size(); ++j) result[j] *= steps[j / num_points];
+    return result;
+}
+
+void LowRank::keep_components(uint32_t count) {
+    if (count >= num_components) return;
+    num_components = count;
+    components.resize(std::min<size_t>(components.size(), count));
+    weights.resize(size_t{count} * num_poses);
+    if (!weight_steps.empty()) weight_steps.resize(count);
+    if (!singular_indices.empty()) singular_indices.resize(count);
+}
+
+std::vector<double> magnitude_bounds(const LowRank& matrix) {
+    // Integers are bounded by their type nearly always; only what that does not settle is looked at.
+    constexpr double kSafe = 1e37;
+    std::vector<double> bounds = bounds_of(matrix, type_maxima);
+    if (std::all_of(bounds.begin(), bounds.end(), [](double b) { return b <= kSafe; })) {
+        return bounds;
     }
-    using Weights = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-    const Eigen::Map<const Weights> weights(matrix.weights.data(), num_components,
-                                            static_cast<Index>(matrix.num_poses));
-    Eigen::MatrixXf sequence = components * weights;
-    sequence.colwise() += mean;
-    return sequence * matrix.step(plane);
+    return bounds_of(matrix, plane_maxima);
 }
 
 }  // namespace paim

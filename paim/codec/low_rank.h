@@ -1,30 +1,66 @@
-// Rebuilding a low-rank matrix: mean + components · weights, for one pose or for all of them (E4).
+// A data matrix of an animation, stored as a mean and weighted components.
 // Based on: Cardoso and Kry, Error Analysis of Precomputed Radiance Transfer for Deforming
 //           Geometry, 2012
 #pragma once
 
-#include <Eigen/Core>
-
 #include <cstdint>
-#include <span>
 #include <vector>
 
-#include "paim/codec/model.h"
+#include "paim/codec/stored_values.h"
 
 namespace paim {
 
-// The weights of all components at `time` (in poses, clamped to 0 … P−1), linearly interpolated.
-// weights [K]
-void interpolate_weights(const LowRankMatrix& matrix, double time, std::vector<float>& weights);
+// Column p of the matrix is pose p (E3, E4):
+//   mean + Σ_k weights[k][p] · components[k].
+// Rows are plane-major: row = plane · N + n. A point n is a vertex, or whatever else a codec rebuilds
+// vertices from.
+//
+// Floats: components have unit RMS (|component_k|² = rows) before noise is taken out of them, so that
+// half floats hold them well, and the weights carry the singular value. Integers: values are multiples
+// of their plane's step, and weights have about unit RMS, so that one step costs about the same error
+// in every component.
+struct LowRank {
+    uint32_t num_points = 0;
+    uint32_t num_planes = 0;
+    uint32_t num_poses = 0;
+    uint32_t num_components = 0;
+    Precision precision = Precision::f32;  // widest type in the section; a plane may be narrower
+    std::vector<float> steps;              // [planes], of integers; floats: empty, 1 each
+    StoredValues mean;                     // [planes][N], in steps
+    std::vector<StoredValues> components;  // [K] of [planes][N], in steps
+    std::vector<float> weights;            // [K][P]
+    // [K] weights of component k are integer multiples of this; empty: floats as they are.
+    std::vector<float> weight_steps;
+    std::vector<double> singular_values;  // [rank of the full matrix], descending, unshrunk
+    // [K] which singular value each component has, ascending; empty: component k has the k-th.
+    // Values are skipped where quantisation rounded a whole component to zero.
+    std::vector<uint32_t> singular_indices;
 
-// out[j][N] = plane planes[j] of mean + Σ_k weights[k] · component k, steps applied, with the first
-// num_components components. The same numbers in the same order give the same bytes, whatever was
-// rebuilt before and on any number of threads.
-void rebuild_planes(const LowRankMatrix& matrix, std::span<const uint32_t> planes,
-                    std::span<const float> weights, uint32_t num_components,
-                    std::vector<float>& out);
+    uint32_t singular_index(uint32_t k) const {
+        return singular_indices.empty() ? k : singular_indices[k];
+    }
+    size_t num_rows() const { return size_t{num_planes} * num_points; }
+    float step(uint32_t plane) const { return steps.empty() ? 1.0f : steps[plane]; }
+    bool holds_floats() const { return mean.holds_floats(); }
 
-// One plane in all poses. returns [N][P]
-Eigen::MatrixXf rebuild_sequence(const LowRankMatrix& matrix, uint32_t plane);
+    // Something that stands still: a mean without components, in one pose.
+    // values  [planes][N], in steps
+    // steps   [planes], of integers; empty for floats
+    static LowRank still(uint32_t num_planes, StoredValues values, std::vector<float> steps = {});
+
+    // The first num_planes · num_points values of the mean, steps applied. [planes][N]
+    std::vector<float> mean_floats() const;
+
+    // Drops all components from number `count` on.
+    void keep_components(uint32_t count);
+
+    bool operator==(const LowRank&) const = default;
+};
+
+// An upper bound of |mean + Σ_k w_k · component_k| over all points, all poses and the moments between
+// them, and every number of components; +inf where floats overflow. No partial sum of a decoder is
+// larger than this by more than rounding.
+// returns [planes]
+std::vector<double> magnitude_bounds(const LowRank& matrix);
 
 }  // namespace paim

@@ -1,4 +1,4 @@
-// The inner loops of decoding, once for every vector unit. For accumulate.cpp and row_table.cpp.
+// The inner loops of decoding, once for every vector unit. For accumulate.cpp and basis_table.cpp.
 #pragma once
 
 #include <array>

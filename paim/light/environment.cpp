@@ -71,7 +71,7 @@ EnvironmentLight::EnvironmentLight(Image image) : image_(std::move(image)) {
     check_radiance(image_);
 }
 
-LightCoefficients EnvironmentLight::coefficients(const Vec3f& /*position*/, int bands) const {
+LightCoefficients EnvironmentLight::coefficients(int bands) const {
     return project_latlong(image_, bands);
 }
 

@@ -23,7 +23,7 @@ std::pair<double, double> latlong_from_direction(const Vec3d& direction);
 // sh::kMaxBands
 LightCoefficients project_latlong(const Image& image, int bands);
 
-class EnvironmentLight : public Light {
+class EnvironmentLight : public LightField {
   public:
     // Throws Error(bad input), naming the pixel, if the image is empty, has a value that is not
     // finite, or values below zero that sum to more than 5 % of those above. Smaller ones, which
@@ -32,8 +32,11 @@ class EnvironmentLight : public Light {
     explicit EnvironmentLight(Image image);
 
     const Image& image() const { return image_; }
-    // Projects the image anew at each call.
-    LightCoefficients coefficients(const Vec3f& position, int bands) const override;
+    // Projects the image again at each call. bands  1 … sh::kMaxBands
+    LightCoefficients coefficients(int bands) const;
+    LightCoefficients at(const Vec3f& /*place*/, int bands) const override {
+        return coefficients(bands);
+    }
 
     // Radiance from a direction (bilinear, wrapping in longitude).
     Vec3f radiance(const Vec3d& direction) const;

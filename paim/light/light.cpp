@@ -1,12 +1,26 @@
-// Turning a light's coefficients.
+// Light at a place, and turning it.
 #include "paim/light/light.h"
 
 #include <Eigen/Geometry>
+
+#include <utility>
 
 #include "paim/base/check.h"
 #include "paim/sh/rotate.h"
 
 namespace paim {
+
+DistantLight::DistantLight(LightCoefficients coefficients)
+    : coefficients_(std::move(coefficients)) {
+    PAIM_CHECK_EQ(coefficients_.values.size(),
+                  static_cast<size_t>(sh::num_coefficients(coefficients_.bands)));
+}
+
+LightCoefficients DistantLight::at(const Vec3f& /*place*/, int bands) const {
+    LightCoefficients first{bands, coefficients_.values};
+    first.values.resize(static_cast<size_t>(sh::num_coefficients(bands)), Vec3f::Zero());
+    return first;
+}
 
 LightCoefficients turn_about_y(const LightCoefficients& light, double angle_rad) {
     PAIM_CHECK_EQ(light.values.size(), static_cast<size_t>(sh::num_coefficients(light.bands)));

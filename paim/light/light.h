@@ -1,5 +1,4 @@
-// A light as the shading sees it: RGB spherical-harmonic coefficients of incident radiance at a
-// place.
+// Light as the shading sees it: RGB spherical-harmonic coefficients of incident radiance at a place.
 #pragma once
 
 #include <vector>
@@ -15,13 +14,25 @@ struct LightCoefficients {
     std::vector<Vec3f> values;  // [bands²]
 };
 
-class Light {
+// Light that may differ from place to place.
+class LightField {
   public:
-    virtual ~Light() = default;
+    virtual ~LightField() = default;
 
-    // Incident radiance at the position (scene units). Lights at infinity ignore the position.
-    // bands 1 … sh::kMaxBands
-    virtual LightCoefficients coefficients(const Vec3f& position, int bands) const = 0;
+    // Incident radiance at a place (scene units). bands  1 … sh::kMaxBands
+    virtual LightCoefficients at(const Vec3f& place, int bands) const = 0;
+};
+
+// Light from infinitely far away: the same at every place.
+class DistantLight : public LightField {
+  public:
+    explicit DistantLight(LightCoefficients coefficients);
+
+    // The first bands; those that it does not have are zero.
+    LightCoefficients at(const Vec3f& place, int bands) const override;
+
+  private:
+    LightCoefficients coefficients_;
 };
 
 // Coefficients of the light turned about +Y by the angle, counter-clockwise seen from above (what

@@ -26,7 +26,7 @@ EnvironmentLight read_light(const std::filesystem::path& path) {
 
 BandPower measured(const std::filesystem::path& path) {
     const LightCoefficients light =
-        read_light(path).coefficients(Vec3f::Zero(), static_cast<int>(sh::kMaxBands));
+        read_light(path).coefficients(static_cast<int>(sh::kMaxBands));
     BandPower spectrum{path.filename().string(), {}, 0.0};
     for (int l = 0; l < sh::kMaxBands; ++l) {
         double sum = 0.0;

@@ -16,25 +16,8 @@ using Eigen::MatrixXd;
 
 namespace {
 
-// What squares of values of a cluster's rows come to over its vertices: Σ_v a_v a_vᵀ, a_v the numbers
-// by which vertex v multiplies the rows. [clusters] of [rows][rows]
-std::vector<MatrixXd> cluster_metrics(const VertexClusters& clusters) {
-    const uint32_t num_rows = clusters.rows_per_cluster();
-    std::vector<MatrixXd> metrics(clusters.num_clusters, MatrixXd::Zero(num_rows, num_rows));
-    Eigen::VectorXd factors(num_rows);
-    for (size_t v = 0; v < clusters.cluster.size(); ++v) {
-        const uint32_t c = clusters.cluster[v];
-        for (uint32_t row = 0; row < num_rows; ++row) {
-            const float coefficient = row == 0 ? 1.0f : clusters.coefficients[row - 1][v];
-            factors(row) = double{coefficient} * double{clusters.scales[c * num_rows + row]};
-        }
-        metrics[c].noalias() += factors * factors.transpose();
-    }
-    return metrics;
-}
-
 // Values `first` … first + rows of the mean and of every component, in steps.
-void gather(const LowRankMatrix& matrix, size_t first, MatrixXd& values) {
+void gather(const LowRank& matrix, size_t first, MatrixXd& values) {
     const auto fill = [&](const StoredValues& from, Index column) {
         from.for_each(first, static_cast<size_t>(values.rows()), [&](size_t j, float value) {
             values(static_cast<Index>(j - first), column) = double{value};
@@ -46,7 +29,7 @@ void gather(const LowRankMatrix& matrix, size_t first, MatrixXd& values) {
 
 // Products of the mean and the components with each other in one plane, in steps.
 // metrics  of runs of points; empty: each point counts for itself
-MatrixXd plane_gram(const LowRankMatrix& matrix, uint32_t plane,
+MatrixXd plane_gram(const LowRank& matrix, uint32_t plane,
                     const std::vector<MatrixXd>& metrics) {
     const Index num_columns = 1 + Index{matrix.num_components};
     MatrixXd gram = MatrixXd::Zero(num_columns, num_columns);
@@ -86,13 +69,13 @@ std::vector<double> add_in_squares(double whole, const std::vector<double>& drop
 
 }  // namespace
 
-ComponentEnergy component_energy(const Model& model, Attribute attribute,
+ComponentEnergy component_energy(const CodedMesh& mesh, Attribute attribute,
                                  const std::vector<double>& plane_weight) {
-    const LowRankMatrix& matrix = model.attribute(attribute);
+    const LowRank& matrix = mesh.attribute(attribute);
     PAIM_CHECK_EQ(plane_weight.size(), size_t{matrix.num_planes});
-    const bool clustered = attribute == Attribute::transfer && !model.clusters.empty();
-    const std::vector<MatrixXd> metrics =
-        clustered ? cluster_metrics(model.clusters) : std::vector<MatrixXd>{};
+    const std::vector<MatrixXd> metrics = attribute == Attribute::transfer
+                                              ? mesh.transfer->point_metrics()
+                                              : std::vector<MatrixXd>{};
     std::vector<MatrixXd> planes(matrix.num_planes);
     parallel_for(planes.size(), 1, [&](size_t j, size_t) {
         const auto plane = static_cast<uint32_t>(j);
@@ -124,27 +107,27 @@ ComponentEnergy component_energy(const Model& model, Attribute attribute,
     return result;
 }
 
-PrefixErrors prefix_errors(const Model& model, const std::optional<ErrorStatement>& statement) {
+PrefixErrors prefix_errors(const CodedMesh& mesh, const std::optional<ErrorStatement>& statement) {
     const ErrorStatement whole = statement.value_or(ErrorStatement{});
     const bool named = whole.band_power == "flat" || whole.band_power == "natural";
     const std::optional<double> transfer_error =
         named ? stated(whole, "transfer_total_error") : std::nullopt;
     const std::optional<double> position_rms = stated(whole, "position_rms");
 
-    const TransferLayout& layout = model.layout;
-    const BandPower spectrum = parse_band_power(named ? whole.band_power : "flat", layout.bands);
+    const TransferLayout& layout = mesh.layout;
+    const BandPower spectrum = parse_band_power(named ? whole.band_power : "flat", layout.in_bands);
     std::vector<double> weights(layout.num_planes());
     for (uint32_t plane = 0; plane < layout.num_planes(); ++plane) {
-        weights[plane] = spectrum.weight(layout.band_of_plane(plane));
+        weights[plane] = spectrum.weight(layout.input_band(plane));
     }
-    const ComponentEnergy transfer = component_energy(model, Attribute::transfer, weights);
+    const ComponentEnergy transfer = component_energy(mesh, Attribute::transfer, weights);
     // The bake's norm: what was decoded of it and what was not are orthogonal.
     const double deviation =
         transfer_error ? stated(whole, "transfer_deviation").value_or(0.0) : 0.0;
     const double share = deviation < 1.0 ? 1.0 - deviation * deviation : 1.0;
-    const ComponentEnergy geometry = component_energy(model, Attribute::geometry, {1.0, 1.0, 1.0});
+    const ComponentEnergy geometry = component_energy(mesh, Attribute::geometry, {1.0, 1.0, 1.0});
     const double num_positions =
-        static_cast<double>(model.topology.num_vertices) * static_cast<double>(model.num_poses());
+        static_cast<double>(mesh.topology.num_vertices) * static_cast<double>(mesh.num_poses());
     return {
         spectrum.name,
         add_in_squares(transfer_error.value_or(0.0), transfer.dropped, transfer.decoded / share),

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "paim/codec/model.h"
+#include "paim/codec/asset.h"
 #include "paim/metrics/band_power.h"
-#include "paim/metrics/model_error.h"
+#include "paim/metrics/asset_error.h"
 
 namespace paim {
 
@@ -19,7 +19,7 @@ struct ComponentEnergy {
 };
 
 // plane_weight [planes] of squares
-ComponentEnergy component_energy(const Model& model, Attribute attribute,
+ComponentEnergy component_energy(const CodedMesh& mesh, Attribute attribute,
                                  const std::vector<double>& plane_weight);
 
 // Errors with the first k components, k = 0 … K. What is stated of the whole file and what the
@@ -35,6 +35,6 @@ struct PrefixErrors {
 
 // statement  of the model's file, if there is one. Its transfer counts under the light spectra that
 //            have names; errors under a map are taken for not stated. Not stated: `flat`.
-PrefixErrors prefix_errors(const Model& model, const std::optional<ErrorStatement>& statement);
+PrefixErrors prefix_errors(const CodedMesh& mesh, const std::optional<ErrorStatement>& statement);
 
 }  // namespace paim

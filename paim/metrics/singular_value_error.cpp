@@ -44,7 +44,7 @@ auto first_ones(size_t num_components) {
     return [num_components](size_t k) { return k < num_components; };
 }
 
-auto those_of(const LowRankMatrix& matrix) {
+auto those_of(const LowRank& matrix) {
     std::vector<bool> kept(matrix.singular_values.size(), false);
     for (uint32_t k = 0; k < matrix.num_components; ++k) {
         PAIM_CHECK_LT(size_t{matrix.singular_index(k)}, kept.size());
@@ -63,11 +63,11 @@ double energy_error(std::span<const double> singular_values, size_t num_componen
     return energy_error_of(singular_values, first_ones(num_components));
 }
 
-double theory_error(const LowRankMatrix& matrix) {
+double theory_error(const LowRank& matrix) {
     return theory_error_of(matrix.singular_values, those_of(matrix));
 }
 
-double energy_error(const LowRankMatrix& matrix) {
+double energy_error(const LowRank& matrix) {
     return energy_error_of(matrix.singular_values, those_of(matrix));
 }
 

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <span>
 
-#include "paim/codec/model.h"
+#include "paim/codec/rebuild_planes.h"
 
 namespace paim {
 
@@ -19,7 +19,7 @@ double theory_error(std::span<const double> singular_values, size_t num_componen
 double energy_error(std::span<const double> singular_values, size_t num_components);
 
 // The same of the components that a matrix has, which may not be the first ones.
-double theory_error(const LowRankMatrix& matrix);
-double energy_error(const LowRankMatrix& matrix);
+double theory_error(const LowRank& matrix);
+double energy_error(const LowRank& matrix);
 
 }  // namespace paim

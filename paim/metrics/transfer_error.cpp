@@ -60,12 +60,12 @@ TransferErrorMeter::TransferErrorMeter(const TransferLayout& layout, uint32_t nu
       spectrum_(std::move(spectrum)),
       kept_(std::move(kept)),
       added_(layout.num_planes(), false),
-      energy_(layout.bands),
+      energy_(layout.in_bands),
       vertex_deviation_(num_vertices, 0.0),
       pose_deviation_(VectorXd::Zero(num_poses_)) {
     PAIM_CHECK_LE(1u, num_vertices);
     PAIM_CHECK_LE(1u, num_poses);
-    PAIM_CHECK_LE(1u, layout.bands);
+    PAIM_CHECK_LE(1u, layout.in_bands);
     PAIM_CHECK_EQ(kept_.rows(), num_poses_);
     PAIM_CHECK(kept_.cols() >= 1 && kept_.cols() <= num_poses_);
     // To far less than any error that is measured.
@@ -74,7 +74,7 @@ TransferErrorMeter::TransferErrorMeter(const TransferLayout& layout, uint32_t nu
     const MatrixXd identity = MatrixXd::Identity(kept_.cols(), kept_.cols());
     PAIM_CHECK_LT((kept_.col(0) - constant).cwiseAbs().maxCoeff(), kRounding);
     PAIM_CHECK_LT((kept_.transpose() * kept_ - identity).cwiseAbs().maxCoeff(), kRounding);
-    factors_.assign(layout.bands, zero_factors());
+    factors_.assign(layout.in_bands, zero_factors());
 }
 
 TransferErrorMeter::ScaledFactors TransferErrorMeter::zero_factors() const {
@@ -133,7 +133,7 @@ void TransferErrorMeter::add(uint32_t plane, const Plane& baked, const Plane& no
         PAIM_CHECK_EQ(values->cols(), num_poses_);
     }
     added_[plane] = true;
-    const uint32_t band = layout_.band_of_plane(plane);
+    const uint32_t band = layout_.input_band(plane);
     const double weight = spectrum_.weight(band);
     const Index num_blocks = (num_vertices_ + kRowsAtOnce - 1) / kRowsAtOnce;
     for (Index round = 0; round < num_blocks; round += kBlocksAtOnce) {
@@ -160,7 +160,7 @@ TransferError TransferErrorMeter::result() const {
     result.bands = energy_;
     double baked = 0.0, noise = 0.0, deviation = 0.0, expected = 0.0;
     std::vector<double> true_energy;
-    for (uint32_t l = 0; l < layout_.bands; ++l) {
+    for (uint32_t l = 0; l < layout_.in_bands; ++l) {
         TransferBandEnergy& band = result.bands[l];
         const ScaledFactors& scores = factors_[l];
         for (Index j = 0; j < scores.baked.size(); ++j) {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "paim/codec/model.h"
+#include "paim/codec/asset.h"
 
 namespace paim {
 

@@ -1,7 +1,6 @@
 // Reference shading on the CPU.
 // Based on: Sloan, Kautz and Snyder, Precomputed Radiance Transfer for Real-Time Rendering in
-// Dynamic,
-//           Low-Frequency Lighting Environments, 2002
+//           Dynamic, Low-Frequency Lighting Environments, 2002
 #include "paim/shade/shade.h"
 
 #include <algorithm>
@@ -13,11 +12,13 @@ namespace paim {
 void shade(const TransferLayout& layout, std::span<const float> transfer, const Albedo& albedo,
            const LightCoefficients& light, std::vector<Vec3f>& radiance) {
     PAIM_CHECK(layout.channels == 1 || layout.channels == 3);
+    PAIM_CHECK_EQ(layout.out_bands, 1u);
     PAIM_CHECK_EQ(transfer.size() % layout.num_planes(), size_t{0});
     const size_t num_vertices = transfer.size() / layout.num_planes();
-    const uint32_t bands = std::min(layout.bands, static_cast<uint32_t>(light.bands));
+    const auto num_coefficients = std::min<uint32_t>(
+        layout.num_coefficients(), static_cast<uint32_t>(sh::num_coefficients(light.bands)));
     radiance.assign(num_vertices, Vec3f::Zero());
-    for (uint32_t i = 0; i < bands * bands; ++i) {
+    for (uint32_t i = 0; i < num_coefficients; ++i) {
         const Vec3f& incident = light.values[i];
         if (layout.channels == 1) {
             const float* plane = transfer.data() + layout.plane(0, i) * num_vertices;

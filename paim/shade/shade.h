@@ -1,7 +1,6 @@
 // Reference shading on the CPU: radiance of every vertex under a light.
 // Based on: Sloan, Kautz and Snyder, Precomputed Radiance Transfer for Real-Time Rendering in
-// Dynamic,
-//           Low-Frequency Lighting Environments, 2002
+//           Dynamic, Low-Frequency Lighting Environments, 2002
 #pragma once
 
 #include <span>
@@ -14,8 +13,9 @@
 namespace paim {
 
 // radiance(v) = albedo(v) · Σ_i t_i(v) L_i, per channel. Bands beyond the light's or the transfer's
-// are taken as zero. transfer  [layout.num_planes()][V] radiance  [V] linear RGB; may be slightly
-// negative where the light rings
+// are taken as zero.
+// transfer  [layout.num_planes()][V], of one outgoing band (checked)
+// radiance  [V] linear RGB; may be slightly negative where the light rings
 void shade(const TransferLayout& layout, std::span<const float> transfer, const Albedo& albedo,
            const LightCoefficients& light, std::vector<Vec3f>& radiance);
 

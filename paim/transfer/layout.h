@@ -1,31 +1,72 @@
 // What the transfer of one vertex consists of. Nobody else assumes "bands² floats".
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <vector>
 
 #include "paim/sh/index.h"
 
 namespace paim {
 
 enum class TransferKind : uint32_t {
-    diffuse = 0,  // albedo-free, divided by π (docs/equations.md E1)
+    diffuse = 0,  // albedo-free, divided by π (E1)
 };
 
-// Values are stored plane by plane: plane = channel · bands² + i, each contiguous over the
-// vertices, so row r = plane · V + v of a data matrix belongs to vertex v.
+// Transfer maps in_bands² coefficients of incident light to out_bands² coefficients of outgoing
+// radiance, in one or three channels. Diffuse transfer has one outgoing band: radiance is the same in
+// every direction. Values are stored plane by plane, each contiguous over the vertices:
+//   plane = (channel · out_bands² + o) · in_bands² + i,
+// so row r = plane · V + v of a data matrix belongs to vertex v.
 struct TransferLayout {
     TransferKind kind = TransferKind::diffuse;
-    uint32_t bands = 0;     // 1 … sh::kMaxBands
-    uint32_t channels = 1;  // 1 (grey) or 3
+    uint32_t in_bands = 0;   // of light, 1 … sh::kMaxBands
+    uint32_t channels = 1;   // 1 (grey) or 3
+    uint32_t out_bands = 1;  // of outgoing radiance; 1: diffuse
 
-    uint32_t num_coefficients() const { return bands * bands; }
-    uint32_t num_planes() const { return channels * bands * bands; }
-    uint32_t plane(uint32_t channel, uint32_t i) const { return channel * bands * bands + i; }
-    uint32_t band_of_plane(uint32_t plane) const {
-        return static_cast<uint32_t>(sh::band_of(static_cast<int>(plane % num_coefficients())));
+    // Coefficients of light that one outgoing coefficient of one channel is a sum over.
+    uint32_t num_coefficients() const { return squared(in_bands); }
+    uint32_t num_outgoing() const { return squared(out_bands); }
+    uint32_t num_planes() const { return channels * num_outgoing() * num_coefficients(); }
+    uint32_t plane(uint32_t channel, uint32_t i, uint32_t o = 0) const {
+        return (channel * num_outgoing() + o) * num_coefficients() + i;
+    }
+    // The band of the light that a plane multiplies.
+    uint32_t input_band(uint32_t plane) const { return band(plane % num_coefficients()); }
+    // The band of the outgoing radiance that a plane contributes to.
+    uint32_t output_band(uint32_t plane) const {
+        return band(plane / num_coefficients() % num_outgoing());
+    }
+
+    // The same with at most so many bands of light, and at least one.
+    TransferLayout with_bands(uint32_t most) const {
+        TransferLayout layout = *this;
+        layout.in_bands = std::min(std::max(most, 1u), in_bands);
+        return layout;
     }
 
     bool operator==(const TransferLayout&) const = default;
+
+  private:
+    static uint32_t squared(uint32_t bands) {
+        return static_cast<uint32_t>(sh::num_coefficients(static_cast<int>(bands)));
+    }
+    static uint32_t band(uint32_t i) {
+        return static_cast<uint32_t>(sh::band_of(static_cast<int>(i)));
+    }
 };
+
+// Where `whole` has the planes of `part`, the same layout with fewer bands: in the order of the part.
+inline void planes_of(const TransferLayout& whole, const TransferLayout& part,
+                      std::vector<uint32_t>& planes) {
+    planes.clear();
+    for (uint32_t channel = 0; channel < part.channels; ++channel) {
+        for (uint32_t o = 0; o < part.num_outgoing(); ++o) {
+            for (uint32_t i = 0; i < part.num_coefficients(); ++i) {
+                planes.push_back(whole.plane(channel, i, o));
+            }
+        }
+    }
+}
 
 }  // namespace paim

@@ -51,7 +51,7 @@ DataTexture upload_coefficients(const VertexClusters& clusters, const UploadPlan
 
 }  // namespace
 
-ClusterTransfer::ClusterTransfer(const Model& model, const UploadPlan& plan)
+ClusterTransfer::ClusterTransfer(const Asset& model, const UploadPlan& plan)
     : clusters_(model.clusters),
       plan_(plan),
       light_(model),
@@ -78,7 +78,7 @@ uint64_t ClusterTransfer::size_bytes() const {
 
 void ClusterTransfer::update_products(const Frame& frame, const LightCoefficients& light) {
     DecodeLimits limits = frame.limits;
-    limits.bands = std::min(limits.bands, plan_.layout.bands);
+    limits.bands = std::min(limits.bands, plan_.layout.in_bands);
     limits.transfer_components = std::min(limits.transfer_components, plan_.transfer_components);
     light_.basis_radiance(frame.time, limits, light, row_products_);
     const uint32_t stride = clusters_.rows_per_cluster();

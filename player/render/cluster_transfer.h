@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "paim/shade/cluster_light.h"
+#include "paim/codec/cpca/cpca_player.h"
 #include "player/gl/data_texture.h"
 #include "player/render/transfer_textures.h"
 
@@ -14,7 +14,7 @@ namespace paim::player {
 
 class ClusterTransfer : public TransferTextures {
   public:
-    ClusterTransfer(const Model& model, const UploadPlan& plan);
+    ClusterTransfer(const Asset& model, const UploadPlan& plan);
 
     std::string defines() const override;
     uint64_t size_bytes() const override;

@@ -15,7 +15,7 @@ uint64_t value_bytes(const StoredValues& values, Precision precision) {
     return precision == Precision::f16 ? 2 : 4;
 }
 
-uint64_t part_bytes(const LowRankMatrix& matrix, uint64_t planes, uint32_t num_components) {
+uint64_t part_bytes(const LowRank& matrix, uint64_t planes, uint32_t num_components) {
     uint64_t row_bytes = value_bytes(matrix.mean, Precision::f32);  // halves have means of floats
     for (uint32_t k = 0; k < num_components; ++k) {
         row_bytes += value_bytes(matrix.components[k], matrix.precision);
@@ -36,16 +36,16 @@ uint64_t cluster_bytes(const VertexClusters& clusters, uint32_t num_components) 
 
 }  // namespace
 
-Cost frame_cost(const Model& model, const DecodeLimits& limits) {
+Cost frame_cost(const Asset& model, const DecodeLimits& limits) {
     Cost cost{};
-    cost.geometry_components = std::min(limits.geometry_components, model.geometry.num_components);
-    cost.transfer_components = std::min(limits.transfer_components, model.transfer.num_components);
+    cost.geometry_components = std::min(limits.geometry_components, model.moving().positions.num_components);
+    cost.transfer_components = std::min(limits.transfer_components, model.moving().transfer->matrix.num_components);
     cost.cluster_components = std::min(limits.cluster_components, model.clusters.num_components);
-    cost.bands = std::min(limits.bands, model.layout.bands);
-    TransferLayout layout = model.layout;
-    layout.bands = cost.bands;
-    cost.bytes = part_bytes(model.geometry, 3, cost.geometry_components) +
-                 part_bytes(model.transfer, layout.num_planes(), cost.transfer_components);
+    cost.bands = std::min(limits.bands, model.moving().layout.in_bands);
+    TransferLayout layout = model.moving().layout;
+    layout.in_bands = cost.bands;
+    cost.bytes = part_bytes(model.moving().positions, 3, cost.geometry_components) +
+                 part_bytes(model.moving().transfer->matrix, layout.num_planes(), cost.transfer_components);
     cost.multiply_adds = svd_geometry_cost(cost.geometry_components).per_vertex();
     if (model.clusters.empty()) {
         cost.multiply_adds +=

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "paim/codec/decoder.h"
-#include "paim/codec/model.h"
+#include "paim/codec/mesh_decoder.h"
+#include "paim/codec/asset.h"
 
 namespace paim::player {
 
@@ -22,6 +22,6 @@ struct Cost {
     uint32_t bands;
 };
 
-Cost frame_cost(const Model& model, const DecodeLimits& limits);
+Cost frame_cost(const Asset& model, const DecodeLimits& limits);
 
 }  // namespace paim::player

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "paim/base/vector.h"
-#include "paim/codec/decoder.h"
+#include "paim/codec/mesh_decoder.h"
 #include "paim/mesh/bounds.h"
 #include "paim/shade/camera.h"
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "paim/codec/low_rank.h"
+#include "paim/codec/rebuild_planes.h"
 #include "player/render/value_textures.h"
 
 namespace paim::player {
@@ -16,13 +16,13 @@ namespace {
 using gl::DataTexture;
 using gl::TexelFormat;
 
-FormatSplit split_of(const LowRankMatrix& matrix, uint32_t num_components) {
+FormatSplit split_of(const LowRank& matrix, uint32_t num_components) {
     const TexelFormat floats =
         matrix.precision == Precision::f16 ? TexelFormat::rgba16f : TexelFormat::rgba32f;
     return split_by_format(std::span(matrix.components).first(num_components), floats);
 }
 
-DataTexture upload_mean(const std::string& name, const LowRankMatrix& matrix,
+DataTexture upload_mean(const std::string& name, const LowRank& matrix,
                         const PlaneGroups& planes, int width_log2) {
     return upload_groups(
         fmt::format("the mean {}", name), format_of(matrix.mean, TexelFormat::rgba32f), width_log2,
@@ -31,7 +31,7 @@ DataTexture upload_mean(const std::string& name, const LowRankMatrix& matrix,
 }
 
 // Components [begin, end).
-DataTexture upload_components(const std::string& name, const LowRankMatrix& matrix,
+DataTexture upload_components(const std::string& name, const LowRank& matrix,
                               const PlaneGroups& planes, uint32_t begin, uint32_t end,
                               TexelFormat format, int width_log2) {
     const uint32_t stride = planes.num_groups();
@@ -45,7 +45,7 @@ DataTexture upload_components(const std::string& name, const LowRankMatrix& matr
 
 }  // namespace
 
-LowRankTextures::LowRankTextures(std::string name, const LowRankMatrix& matrix,
+LowRankTextures::LowRankTextures(std::string name, const LowRank& matrix,
                                  const PlaneGroups& planes, uint32_t num_components, int width_log2)
     : name_(std::move(name)),
       matrix_(matrix),

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "paim/codec/model.h"
+#include "paim/codec/asset.h"
 #include "player/gl/data_texture.h"
 #include "player/gl/program.h"
 #include "player/render/group_gather.h"
@@ -17,7 +17,7 @@ class LowRankTextures {
     // Keeps a reference to the matrix for its weights.
     // name    what the shader's names begin with: "geometry" or "transfer"
     // planes  of the matrix that are uploaded, num_components of each
-    LowRankTextures(std::string name, const LowRankMatrix& matrix, const PlaneGroups& planes,
+    LowRankTextures(std::string name, const LowRank& matrix, const PlaneGroups& planes,
                     uint32_t num_components, int width_log2);
 
     // Types of the samplers.
@@ -30,7 +30,7 @@ class LowRankTextures {
 
   private:
     std::string name_;
-    const LowRankMatrix& matrix_;
+    const LowRank& matrix_;
     uint32_t num_components_;
     uint32_t num_wide_;
     gl::DataTexture mean_;

@@ -13,16 +13,16 @@
 
 namespace paim::player {
 
-ModelRenderer::ModelRenderer(const Model& model, const DecodeLimits& limits)
+ModelRenderer::ModelRenderer(const Asset& model, const DecodeLimits& limits)
     : model_(model),
       plan_(plan_upload(model, limits, gl::max_texture_size())),
-      geometry_("geometry", model.geometry, {model.topology.num_vertices, 1, 3, 3, 1},
+      geometry_("geometry", model.moving().positions, {model.moving().topology.num_vertices, 1, 3, 3, 1},
                 plan_.geometry_components, plan_.width_log2),
       transfer_(make_transfer_textures(model, plan_)),
       program_("model", shaders::model_vert, shaders::model_frag,
                geometry_.defines() + transfer_->defines()),
       albedo_("the albedo", gl::TexelFormat::rgba32f, plan_.width_log2,
-              at_least_one(static_cast<int64_t>(model.albedo.values.size()))) {
+              at_least_one(static_cast<int64_t>(model.moving().albedo.values.size()))) {
     upload_albedo();
     upload_triangles();
 }
@@ -34,14 +34,14 @@ uint64_t ModelRenderer::texture_bytes() const {
 void ModelRenderer::upload_albedo() const {
     albedo_.upload([&](int64_t first, std::span<float> out) {
         for (size_t i = 0; i < out.size(); i += 4) {
-            const Vec3f& value = model_.albedo.values[static_cast<size_t>(first) + i / 4];
+            const Vec3f& value = model_.moving().albedo.values[static_cast<size_t>(first) + i / 4];
             std::copy_n(value.data(), 3, out.data() + i);
         }
     });
 }
 
 void ModelRenderer::upload_triangles() {
-    const auto& triangles = model_.topology.triangles;
+    const auto& triangles = model_.moving().topology.triangles;
     if (triangles.size() > std::numeric_limits<GLsizei>::max() / 3) {
         throw_unsupported("{} triangles, OpenGL draws at most {} at once", triangles.size(),
                           std::numeric_limits<GLsizei>::max() / 3);
@@ -60,9 +60,9 @@ void ModelRenderer::draw(const Frame& frame, const LightCoefficients& light, flo
     unit = transfer_->bind(program_, unit, frame, light);
     program_.set_texture("albedo", unit, albedo_.handle());
     program_.set("width_log2", plan_.width_log2);
-    program_.set("num_vertices", static_cast<int>(model_.topology.num_vertices));
-    program_.set("albedo_stride", model_.albedo.values.size() == 1 ? 0 : 1);
-    const LowRankMatrix& geometry = model_.geometry;
+    program_.set("num_vertices", static_cast<int>(model_.moving().topology.num_vertices));
+    program_.set("albedo_stride", model_.moving().albedo.values.size() == 1 ? 0 : 1);
+    const LowRank& geometry = model_.moving().positions;
     program_.set("geometry_step", Vec3f(geometry.step(0), geometry.step(1), geometry.step(2)));
     const DepthRange depth = depth_range(frame.camera, frame.bounds);
     program_.set("clip_from_world", clip_from_world(frame.camera, aspect, depth));
@@ -71,7 +71,7 @@ void ModelRenderer::draw(const Frame& frame, const LightCoefficients& light, flo
     glDepthFunc(GL_LESS);
     glDisable(GL_CULL_FACE);
     glBindVertexArray(vertex_array_.id());
-    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(model_.topology.triangles.size() * 3),
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(model_.moving().topology.triangles.size() * 3),
                    GL_UNSIGNED_INT, nullptr);
 }
 

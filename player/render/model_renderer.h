@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "paim/codec/model.h"
+#include "paim/codec/asset.h"
 #include "paim/light/light.h"
 #include "player/gl/data_texture.h"
 #include "player/gl/program.h"
@@ -19,7 +19,7 @@ class ModelRenderer {
     // Uploads what of the model is within the limits; frames cannot show more. Keeps a reference to
     // the model for what changes with time and light. Throws Error(unsupported) if it does not fit
     // (render/upload_plan.h).
-    ModelRenderer(const Model& model, const DecodeLimits& limits);
+    ModelRenderer(const Asset& model, const DecodeLimits& limits);
 
     const UploadPlan& plan() const { return plan_; }
 
@@ -34,7 +34,7 @@ class ModelRenderer {
     void upload_albedo() const;
     void upload_triangles();
 
-    const Model& model_;
+    const Asset& model_;
     UploadPlan plan_;
     LowRankTextures geometry_;
     std::unique_ptr<TransferTextures> transfer_;

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "paim/codec/model.h"
+#include "paim/codec/asset.h"
 #include "paim/mesh/bounds.h"
 
 namespace paim::player {
@@ -12,7 +12,7 @@ namespace paim::player {
 class PoseBoundsCache {
   public:
     // Keeps a reference to the model.
-    explicit PoseBoundsCache(const Model& model) : model_(model) {}
+    explicit PoseBoundsCache(const Asset& model) : model_(model) {}
 
     // Bounds that hold the mesh at `time` (in poses, clamped): those of the poses before and after,
     // between which every vertex moves on a straight line.
@@ -21,7 +21,7 @@ class PoseBoundsCache {
   private:
     const Bounds& of_pose(size_t p);
 
-    const Model& model_;
+    const Asset& model_;
     uint32_t num_components_ = 0;
     std::vector<std::optional<Bounds>> bounds_;  // [P] with num_components_, as far as known
 };

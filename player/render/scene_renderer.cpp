@@ -10,14 +10,14 @@ namespace paim::player {
 namespace {
 
 // The scenery as means without components.
-Model scenery_model(const Model& model) {
+Asset scenery_model(const Asset& model) {
     const Scenery& scenery = model.scenery;
-    Model still;
+    Asset still;
     still.topology = scenery.topology;
     still.albedo = scenery.albedo;
-    still.layout = model.layout;
+    still.layout = model.moving().layout;
     const auto matrix = [&](uint32_t num_planes, const StillPlanes& planes) {
-        LowRankMatrix part;
+        LowRank part;
         part.num_points = scenery.topology.num_vertices;
         part.num_planes = num_planes;
         part.num_poses = model.num_poses();
@@ -29,30 +29,30 @@ Model scenery_model(const Model& model) {
         return part;
     };
     still.geometry = matrix(3, scenery.positions);
-    still.transfer = matrix(model.layout.num_planes(), scenery.transfer);
+    still.transfer = matrix(model.moving().layout.num_planes(), scenery.transfer);
     return still;
 }
 
 }  // namespace
 
-SceneRenderer::SceneRenderer(const Model& model, const Image& environment,
+SceneRenderer::SceneRenderer(const Asset& model, const Image& environment,
                              const DecodeLimits& limits) {
     set_model(model, limits);
     set_environment(environment);
 }
 
-void SceneRenderer::set_model(const Model& model, const DecodeLimits& limits) {
+void SceneRenderer::set_model(const Asset& model, const DecodeLimits& limits) {
     auto model_renderer = std::make_unique<ModelRenderer>(model, limits);
-    std::unique_ptr<Model> scenery;
+    std::unique_ptr<Asset> scenery;
     std::unique_ptr<ModelRenderer> scenery_renderer;
     if (!model.scenery.empty()) {
-        scenery = std::make_unique<Model>(scenery_model(model));
+        scenery = std::make_unique<Asset>(scenery_model(model));
         scenery_renderer = std::make_unique<ModelRenderer>(*scenery, limits);
     }
     model_renderer_ = std::move(model_renderer);
     scenery_renderer_ = std::move(scenery_renderer);
     scenery_ = std::move(scenery);
-    if (environment_ && light_.bands != static_cast<int>(plan().layout.bands)) project_light();
+    if (environment_ && light_.bands != static_cast<int>(plan().layout.in_bands)) project_light();
 }
 
 void SceneRenderer::set_environment(const Image& environment) {
@@ -62,7 +62,7 @@ void SceneRenderer::set_environment(const Image& environment) {
 }
 
 void SceneRenderer::project_light() {
-    light_ = environment_->coefficients(Vec3f::Zero(), static_cast<int>(plan().layout.bands));
+    light_ = environment_->coefficients(static_cast<int>(plan().layout.in_bands));
     turned_light_ = light_;
     turned_rad_ = 0.0;
 }

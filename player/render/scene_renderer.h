@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "paim/codec/model.h"
+#include "paim/codec/asset.h"
 #include "paim/image/image.h"
 #include "paim/light/environment.h"
 #include "paim/light/light.h"
@@ -20,11 +20,11 @@ class SceneRenderer {
     // Keeps a reference to the model; the environment is copied. Nothing beyond the limits is
     // uploaded. Errors (unsupported): the model does not fit into this driver's textures.
     // environment  lat-long, linear radiance; Error(bad input) if a value is negative or not finite
-    SceneRenderer(const Model& model, const Image& environment, const DecodeLimits& limits);
+    SceneRenderer(const Asset& model, const Image& environment, const DecodeLimits& limits);
 
     // Shows this model from now on, under the same light, and keeps a reference to it. On an error
     // the old one stays.
-    void set_model(const Model& model, const DecodeLimits& limits);
+    void set_model(const Asset& model, const DecodeLimits& limits);
 
     // Replaces light and background. On an error the old ones stay.
     void set_environment(const Image& environment);
@@ -48,7 +48,7 @@ class SceneRenderer {
     void project_light();
 
     std::unique_ptr<ModelRenderer> model_renderer_;
-    std::unique_ptr<Model> scenery_;  // as an animation that does not move, if the model has any
+    std::unique_ptr<Asset> scenery_;  // as an animation that does not move, if the model has any
     std::unique_ptr<ModelRenderer> scenery_renderer_;
     BackgroundRenderer background_renderer_;
     std::optional<EnvironmentLight> environment_;

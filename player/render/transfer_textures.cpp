@@ -6,7 +6,7 @@
 
 namespace paim::player {
 
-std::unique_ptr<TransferTextures> make_transfer_textures(const Model& model,
+std::unique_ptr<TransferTextures> make_transfer_textures(const Asset& model,
                                                          const UploadPlan& plan) {
     if (model.clusters.empty()) return std::make_unique<VertexTransfer>(model, plan);
     return std::make_unique<ClusterTransfer>(model, plan);

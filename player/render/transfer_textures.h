@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "paim/codec/model.h"
+#include "paim/codec/asset.h"
 #include "paim/light/light.h"
 #include "player/gl/program.h"
 #include "player/render/frame.h"
@@ -27,7 +27,7 @@ class TransferTextures {
 };
 
 // Uploads the model's transfer as planned. Keeps a reference to the model for what changes.
-std::unique_ptr<TransferTextures> make_transfer_textures(const Model& model,
+std::unique_ptr<TransferTextures> make_transfer_textures(const Asset& model,
                                                          const UploadPlan& plan);
 
 }  // namespace paim::player

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "paim/codec/decoder.h"
-#include "paim/codec/model.h"
+#include "paim/codec/mesh_decoder.h"
+#include "paim/codec/asset.h"
 
 namespace paim::player {
 
@@ -27,13 +27,13 @@ struct UploadPlan {
 };
 
 // Texels of all components of the part, as if they were in one texture.
-int64_t geometry_texels(const Model& model, uint32_t num_components);
-int64_t transfer_texels(const Model& model, uint32_t num_components,
+int64_t geometry_texels(const Asset& model, uint32_t num_components);
+int64_t transfer_texels(const Asset& model, uint32_t num_components,
                         uint32_t bands);  // no clusters
 
 // Plans the upload of what of the model is within the limits. Throws Error(unsupported) that names
 // the texture limit, and the components that would fit, where a texture of at most max_texture_size
 // by max_texture_size cannot hold a part.
-UploadPlan plan_upload(const Model& model, const DecodeLimits& limits, int max_texture_size);
+UploadPlan plan_upload(const Asset& model, const DecodeLimits& limits, int max_texture_size);
 
 }  // namespace paim::player

@@ -7,17 +7,17 @@ namespace paim::player {
 
 namespace {
 
-PlaneGroups planes_of(const Model& model, const UploadPlan& plan) {
-    return {model.topology.num_vertices, model.layout.channels, model.layout.num_coefficients(),
+PlaneGroups planes_of(const Asset& model, const UploadPlan& plan) {
+    return {model.moving().topology.num_vertices, model.moving().layout.channels, model.moving().layout.num_coefficients(),
             plan.layout.num_coefficients(), plan.groups_per_channel};
 }
 
 }  // namespace
 
-VertexTransfer::VertexTransfer(const Model& model, const UploadPlan& plan)
+VertexTransfer::VertexTransfer(const Asset& model, const UploadPlan& plan)
     : model_(model),
       plan_(plan),
-      matrix_("transfer", model.transfer, planes_of(model, plan), plan.transfer_components,
+      matrix_("transfer", model.moving().transfer->matrix, planes_of(model, plan), plan.transfer_components,
               plan.width_log2),
       light_("the light", gl::TexelFormat::rgba32f, plan.width_log2,
              int64_t{3} * plan.groups_per_channel) {}
@@ -30,8 +30,8 @@ void VertexTransfer::update_light(const LightCoefficients& light, uint32_t bands
     for (uint32_t i = 0; i < lit_bands * lit_bands; ++i) {
         for (uint32_t channel = 0; channel < 3; ++channel) {
             const uint32_t plane =
-                model_.layout.plane(model_.layout.channels == 3 ? channel : 0, i);
-            scratch_[channel * stride + i] = model_.transfer.step(plane) * light.values[i][channel];
+                model_.moving().layout.plane(model_.moving().layout.channels == 3 ? channel : 0, i);
+            scratch_[channel * stride + i] = model_.moving().transfer->matrix.step(plane) * light.values[i][channel];
         }
     }
     light_.update(scratch_);
@@ -39,7 +39,7 @@ void VertexTransfer::update_light(const LightCoefficients& light, uint32_t bands
 
 int VertexTransfer::bind(const gl::Program& program, int unit, const Frame& frame,
                          const LightCoefficients& light) {
-    const uint32_t bands = std::min(frame.limits.bands, plan_.layout.bands);
+    const uint32_t bands = std::min(frame.limits.bands, plan_.layout.in_bands);
     update_light(light, bands);
     unit = matrix_.bind(program, unit, frame.time, frame.limits.transfer_components);
     program.set_texture("light", unit++, light_.handle());

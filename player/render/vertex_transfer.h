@@ -10,7 +10,7 @@ namespace paim::player {
 
 class VertexTransfer : public TransferTextures {
   public:
-    VertexTransfer(const Model& model, const UploadPlan& plan);
+    VertexTransfer(const Asset& model, const UploadPlan& plan);
 
     std::string defines() const override { return matrix_.defines(); }
     uint64_t size_bytes() const override { return matrix_.size_bytes() + light_.size_bytes(); }
@@ -20,7 +20,7 @@ class VertexTransfer : public TransferTextures {
   private:
     void update_light(const LightCoefficients& light, uint32_t bands);
 
-    const Model& model_;
+    const Asset& model_;
     UploadPlan plan_;
     LowRankTextures matrix_;
     gl::DataTexture light_;

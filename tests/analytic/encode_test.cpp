@@ -7,8 +7,9 @@
 #include <limits>
 
 #include "compressor/bake/bake_sequence.h"
-#include "paim/codec/svd_decoder.h"
-#include "paim/format/paim/paim_file.h"
+#include "paim/codec/mesh_decoder.h"
+#include "paim/format/paim/paim_read.h"
+#include "paim/format/paim/paim_write.h"
 #include "paim/metrics/singular_value_error.h"
 #include "poses/octopus.h"
 #include "tests/temporary_directory.h"
@@ -32,7 +33,7 @@ class Encode : public testing::Test {
                       [](uint32_t) {});
     }
 
-    Model encode_with(const ComponentChoice& geometry, const ComponentChoice& transfer) const {
+    Asset encode_with(const ComponentChoice& geometry, const ComponentChoice& transfer) const {
         EncodeOptions options;
         options.geometry = geometry;
         options.transfer = transfer;
@@ -45,7 +46,7 @@ class Encode : public testing::Test {
 };
 
 // |mean| + Σ_k |component · weight| of row r, pose p: what roundings are relative to.
-double magnitude(const LowRankMatrix& matrix, size_t r, uint32_t p) {
+double magnitude(const LowRank& matrix, size_t r, uint32_t p) {
     double sum = std::abs(matrix.mean[r]);
     for (uint32_t k = 0; k < matrix.num_components; ++k) {
         sum += std::abs(static_cast<double>(matrix.components[k][r]) *
@@ -54,7 +55,7 @@ double magnitude(const LowRankMatrix& matrix, size_t r, uint32_t p) {
     return sum;
 }
 
-void expect_back_to_rounding(const LowRankMatrix& matrix, uint32_t p,
+void expect_back_to_rounding(const LowRank& matrix, uint32_t p,
                              const std::vector<float>& decoded, const std::vector<float>& baked) {
     ASSERT_EQ(decoded.size(), baked.size());
     // Floats round by at most u = 2^-24 of the value. The mean is stored with one rounding, each
@@ -69,19 +70,19 @@ void expect_back_to_rounding(const LowRankMatrix& matrix, uint32_t p,
 }
 
 TEST_F(Encode, AllComponentsGiveTheBakeBack) {
-    const Model model = encode_with(kAll, kAll);
-    EXPECT_EQ(model.geometry.num_components, kNumPoses - 1);
-    EXPECT_EQ(model.transfer.num_components, kNumPoses - 1);
+    const Asset model = encode_with(kAll, kAll);
+    EXPECT_EQ(model.moving().positions.num_components, kNumPoses - 1);
+    EXPECT_EQ(model.moving().transfer->matrix.num_components, kNumPoses - 1);
     const BakeReader bake(directory_ / "x.bake");
-    EXPECT_EQ(model.topology, bake.topology());
-    EXPECT_EQ(model.albedo.values, bake.albedo().values);
+    EXPECT_EQ(model.moving().topology, bake.topology());
+    EXPECT_EQ(model.moving().albedo.values, bake.albedo().values);
     const SvdDecoder decoder(model);
     DecodedPose pose;
     for (uint32_t p = 0; p < kNumPoses; ++p) {
         decoder.decode(p, {}, pose);
         const BakedPose baked = bake.read_pose(p);
-        expect_back_to_rounding(model.geometry, p, pose.positions, baked.positions);
-        expect_back_to_rounding(model.transfer, p, pose.transfer, baked.transfer);
+        expect_back_to_rounding(model.moving().positions, p, pose.positions, baked.positions);
+        expect_back_to_rounding(model.moving().transfer->matrix, p, pose.transfer, baked.transfer);
     }
 }
 
@@ -116,7 +117,7 @@ TEST_F(Encode, TruncationErrorIsWhatTheDroppedSingularValuesSay) {
         positions.push_back(std::move(pose.positions));
         transfer.push_back(std::move(pose.transfer));
     }
-    const auto check = [&](const Model& model, const DecodeLimits& limits) {
+    const auto check = [&](const Asset& model, const DecodeLimits& limits) {
         const SvdDecoder decoder(model);
         std::vector<std::vector<float>> decoded_positions, decoded_transfer;
         DecodedPose pose;
@@ -125,11 +126,11 @@ TEST_F(Encode, TruncationErrorIsWhatTheDroppedSingularValuesSay) {
             decoded_positions.push_back(pose.positions);
             decoded_transfer.push_back(pose.transfer);
         }
-        const auto kept = [](const LowRankMatrix& matrix, uint32_t limit) {
+        const auto kept = [](const LowRank& matrix, uint32_t limit) {
             return energy_error(matrix.singular_values, std::min(matrix.num_components, limit));
         };
-        const double geometry = kept(model.geometry, limits.geometry_components);
-        const double light = kept(model.transfer, limits.transfer_components);
+        const double geometry = kept(model.moving().positions, limits.geometry_components);
+        const double light = kept(model.moving().transfer->matrix, limits.transfer_components);
         ASSERT_GT(geometry, 0.05);
         ASSERT_GT(light, 0.05);
         EXPECT_NEAR(relative_error(decoded_positions, positions) / geometry, 1.0, 1e-6);
@@ -139,7 +140,7 @@ TEST_F(Encode, TruncationErrorIsWhatTheDroppedSingularValuesSay) {
         check(encode_with(first(k), first(3 - k)), {});
     }
     // Dropped when it is decoded instead of when it is encoded: the same.
-    const Model all = encode_with(kAll, kAll);
+    const Asset all = encode_with(kAll, kAll);
     DecodeLimits limits;
     limits.geometry_components = 2;
     limits.transfer_components = 1;
@@ -147,14 +148,14 @@ TEST_F(Encode, TruncationErrorIsWhatTheDroppedSingularValuesSay) {
 }
 
 TEST_F(Encode, FewerComponentsAreAPrefixOfAll) {
-    const Model all = encode_with(kAll, kAll);
-    const Model some = encode_with(first(2), first(3));
-    EXPECT_EQ(some.geometry.singular_values, all.geometry.singular_values);
-    EXPECT_EQ(some.geometry.mean, all.geometry.mean);
-    EXPECT_TRUE(std::equal(some.geometry.components.begin(), some.geometry.components.end(),
-                           all.geometry.components.begin()));
-    EXPECT_TRUE(std::equal(some.transfer.weights.begin(), some.transfer.weights.end(),
-                           all.transfer.weights.begin()));
+    const Asset all = encode_with(kAll, kAll);
+    const Asset some = encode_with(first(2), first(3));
+    EXPECT_EQ(some.moving().positions.singular_values, all.moving().positions.singular_values);
+    EXPECT_EQ(some.moving().positions.mean, all.moving().positions.mean);
+    EXPECT_TRUE(std::equal(some.moving().positions.components.begin(), some.moving().positions.components.end(),
+                           all.moving().positions.components.begin()));
+    EXPECT_TRUE(std::equal(some.moving().transfer->matrix.weights.begin(), some.moving().transfer->matrix.weights.end(),
+                           all.moving().transfer->matrix.weights.begin()));
 }
 
 TEST_F(Encode, StillAnimationsNeedNoComponents) {
@@ -167,9 +168,9 @@ TEST_F(Encode, StillAnimationsNeedNoComponents) {
         const EncodeSummary summary = encode(bake, options, directory_ / "still.paim");
         EXPECT_EQ(summary.geometry_components + summary.transfer_components, 0u);
         EXPECT_EQ(summary.transfer_energy_error, 0.0);
-        const Model model = read_paim(directory_ / "still.paim");
-        EXPECT_EQ(model.geometry.mean.floats(), bake.read_pose(0).positions);
-        EXPECT_EQ(model.transfer.mean.floats(), bake.read_pose(0).transfer);
+        const Asset model = read_paim(directory_ / "still.paim");
+        EXPECT_EQ(model.moving().positions.mean.floats(), bake.read_pose(0).positions);
+        EXPECT_EQ(model.moving().transfer->matrix.mean.floats(), bake.read_pose(0).transfer);
     }
 }
 
@@ -192,11 +193,11 @@ TEST_F(Encode, PosesThatAreAllTheSameNeedNoneAndLoseNothing) {
                                    summary.geometry_energy_error, summary.transfer_energy_error}) {
             EXPECT_EQ(error, 0.0);
         }
-        const Model model = read_paim(directory_ / "same.paim");
-        EXPECT_EQ(model.geometry.mean.floats(), pose.positions);
-        EXPECT_EQ(model.transfer.mean.floats(), pose.transfer);
-        EXPECT_EQ(theory_error(model.transfer.singular_values, 0), 0.0);
-        EXPECT_EQ(energy_error(model.geometry.singular_values, 0), 0.0);
+        const Asset model = read_paim(directory_ / "same.paim");
+        EXPECT_EQ(model.moving().positions.mean.floats(), pose.positions);
+        EXPECT_EQ(model.moving().transfer->matrix.mean.floats(), pose.transfer);
+        EXPECT_EQ(theory_error(model.moving().transfer->matrix.singular_values, 0), 0.0);
+        EXPECT_EQ(energy_error(model.moving().positions.singular_values, 0), 0.0);
     }
 }
 

@@ -35,7 +35,7 @@ Shot shoot(const PoseSet& source, double mesh_turn, double light_turn) {
     const EnvironmentLight sky(make_sky());
     std::vector<std::vector<Vec3f>> radiance(1);
     shade({TransferKind::diffuse, 7, 1}, baked.transfer, source.albedo(),
-          turn_about_y(sky.coefficients(Vec3f::Zero(), 7), light_turn), radiance[0]);
+          turn_about_y(sky.coefficients(7), light_turn), radiance[0]);
     Camera camera;
     camera.eye = turn * Vec3f(3, 5, 9);
     camera.target = turn * Vec3f(0, 1.5f, 0);

@@ -1,7 +1,8 @@
 // What the options of paim-compress do, through what the tools and the library read back.
-#include "paim/codec/svd_decoder.h"
+#include "paim/codec/mesh_decoder.h"
 #include "paim/format/bake/bake_directory.h"
-#include "paim/format/paim/paim_file.h"
+#include "paim/format/paim/paim_read.h"
+#include "paim/format/paim/paim_write.h"
 #include "tests/cli/tool_test.h"
 
 namespace paim {
@@ -126,7 +127,7 @@ TEST_F(Options, FewerBandsAreTheFirstPlanes) {
 
     expect_success(compress({"encode", path("x.bake"), "-o", path("3.paim"), "--bands", "3",
                              "--transfer-components", "all"}));
-    const Model model = read_paim(path("3.paim"));
+    const Asset model = read_paim(path("3.paim"));
     const BakeReader bake(path("x.bake"));
     const SvdDecoder decoder(model);
     DecodedPose pose;

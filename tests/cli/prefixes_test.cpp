@@ -1,9 +1,10 @@
 // paim-info --prefixes: the table, the JSON object, and files that have no prefixes.
 #include <algorithm>
 
-#include "paim/format/paim/paim_file.h"
+#include "paim/format/paim/paim_read.h"
+#include "paim/format/paim/paim_write.h"
 #include "paim/format/paim/prefixes.h"
-#include "paim/metrics/model_error.h"
+#include "paim/metrics/asset_error.h"
 #include "tests/cli/tool_test.h"
 
 namespace paim {
@@ -19,7 +20,7 @@ class Prefixes : public ToolTest {
         expect_success(compress({"encode", path("x.bake"), "-o", path("x.paim"),
                                  "--transfer-components", "3", "--geometry-components", "1"}));
         model_ = read_paim(path("x.paim"));
-        error_ = measure_model(model_, BakeReader(path("x.bake")), BandPower::natural());
+        error_ = measure_asset(model_, BakeReader(path("x.bake")), BandPower::natural());
     }
 
     std::string state(bool stated) {
@@ -34,8 +35,8 @@ class Prefixes : public ToolTest {
         return path("x.paim");
     }
 
-    Model model_;
-    ModelError error_;
+    Asset model_;
+    AssetError error_;
 };
 
 TEST_F(Prefixes, AreListedWithBytesComponentsAndErrors) {
@@ -75,8 +76,8 @@ TEST_F(Prefixes, HaveTheErrorsThatAreListed) {
     for (size_t j = report["prefixes"].size(); j-- > 0;) {
         const json& entry = report["prefixes"][j];
         std::filesystem::resize_file(file, entry["size_bytes"].get<uint64_t>());
-        const Model model = read_paim(file, {.progressive = true});
-        const ModelError error = measure_model(model, bake, BandPower::natural());
+        const Asset model = read_paim(file, {.progressive = true});
+        const AssetError error = measure_asset(model, bake, BandPower::natural());
         // Geometry has no noise: what is missing is orthogonal but for f32.
         const double rms = error.geometry.rms();
         EXPECT_NEAR(entry["position_rms"], rms, 1e-4 * rms + 1e-6);
@@ -114,7 +115,7 @@ TEST_F(Prefixes, OfFilesThatStateNothingSaySo) {
 }
 
 TEST_F(Prefixes, OfLongListsAreThinnedOutForPeopleOnly) {
-    for (LowRankMatrix* matrix : {&model_.geometry, &model_.transfer}) {
+    for (LowRank* matrix : {&model_.moving().positions, &model_.moving().transfer->matrix}) {
         const StoredValues component = matrix->components[0];
         matrix->num_poses = matrix->num_components = 40;
         matrix->components.assign(40, component);

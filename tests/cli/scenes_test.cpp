@@ -2,7 +2,8 @@
 #include <fmt/format.h>
 
 #include "paim/format/bake/bake_directory.h"
-#include "paim/format/paim/paim_file.h"
+#include "paim/format/paim/paim_read.h"
+#include "paim/format/paim/paim_write.h"
 #include "paim/image/exr.h"
 #include "tests/cli/tool_test.h"
 
@@ -171,7 +172,7 @@ TEST_F(Scenes, StaticFilesAreWithinATargetToo) {
         compress({"encode", path("x.bake"), "-o", path("x.paim"), "--max-error", "10%"});
     expect_success(said);
     EXPECT_TRUE(contains(said.out, "scenery: transfer ")) << said.out;
-    const Model model = read_paim(path("x.paim"));
+    const Asset model = read_paim(path("x.paim"));
     EXPECT_FALSE(model.scenery.transfer.values.holds_floats());
     const auto json =
         parse_object(analyze({path("x.bake"), "--verify", path("x.paim"), "--json"}))["errors"];
@@ -182,7 +183,7 @@ TEST_F(Scenes, StaticFilesAreWithinATargetToo) {
     EXPECT_LE(json["scenery_transfer_total_error"]["measured"], 0.1);
 
     // One that was changed is found out.
-    Model worse = model;
+    Asset worse = model;
     worse.scenery.transfer.steps[0] *= 1.5f;
     write_paim(path("worse.paim"), worse);
     const ToolResult found = analyze({path("x.bake"), "--verify", path("worse.paim")});
@@ -207,7 +208,7 @@ TEST_F(Scenes, StaticFilesAreStoredOnceAndNamed) {
                    {path("none.obj") + ": cannot open"});
 
     expect_success(compress({"encode", path("x.bake"), "-o", path("x.paim"), "--bands", "1"}));
-    const Model model = read_paim(path("x.paim"));
+    const Asset model = read_paim(path("x.paim"));
     const BakeReader reader(path("x.bake"));
     ASSERT_EQ(model.scenery.topology.num_vertices, 59u);
     EXPECT_EQ(model.scenery.positions.floats(), reader.scenery()->pose.positions);

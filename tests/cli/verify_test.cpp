@@ -2,9 +2,10 @@
 #include <cmath>
 #include <functional>
 
-#include "paim/format/paim/paim_file.h"
+#include "paim/format/paim/paim_read.h"
+#include "paim/format/paim/paim_write.h"
 #include "paim/image/exr.h"
-#include "paim/metrics/model_error.h"
+#include "paim/metrics/asset_error.h"
 #include "tests/cli/tool_test.h"
 
 namespace paim {
@@ -22,8 +23,8 @@ class Verify : public ToolTest {
 
     // The encoded file, which states what is measured of it, changed by `change`.
     std::string state(const BandPower& spectrum, const std::function<void(json&)>& change) {
-        Model model = read_paim(path("encoded.paim"));
-        const ModelError error = measure_model(model, BakeReader(path("x.bake")), spectrum);
+        Asset model = read_paim(path("encoded.paim"));
+        const AssetError error = measure_asset(model, BakeReader(path("x.bake")), spectrum);
         json provenance = json::parse(model.provenance_json);
         provenance["measured"] = json::parse(error_statement_json(error, spectrum));
         change(provenance);

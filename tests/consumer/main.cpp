@@ -7,8 +7,9 @@
 
 #include "paim/base/error.h"
 #include "paim/base/version.h"
-#include "paim/codec/svd_decoder.h"
-#include "paim/format/paim/paim_file.h"
+#include "paim/codec/mesh_decoder.h"
+#include "paim/format/paim/paim_read.h"
+#include "paim/format/paim/paim_write.h"
 #include "paim/shade/shade.h"
 
 int main(int argc, char** argv) {
@@ -26,7 +27,7 @@ int main(int argc, char** argv) {
         const float l00 = static_cast<float>(std::sqrt(4.0 * paim::kPi));
         const paim::LightCoefficients light{1, {paim::Vec3f::Constant(l00)}};
         std::vector<paim::Vec3f> radiance;
-        paim::shade(pose.layout, pose.transfer, model.albedo, light, radiance);
+        paim::shade(pose.layout, pose.transfer, model.moving().albedo, light, radiance);
 
         paim::Vec3f lowest = radiance.front(), highest = radiance.front();
         for (const paim::Vec3f& value : radiance) {
@@ -34,7 +35,7 @@ int main(int argc, char** argv) {
             highest = highest.cwiseMax(value);
         }
         std::printf("paim %s: %zu vertices, %u poses, %u bands\n", paim::kVersion, radiance.size(),
-                    model.num_poses(), pose.layout.bands);
+                    model.num_poses(), pose.layout.in_bands);
         std::printf("radiance %.4f %.4f %.4f to %.4f %.4f %.4f\n", lowest.x(), lowest.y(),
                     lowest.z(), highest.x(), highest.y(), highest.z());
     } catch (const paim::Error& error) {

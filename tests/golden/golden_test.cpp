@@ -8,8 +8,9 @@
 #include <cstdlib>
 
 #include "paim/base/file.h"
-#include "paim/codec/svd_decoder.h"
-#include "paim/format/paim/paim_file.h"
+#include "paim/codec/mesh_decoder.h"
+#include "paim/format/paim/paim_read.h"
+#include "paim/format/paim/paim_write.h"
 #include "tests/example_model.h"
 #include "tests/temporary_directory.h"
 
@@ -18,9 +19,9 @@ namespace {
 
 const std::filesystem::path kNewest = std::filesystem::path(PAIM_GOLDEN_DIR) / "example_v1.paim";
 
-Model golden_model() {
-    Model model = make_example_model(2, 1, 3, 2);
-    model.transfer.precision = Precision::f16;
+Asset golden_model() {
+    Asset model = make_example_model(2, 1, 3, 2);
+    model.moving().transfer->matrix.precision = Precision::f16;
     return model;
 }
 
@@ -35,9 +36,9 @@ TEST(Golden, WritesTheNewestFileByteForByte) {
 const std::filesystem::path kScenery =
     std::filesystem::path(PAIM_GOLDEN_DIR) / "example_v1_scenery.paim";
 
-Model golden_model_with_scenery() {
-    Model model = golden_model();
-    model.scenery = make_example_scenery(model.layout);
+Asset golden_model_with_scenery() {
+    Asset model = golden_model();
+    model.scenery = make_example_scenery(model.moving().layout);
     return model;
 }
 
@@ -53,17 +54,17 @@ TEST(Golden, WritesSceneryByteForByte) {
 TEST(Golden, ReadsScenery) {
     const Scenery scenery = read_paim(kScenery).scenery;
     const Scenery expected = golden_model_with_scenery().scenery;
-    EXPECT_EQ(scenery.topology, expected.topology);
-    EXPECT_EQ(scenery.albedo.values, expected.albedo.values);
+    EXPECT_EQ(scenery.topology, expected.moving().topology);
+    EXPECT_EQ(scenery.albedo.values, expected.moving().albedo.values);
     EXPECT_EQ(scenery.positions, expected.positions);
-    EXPECT_EQ(scenery.transfer, expected.transfer);
+    EXPECT_EQ(scenery.transfer, expected.moving().transfer->matrix);
 }
 
 // Integers of every kind. Read, not written: bytes depend on the version of Zstandard.
-Model golden_model_of_integers() {
-    Model model = make_clustered_example(3, 3, 2, true);
+Asset golden_model_of_integers() {
+    Asset model = make_clustered_example(3, 3, 2, true);
     model.vertex_order = VertexOrder::cache;
-    model.scenery = make_quantised_scenery(model.layout);
+    model.scenery = make_quantised_scenery(model.moving().layout);
     return model;
 }
 
@@ -71,11 +72,11 @@ TEST(Golden, ReadsIntegers) {
     const std::filesystem::path file =
         std::filesystem::path(PAIM_GOLDEN_DIR) / "example_v1_integers.paim";
     if (std::getenv("PAIM_UPDATE_GOLDEN") != nullptr) write_paim(file, golden_model_of_integers());
-    const Model model = read_paim(file), expected = golden_model_of_integers();
+    const Asset model = read_paim(file), expected = golden_model_of_integers();
     for (const Attribute attribute : {Attribute::geometry, Attribute::transfer}) {
-        EXPECT_EQ(model.attribute(attribute).mean, expected.attribute(attribute).mean);
-        EXPECT_EQ(model.attribute(attribute).components, expected.attribute(attribute).components);
-        EXPECT_EQ(model.attribute(attribute).steps, expected.attribute(attribute).steps);
+        EXPECT_EQ(model.moving().attribute(attribute).mean, expected.moving().attribute(attribute).mean);
+        EXPECT_EQ(model.moving().attribute(attribute).components, expected.moving().attribute(attribute).components);
+        EXPECT_EQ(model.moving().attribute(attribute).steps, expected.moving().attribute(attribute).steps);
     }
     EXPECT_EQ(model.clusters.cluster, expected.clusters.cluster);
     EXPECT_EQ(model.clusters.coefficients, expected.clusters.coefficients);
@@ -84,10 +85,10 @@ TEST(Golden, ReadsIntegers) {
 }
 
 TEST(Golden, ReadsVersionOne) {
-    const Model model = read_paim(std::filesystem::path(PAIM_GOLDEN_DIR) / "example_v1.paim");
-    const Model expected = golden_model();
-    EXPECT_EQ(model.topology, expected.topology);
-    EXPECT_EQ(model.geometry.components, expected.geometry.components);
+    const Asset model = read_paim(std::filesystem::path(PAIM_GOLDEN_DIR) / "example_v1.paim");
+    const Asset expected = golden_model();
+    EXPECT_EQ(model.moving().topology, expected.moving().topology);
+    EXPECT_EQ(model.moving().positions.components, expected.moving().positions.components);
     DecodedPose pose;
     SvdDecoder(model).decode(1.0, {}, pose);
     // Row 0 of pose 1, mean + Σ weight · component, worked out once by another program.

@@ -24,7 +24,7 @@ TEST(FileBeginning, GrowsFromNothingToAll) {
     const auto path = directory / "a.paim";
     TestModelOptions options;
     options.num_rings = 3;
-    const Model model = make_test_model(options);
+    const Asset model = make_test_model(options);
     GrowingFile file(path, model);
     const uint64_t num_bytes = file.bytes.size();
     EXPECT_EQ(inspect_beginning(path).size_bytes, 0u);

@@ -6,8 +6,9 @@
 #include <vector>
 
 #include "paim/base/file.h"
-#include "paim/codec/model.h"
-#include "paim/format/paim/paim_file.h"
+#include "paim/codec/asset.h"
+#include "paim/format/paim/paim_read.h"
+#include "paim/format/paim/paim_write.h"
 #include "paim/format/paim/prefixes.h"
 
 namespace paim::player {
@@ -15,7 +16,7 @@ namespace paim::player {
 class GrowingFile {
   public:
     // Of the .paim that the model makes, no byte is at `path` yet. Needs `path`.whole, too.
-    GrowingFile(const std::filesystem::path& path, const Model& model) : path_(path) {
+    GrowingFile(const std::filesystem::path& path, const Asset& model) : path_(path) {
         const std::filesystem::path whole = path.string() + ".whole";
         write_paim(whole, model);
         bytes = read_file(whole, uint64_t{1} << 30);

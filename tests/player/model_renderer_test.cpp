@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "paim/base/error.h"
-#include "paim/codec/make_decoder.h"
+#include "paim/codec/mesh_decoder.h"
 #include "paim/codec/sequence_bounds.h"
 #include "paim/mesh/planes.h"
 #include "player/gl/check.h"
@@ -20,7 +20,7 @@ constexpr int kWidth = 120;
 constexpr int kHeight = 80;
 const Vec3f kBackground(0.25f, 0.5f, 0.125f);
 
-Frame make_frame(const Model& model, double time, const DecodeLimits& limits = {}) {
+Frame make_frame(const Asset& model, double time, const DecodeLimits& limits = {}) {
     Frame frame;
     frame.time = time;
     frame.limits = limits;
@@ -40,10 +40,10 @@ Image draw(ModelRenderer& renderer, const Frame& frame, const LightCoefficients&
     return target.read();
 }
 
-Image reference(const Model& model, const Frame& frame, const LightCoefficients& light) {
+Image reference(const Asset& model, const Frame& frame, const LightCoefficients& light) {
     DecodedPose pose;
     make_decoder(model)->decode(frame.time, frame.limits, pose);
-    return ray_cast(model.topology, from_planes(pose.positions),
+    return ray_cast(model.moving().topology, from_planes(pose.positions),
                     vertex_radiance(model, frame.time, frame.limits, light), frame.camera, kWidth,
                     kHeight, kBackground);
 }
@@ -81,7 +81,7 @@ TEST_P(ModelRendererTest, DrawsEveryKindOfModel) {
                 options.channels = channels;
                 options.precision = precision;
                 options.albedo_per_vertex = channels == 3;
-                const Model model = make_test_model(options);
+                const Asset model = make_test_model(options);
                 const LightCoefficients light = make_test_light(static_cast<int>(bands));
                 ModelRenderer renderer(model, {});
                 SCOPED_TRACE(fmt::format("{} bands, {} channels, precision {}", bands, channels,
@@ -141,7 +141,7 @@ std::vector<Variant> make_variants() {
 TEST_P(ModelRendererTest, DrawsEveryWayThatValuesAreStored) {
     for (const auto& [name, options] : make_variants()) {
         SCOPED_TRACE(fmt::format("{}, {} channels", name, options.channels));
-        const Model model = make_test_model(options);
+        const Asset model = make_test_model(options);
         const LightCoefficients light = make_test_light(5);
         ModelRenderer renderer(model, {});
         for (const DecodeLimits& limits : {DecodeLimits{}, DecodeLimits{1, 2, 3, 2},
@@ -166,7 +166,7 @@ TEST_P(ModelRendererTest, DrawsTheSameBitsInAnyOrderOfFrames) {
     for (const auto& [name, options] : make_variants()) {
         if (options.channels == 1) continue;  // the others draw all that these do, three times
         SCOPED_TRACE(name);
-        const Model model = make_test_model(options);
+        const Asset model = make_test_model(options);
         const LightCoefficients light = make_test_light(5);
         ModelRenderer sequence(model, {}), random(model, {});
         std::vector<Image> images;
@@ -216,7 +216,7 @@ TEST_P(ModelRendererTest, UploadsIntegersAsTheyAre) {
 }
 
 TEST_P(ModelRendererTest, DrawsFractionalPoses) {
-    const Model model = make_test_model({});
+    const Asset model = make_test_model({});
     const LightCoefficients light = make_test_light(5);
     ModelRenderer renderer(model, {});
     for (const double time : {0.0, 0.25, 1.5, 2.999, 3.0, 3.9}) {
@@ -230,7 +230,7 @@ TEST_P(ModelRendererTest, HonoursLimitsOfTheFrame) {
     for (const uint32_t channels : {1u, 3u}) {
         TestModelOptions options;
         options.channels = channels;
-        const Model model = make_test_model(options);
+        const Asset model = make_test_model(options);
         const LightCoefficients light = make_test_light(5);
         ModelRenderer renderer(model, {});
         for (const DecodeLimits& limits :
@@ -247,13 +247,13 @@ TEST_P(ModelRendererTest, HonoursLimitsOfTheFrame) {
 TEST_P(ModelRendererTest, UploadsNoMoreThanAsked) {
     TestModelOptions options;
     options.channels = 3;
-    const Model model = make_test_model(options);
+    const Asset model = make_test_model(options);
     const LightCoefficients light = make_test_light(5);
     const DecodeLimits limits{2, 3, 3};
     ModelRenderer renderer(model, limits);
     EXPECT_EQ(renderer.plan().geometry_components, 2u);
     EXPECT_EQ(renderer.plan().transfer_components, 3u);
-    EXPECT_EQ(renderer.plan().layout.bands, 3u);
+    EXPECT_EQ(renderer.plan().layout.in_bands, 3u);
     const Frame frame = make_frame(model, 0.4, limits);
     // What was not uploaded cannot be drawn, whatever the frame's limits.
     Frame more = frame;
@@ -264,7 +264,7 @@ TEST_P(ModelRendererTest, UploadsNoMoreThanAsked) {
 }
 
 TEST_P(ModelRendererTest, LightWithFewerBandsIsDarkBeyondThem) {
-    const Model model = make_test_model({});
+    const Asset model = make_test_model({});
     const LightCoefficients light = make_test_light(2);
     ModelRenderer renderer(model, {});
     const Frame frame = make_frame(model, 1.0);
@@ -280,9 +280,9 @@ TEST_P(ModelRendererTest, DrawsThousandsOfComponents) {
     options.num_poses = 2;
     options.geometry_components = 3000;
     options.transfer_components = 2500;
-    Model model = make_test_model(options);
-    for (float& weight : model.geometry.weights) weight *= 0.02f;
-    for (float& weight : model.transfer.weights) weight *= 0.02f;
+    Asset model = make_test_model(options);
+    for (float& weight : model.moving().positions.weights) weight *= 0.02f;
+    for (float& weight : model.moving().transfer->matrix.weights) weight *= 0.02f;
     const LightCoefficients light = make_test_light(2);
     ModelRenderer renderer(model, {});
     const Frame frame = make_frame(model, 0.7);
@@ -294,7 +294,7 @@ TEST_P(ModelRendererTest, DrawsSixtyFourBands) {
     options.num_rings = 4;
     options.bands = 64;
     options.transfer_components = 2;
-    const Model model = make_test_model(options);
+    const Asset model = make_test_model(options);
     const LightCoefficients light = make_test_light(64);
     ModelRenderer renderer(model, {});
     const Frame frame = make_frame(model, 0.7);
@@ -303,9 +303,9 @@ TEST_P(ModelRendererTest, DrawsSixtyFourBands) {
 
 TEST_P(ModelRendererTest, DrawsNothingOfAnEmptyModel) {
     TestModelOptions options;
-    Model model = make_test_model(options);
-    model.topology = {};
-    for (LowRankMatrix* matrix : {&model.geometry, &model.transfer}) {
+    Asset model = make_test_model(options);
+    model.moving().topology = {};
+    for (LowRank* matrix : {&model.moving().positions, &model.moving().transfer->matrix}) {
         matrix->num_points = 0;
         matrix->mean = {};
         matrix->components.assign(matrix->num_components, {});

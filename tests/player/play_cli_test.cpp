@@ -8,9 +8,10 @@
 #include <vector>
 
 #include "paim/base/file.h"
-#include "paim/codec/make_decoder.h"
+#include "paim/codec/mesh_decoder.h"
 #include "paim/codec/sequence_bounds.h"
-#include "paim/format/paim/paim_file.h"
+#include "paim/format/paim/paim_read.h"
+#include "paim/format/paim/paim_write.h"
 #include "paim/image/exr.h"
 #include "paim/light/environment.h"
 #include "paim/light/sky.h"
@@ -53,21 +54,21 @@ class PlayTest : public testing::Test {
 
     TemporaryDirectory directory_;
     std::filesystem::path file_ = directory_ / "ball.paim";
-    Model model_;
+    Asset model_;
 };
 
 // The picture by the library alone: default camera, built-in sky.
-Image expected_picture(const Model& model, double time, double rotation_rad, int width, int height,
+Image expected_picture(const Asset& model, double time, double rotation_rad, int width, int height,
                        const Vec3f& background) {
     DecodedPose pose;
     make_decoder(model)->decode(time, {}, pose);
     const LightCoefficients light =
         turn_about_y(EnvironmentLight(make_sky())
-                         .coefficients(Vec3f::Zero(), static_cast<int>(model.layout.bands)),
+                         .coefficients(static_cast<int>(model.moving().layout.in_bands)),
                      rotation_rad);
     const Camera camera = frame_bounds(sequence_bounds(model),
                                        static_cast<float>(width) / static_cast<float>(height));
-    return ray_cast(model.topology, from_planes(pose.positions),
+    return ray_cast(model.moving().topology, from_planes(pose.positions),
                     vertex_radiance(model, time, {}, light), camera, width, height, background);
 }
 
@@ -111,7 +112,7 @@ TEST_F(PlayTest, SnapshotReportsAsJson) {
     EXPECT_EQ(json["cluster_multiply_adds"], 0);
     // f32 in texels of four: 1 + 3 of geometry, (1 + 2) of 3 for the transfer's 9 planes; the empty
     // texture of 8-bit components of both; weights, light, albedo.
-    EXPECT_EQ(json["texture_bytes"], 16 * (4 + 3 * 3) * model_.topology.num_vertices + 2 * 4 +
+    EXPECT_EQ(json["texture_bytes"], 16 * (4 + 3 * 3) * model_.moving().topology.num_vertices + 2 * 4 +
                                          4 * (3 + 2) + 16 * 3 * 3 + 16);
     EXPECT_EQ(json["size"], nlohmann::json({32, 24}));
     EXPECT_EQ(json["multiply_adds_per_vertex"], 3 * 4 + 3 * 9 + 3 * 9);

@@ -42,7 +42,7 @@ void wait_for_look(ProgressiveLoader& loader, uint64_t size_bytes) {
 
 class ProgressiveLoaderTest : public testing::Test {
   protected:
-    static Model make_model(uint32_t num_poses) {
+    static Asset make_model(uint32_t num_poses) {
         TestModelOptions options;
         options.num_poses = num_poses;
         options.num_rings = 4;
@@ -50,9 +50,9 @@ class ProgressiveLoaderTest : public testing::Test {
     }
 
     void expect_holds(const LoadedModel& loaded, const Prefix& prefix) const {
-        const Model& model = loaded.model;
-        EXPECT_EQ(model.geometry.num_components, prefix.geometry_components);
-        EXPECT_EQ(model.transfer.num_components, prefix.transfer_components);
+        const Asset& model = loaded.model;
+        EXPECT_EQ(model.moving().positions.num_components, prefix.geometry_components);
+        EXPECT_EQ(model.moving().transfer->matrix.num_components, prefix.transfer_components);
         EXPECT_EQ(model.complete, prefix == file_.prefixes.back());
         EXPECT_EQ(loaded.progress,
                   (LoadProgress{prefix.size_bytes, file_.bytes.size(),
@@ -66,7 +66,7 @@ class ProgressiveLoaderTest : public testing::Test {
 
     TemporaryDirectory directory_;
     std::filesystem::path path_ = directory_ / "a.paim";
-    Model model_ = make_model(6);
+    Asset model_ = make_model(6);
     GrowingFile file_{path_, model_};
 };
 

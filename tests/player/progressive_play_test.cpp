@@ -39,7 +39,7 @@ class ProgressivePlayTest : public testing::Test {
 
     TemporaryDirectory directory_;
     std::filesystem::path path_ = directory_ / "ball.paim";
-    Model model_ = make_test_model({});  // 5 bands, 3 + 5 components, 6 poses
+    Asset model_ = make_test_model({});  // 5 bands, 3 + 5 components, 6 poses
     GrowingFile file_{path_, model_};
 };
 
@@ -67,7 +67,7 @@ TEST_F(ProgressivePlayTest, SnapshotOfABeginningIsThatOfAFileWithItsComponents) 
         EXPECT_EQ(image.pixels, read_exr(out("b.exr")).pixels);
 
         // Of the whole file, which has another camera unless all geometry is in use.
-        if (prefix.geometry_components < model_.geometry.num_components) continue;
+        if (prefix.geometry_components < model_.moving().positions.num_components) continue;
         ++num_limited;
         const ToolResult whole =
             snapshot(path_.string() + ".whole", out("c.exr"),

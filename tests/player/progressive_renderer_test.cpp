@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kWidth = 60, kHeight = 40;
 
-Image draw(SceneRenderer& renderer, const Model& model) {
+Image draw(SceneRenderer& renderer, const Asset& model) {
     Frame frame;
     frame.time = 1.25;
     frame.env_rotation_rad = 0.7;
@@ -24,17 +24,17 @@ Image draw(SceneRenderer& renderer, const Model& model) {
 TEST(ProgressiveRenderer, DrawsAnotherModelAsIfItWereTheFirst) {
     const auto context = gl::make_headless_context();
     TestModelOptions options;
-    const Model whole = make_test_model(options);
+    const Asset whole = make_test_model(options);
     options.geometry_components = 1;
     options.transfer_components = 2;
-    const Model coarse = make_test_model(options);
+    const Asset coarse = make_test_model(options);
     options.bands = 3;  // projects the light anew
     options.num_poses = 4;
-    const Model other = make_test_model(options);
+    const Asset other = make_test_model(options);
     const Image environment = make_sky();
     SceneRenderer growing(other, environment, {});
     Image last = draw(growing, other);
-    for (const Model* model : {&coarse, &whole, &other, &coarse}) {
+    for (const Asset* model : {&coarse, &whole, &other, &coarse}) {
         growing.set_model(*model, {});
         const Image image = draw(growing, *model);
         EXPECT_NE(image.pixels, last.pixels);

@@ -6,8 +6,9 @@
 #include "compressor/bake/bake_sequence.h"
 #include "compressor/encode/encode.h"
 #include "paim/codec/sequence_bounds.h"
-#include "paim/codec/svd_decoder.h"
-#include "paim/format/paim/paim_file.h"
+#include "paim/codec/mesh_decoder.h"
+#include "paim/format/paim/paim_read.h"
+#include "paim/format/paim/paim_write.h"
 #include "paim/image/exr.h"
 #include "paim/image/tone.h"
 #include "paim/light/environment.h"
@@ -58,16 +59,16 @@ class Reference : public testing::Test {
         SvdDecoder(model_).decode(time, {}, pose);
         const EnvironmentLight light(environment);
         std::vector<std::vector<Vec3f>> radiance(1);
-        shade(pose.layout, pose.transfer, model_.albedo,
-              turn_about_y(light.coefficients(Vec3f::Zero(), 5), turn_rad), radiance[0]);
+        shade(pose.layout, pose.transfer, model_.moving().albedo,
+              turn_about_y(light.coefficients(5), turn_rad), radiance[0]);
         std::vector<Vec3f> beside;
-        shade(model_.layout, model_.scenery.transfer.floats(), model_.scenery.albedo,
-              turn_about_y(light.coefficients(Vec3f::Zero(), 5), turn_rad), beside);
+        shade(model_.moving().layout, model_.scenery.transfer.floats(), model_.scenery.albedo,
+              turn_about_y(light.coefficients(5), turn_rad), beside);
         radiance[0].insert(radiance[0].end(), beside.begin(), beside.end());
         std::vector<Vec3f> positions = from_planes(pose.positions);
         const std::vector<Vec3f> stands = from_planes(model_.scenery.positions.floats());
         positions.insert(positions.end(), stands.begin(), stands.end());
-        Topology topology = model_.topology;
+        Topology topology = model_.moving().topology;
         topology.append(model_.scenery.topology);
         const Camera camera =
             frame_bounds(sequence_bounds(model_), static_cast<float>(kWidth) / kHeight);
@@ -88,7 +89,7 @@ class Reference : public testing::Test {
     }
 
     TemporaryDirectory directory_;
-    Model model_;
+    Asset model_;
 };
 
 TEST_F(Reference, PlayerAgreesInThreePosesUnderTwoLights) {

@@ -6,7 +6,7 @@
 
 #include "paim/base/error.h"
 #include "paim/codec/sequence_bounds.h"
-#include "paim/codec/svd_decoder.h"
+#include "paim/codec/mesh_decoder.h"
 #include "paim/light/environment.h"
 #include "paim/mesh/planes.h"
 #include "paim/shade/shade.h"
@@ -39,9 +39,9 @@ Image make_environment() {
     return image;
 }
 
-Model make_empty_model() {
-    Model model = make_test_model({});
-    model.topology.triangles.clear();
+Asset make_empty_model() {
+    Asset model = make_test_model({});
+    model.moving().topology.triangles.clear();
     return model;
 }
 
@@ -61,7 +61,7 @@ INSTANTIATE_TEST_SUITE_P(Apis, SceneTest, testing::Values(gl::Api::desktop, gl::
 // moves the place in the map by 1e-5 of it: 1e-4 pixels of 64, over which this map changes by 0.1 a
 // pixel.
 TEST_P(SceneTest, BackgroundIsTheTurnedEnvironment) {
-    const Model model = make_empty_model();
+    const Asset model = make_empty_model();
     const EnvironmentLight environment(make_environment());
     SceneRenderer renderer(model, environment.image(), {});
     struct View {
@@ -94,7 +94,7 @@ TEST_P(SceneTest, BackgroundIsTheTurnedEnvironment) {
 }
 
 TEST_P(SceneTest, LightTurnsWithTheBackground) {
-    const Model model = make_test_model({});
+    const Asset model = make_test_model({});
     const EnvironmentLight environment(make_environment());
     SceneRenderer renderer(model, environment.image(), {});
     Frame frame;
@@ -106,10 +106,10 @@ TEST_P(SceneTest, LightTurnsWithTheBackground) {
     for (const double rotation_rad : {0.0, 1.0, -2.0, 0.0}) {
         frame.env_rotation_rad = rotation_rad;
         const LightCoefficients light =
-            turn_about_y(environment.coefficients(Vec3f::Zero(), 5), rotation_rad);
+            turn_about_y(environment.coefficients(5), rotation_rad);
         DecodedPose pose;
         SvdDecoder(model).decode(frame.time, frame.limits, pose);
-        const Image expected = ray_cast(model.topology, from_planes(pose.positions),
+        const Image expected = ray_cast(model.moving().topology, from_planes(pose.positions),
                                         vertex_radiance(model, frame.time, frame.limits, light),
                                         frame.camera, kWidth, kHeight, frame.background.color);
         const Image image = renderer.render(frame, kWidth, kHeight, 1);
@@ -137,23 +137,23 @@ StillPlanes in_steps(const std::vector<float>& values, size_t num_planes, float 
     return {integers, steps};
 }
 
-// Model and scenery as one mesh, decoded, shaded and ray-cast on the CPU.
+// Asset and scenery as one mesh, decoded, shaded and ray-cast on the CPU.
 TEST_P(SceneTest, SceneryStandsBesideTheModel) {
     for (const auto& [channels, integers] : {std::pair(1u, false), {3u, false}, {3u, true}}) {
         TestModelOptions options;
         options.channels = channels;
-        Model model = make_test_model(options);
+        Asset model = make_test_model(options);
         // A still sphere of another colour that overlaps the model: each hides a part of the other.
         options.geometry_components = options.transfer_components = 0;
         options.albedo_per_vertex = true;
-        const Model still = make_test_model(options);
+        const Asset still = make_test_model(options);
         std::vector<float> moved = still.geometry.mean.floats();
         for (size_t v = 0; v < still.topology.num_vertices; ++v) moved[v] += 1.2f;
         model.scenery = {still.topology, still.albedo, moved, still.transfer.mean.floats()};
         if (integers) {
             model.scenery.positions = in_steps<int16_t>(moved, 3, 1e-4f);
             model.scenery.transfer =
-                in_steps<int8_t>(still.transfer.mean.floats(), model.layout.num_planes(), 0.02f);
+                in_steps<int8_t>(still.transfer.mean.floats(), model.moving().layout.num_planes(), 0.02f);
         }
 
         const EnvironmentLight environment(make_environment());
@@ -166,17 +166,17 @@ TEST_P(SceneTest, SceneryStandsBesideTheModel) {
         frame.camera = frame_bounds(frame.bounds, kAspect);
         const Image drawn = renderer.render(frame, kWidth, kHeight, 1);
 
-        const LightCoefficients light = environment.coefficients(Vec3f::Zero(), 4);
+        const LightCoefficients light = environment.coefficients(4);
         DecodedPose pose;
         SvdDecoder(model).decode(frame.time, frame.limits, pose);
         std::vector<Vec3f> positions = from_planes(pose.positions);
         std::vector<Vec3f> radiance = vertex_radiance(model, frame.time, frame.limits, light);
         std::vector<Vec3f> beside;
-        shade(model.layout, model.scenery.transfer.floats(), model.scenery.albedo, light, beside);
+        shade(model.moving().layout, model.scenery.transfer.floats(), model.scenery.albedo, light, beside);
         const std::vector<Vec3f> stands = from_planes(model.scenery.positions.floats());
         positions.insert(positions.end(), stands.begin(), stands.end());
         radiance.insert(radiance.end(), beside.begin(), beside.end());
-        Topology topology = model.topology;
+        Topology topology = model.moving().topology;
         topology.append(model.scenery.topology);
         const Image expected = ray_cast(topology, positions, radiance, frame.camera, kWidth,
                                         kHeight, frame.background.color);
@@ -188,7 +188,7 @@ TEST_P(SceneTest, SceneryStandsBesideTheModel) {
 }
 
 TEST_P(SceneTest, SupersamplesAreAveraged) {
-    const Model model = make_test_model({});
+    const Asset model = make_test_model({});
     SceneRenderer renderer(model, make_environment(), {});
     Frame frame;
     frame.bounds = pose_bounds(model, 0.0, frame.limits.geometry_components);
@@ -200,7 +200,7 @@ TEST_P(SceneTest, SupersamplesAreAveraged) {
 }
 
 TEST_P(SceneTest, BadEnvironmentLeavesTheOldOne) {
-    const Model model = make_empty_model();
+    const Asset model = make_empty_model();
     SceneRenderer renderer(model, make_environment(), {});
     const Image before = renderer.render({}, kWidth, kHeight, 1);
     Image bad = make_environment();
@@ -262,7 +262,7 @@ class ByteTarget {
 TEST_P(SceneTest, ToneMapperAgreesWithToneCurve) {
     constexpr int kSamples = 2;
     const gl::Target picture(kSamples * kWidth, kSamples * kHeight);
-    const Model model = make_empty_model();
+    const Asset model = make_empty_model();
     SceneRenderer renderer(model, make_environment(), {});
     renderer.draw({}, picture);
     const Image image = downsample(picture.read(), kSamples);

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "paim/base/seed.h"
-#include "paim/codec/make_decoder.h"
+#include "paim/codec/mesh_decoder.h"
 #include "paim/mesh/planes.h"
 #include "paim/shade/shade.h"
 
@@ -106,11 +106,11 @@ std::vector<float> waves(const std::vector<Vec3f>& positions, uint32_t num_plane
 // Stores a matrix as the options say.
 // mean, components  [planes][points], components of about 1
 // weight_scale      of what components add to the mean
-LowRankMatrix make_matrix(const std::vector<float>& mean,
+LowRank make_matrix(const std::vector<float>& mean,
                           const std::vector<std::vector<float>>& components, uint32_t num_planes,
                           double weight_scale, const TestModelOptions& options,
                           RandomStream& random) {
-    LowRankMatrix matrix;
+    LowRank matrix;
     matrix.num_planes = num_planes;
     matrix.num_points = static_cast<uint32_t>(mean.size() / num_planes);
     matrix.num_poses = options.num_poses;
@@ -146,7 +146,7 @@ LowRankMatrix make_matrix(const std::vector<float>& mean,
     return matrix;
 }
 
-LowRankMatrix make_geometry(const std::vector<Vec3f>& positions, const TestModelOptions& options) {
+LowRank make_geometry(const std::vector<Vec3f>& positions, const TestModelOptions& options) {
     RandomStream random(stream_key(1, 3, options.geometry_components));
     std::vector<std::vector<float>> components;
     for (uint32_t k = 0; k < options.geometry_components; ++k) {
@@ -155,7 +155,7 @@ LowRankMatrix make_geometry(const std::vector<Vec3f>& positions, const TestModel
     return make_matrix(to_planes(positions), components, 3, 0.2, options, random);
 }
 
-LowRankMatrix make_transfer(const std::vector<Vec3f>& positions, const TransferLayout& layout,
+LowRank make_transfer(const std::vector<Vec3f>& positions, const TransferLayout& layout,
                             const TestModelOptions& options) {
     RandomStream random(stream_key(2, layout.num_planes(), options.transfer_components));
     std::vector<float> mean = waves(positions, layout.num_planes(), 0.3f, random);
@@ -172,7 +172,7 @@ LowRankMatrix make_transfer(const std::vector<Vec3f>& positions, const TransferL
 }
 
 void make_clusters(const std::vector<Vec3f>& positions, const TestModelOptions& options,
-                   Model& model) {
+                   Asset& model) {
     RandomStream random(stream_key(5, options.num_clusters, options.cluster_components));
     const auto number = [&] { return static_cast<float>(2.0 * random.uniform() - 1.0); };
     VertexClusters& clusters = model.clusters;
@@ -187,7 +187,7 @@ void make_clusters(const std::vector<Vec3f>& positions, const TestModelOptions& 
         clusters.coefficients.push_back(store(waves(positions, 1, 1.0f, random), precision));
         row_scales.push_back(0.3f / scale_of(precision));
     }
-    const uint32_t num_planes = model.layout.num_planes();
+    const uint32_t num_planes = model.moving().layout.num_planes();
     std::vector<float> mean(size_t{num_planes} * clusters.num_rows());
     std::generate(mean.begin(), mean.end(), number);
     for (uint32_t r = 0; r < clusters.num_rows(); ++r) {
@@ -196,7 +196,7 @@ void make_clusters(const std::vector<Vec3f>& positions, const TestModelOptions& 
         if (row != 0) continue;
         for (uint32_t plane = 0; plane < num_planes; ++plane) {
             float& value = mean[size_t{plane} * clusters.num_rows() + r];
-            value = plane % model.layout.num_coefficients() == 0 ? 2.0f : 0.3f * value;
+            value = plane % model.moving().layout.num_coefficients() == 0 ? 2.0f : 0.3f * value;
         }
     }
     std::vector<std::vector<float>> components(options.transfer_components);
@@ -204,36 +204,36 @@ void make_clusters(const std::vector<Vec3f>& positions, const TestModelOptions& 
         component.resize(mean.size());
         std::generate(component.begin(), component.end(), number);
     }
-    model.transfer = make_matrix(mean, components, num_planes, 0.3, options, random);
+    model.moving().transfer->matrix = make_matrix(mean, components, num_planes, 0.3, options, random);
 }
 
 }  // namespace
 
-Model make_test_model(const TestModelOptions& options) {
+Asset make_test_model(const TestModelOptions& options) {
     const uint32_t num_segments = 2 * options.num_rings;
     const std::vector<Vec3f> positions = sphere_positions(options.num_rings, num_segments);
-    Model model;
+    Asset model;
     model.name = "test";
-    model.topology = sphere_topology(options.num_rings, num_segments);
-    model.layout.bands = options.bands;
-    model.layout.channels = options.channels;
-    model.geometry = make_geometry(positions, options);
+    model.moving().topology = sphere_topology(options.num_rings, num_segments);
+    model.moving().layout.in_bands = options.bands;
+    model.moving().layout.channels = options.channels;
+    model.moving().positions = make_geometry(positions, options);
     if (options.num_clusters == 0) {
-        model.transfer = make_transfer(positions, model.layout, options);
+        model.moving().transfer->matrix = make_transfer(positions, model.moving().layout, options);
     } else {
         make_clusters(positions, options, model);
     }
     if (options.albedo_per_vertex) {
         RandomStream random(stream_key(3, 0, 0));
-        model.albedo.values.clear();
+        model.moving().albedo.values.clear();
         const Wave red(random), green(random), blue(random);
         for (const Vec3f& p : positions) {
-            model.albedo.values.push_back(
+            model.moving().albedo.values.push_back(
                 Vec3d(0.5 + 0.4 * red.at(p), 0.5 + 0.4 * green.at(p), 0.5 + 0.4 * blue.at(p))
                     .cast<float>());
         }
     } else {
-        model.albedo.values = {Vec3f(0.9f, 0.6f, 0.3f)};
+        model.moving().albedo.values = {Vec3f(0.9f, 0.6f, 0.3f)};
     }
     return model;
 }
@@ -252,12 +252,12 @@ LightCoefficients make_test_light(int bands) {
     return light;
 }
 
-std::vector<Vec3f> vertex_radiance(const Model& model, double time, const DecodeLimits& limits,
+std::vector<Vec3f> vertex_radiance(const Asset& model, double time, const DecodeLimits& limits,
                                    const LightCoefficients& light) {
     DecodedPose pose;
     make_decoder(model)->decode(time, limits, pose);
     std::vector<Vec3f> radiance;
-    shade(pose.layout, pose.transfer, model.albedo, light, radiance);
+    shade(pose.layout, pose.transfer, model.moving().albedo, light, radiance);
     return radiance;
 }
 

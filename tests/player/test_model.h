@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "paim/codec/decoder.h"
-#include "paim/codec/model.h"
+#include "paim/codec/mesh_decoder.h"
+#include "paim/codec/asset.h"
 #include "paim/light/light.h"
 
 namespace paim::player {
@@ -28,13 +28,13 @@ struct TestModelOptions {
 
 // A unit sphere that bends and shimmers: smooth random components, so that neighbouring vertices
 // differ little and pixels at triangle edges do not decide a comparison.
-Model make_test_model(const TestModelOptions& options);
+Asset make_test_model(const TestModelOptions& options);
 
 // Random coefficients whose constant part outweighs the rest, so that radiance is mostly positive.
 LightCoefficients make_test_light(int bands);
 
 // Radiance of every vertex at `time` as the CPU decoder and shade() give it.
-std::vector<Vec3f> vertex_radiance(const Model& model, double time, const DecodeLimits& limits,
+std::vector<Vec3f> vertex_radiance(const Asset& model, double time, const DecodeLimits& limits,
                                    const LightCoefficients& light);
 
 }  // namespace paim::player

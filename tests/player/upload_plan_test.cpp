@@ -12,22 +12,22 @@ namespace paim::player {
 namespace {
 
 // A model of which only the dimensions matter.
-Model dimensions(uint32_t num_vertices, uint32_t bands, uint32_t channels,
+Asset dimensions(uint32_t num_vertices, uint32_t bands, uint32_t channels,
                  uint32_t geometry_components, uint32_t transfer_components) {
-    Model model;
-    model.topology.num_vertices = num_vertices;
-    model.layout.bands = bands;
-    model.layout.channels = channels;
-    model.geometry.num_points = model.transfer.num_points = num_vertices;
-    model.geometry.num_planes = 3;
-    model.transfer.num_planes = model.layout.num_planes();
-    model.geometry.num_components = geometry_components;
-    model.transfer.num_components = transfer_components;
-    model.geometry.num_poses = model.transfer.num_poses = 10;
+    Asset model;
+    model.moving().topology.num_vertices = num_vertices;
+    model.moving().layout.in_bands = bands;
+    model.moving().layout.channels = channels;
+    model.moving().positions.num_points = model.moving().transfer->matrix.num_points = num_vertices;
+    model.moving().positions.num_planes = 3;
+    model.moving().transfer->matrix.num_planes = model.moving().layout.num_planes();
+    model.moving().positions.num_components = geometry_components;
+    model.moving().transfer->matrix.num_components = transfer_components;
+    model.moving().positions.num_poses = model.moving().transfer->matrix.num_poses = 10;
     return model;
 }
 
-std::string refusal(const Model& model, const DecodeLimits& limits, int max_texture_size) {
+std::string refusal(const Asset& model, const DecodeLimits& limits, int max_texture_size) {
     try {
         plan_upload(model, limits, max_texture_size);
     } catch (const Error& error) {
@@ -38,7 +38,7 @@ std::string refusal(const Model& model, const DecodeLimits& limits, int max_text
 }
 
 TEST(UploadPlan, CountsGroupsOfFourPerChannel) {
-    const Model model = dimensions(100, 5, 3, 7, 11);
+    const Asset model = dimensions(100, 5, 3, 7, 11);
     const UploadPlan plan = plan_upload(model, {}, 1024);
     EXPECT_EQ(plan.groups_per_channel, 7u);  // 25 coefficients
     EXPECT_EQ(plan.num_groups(), 21u);
@@ -48,20 +48,20 @@ TEST(UploadPlan, CountsGroupsOfFourPerChannel) {
 }
 
 TEST(UploadPlan, TakesTheLimits) {
-    const Model model = dimensions(100, 5, 1, 7, 11);
+    const Asset model = dimensions(100, 5, 1, 7, 11);
     const UploadPlan plan = plan_upload(model, {3, 4, 2}, 1024);
     EXPECT_EQ(plan.geometry_components, 3u);
     EXPECT_EQ(plan.transfer_components, 4u);
-    EXPECT_EQ(plan.layout.bands, 2u);
+    EXPECT_EQ(plan.layout.in_bands, 2u);
     const UploadPlan all = plan_upload(model, {}, 1024);
     EXPECT_EQ(all.geometry_components, 7u);
     EXPECT_EQ(all.transfer_components, 11u);
-    EXPECT_EQ(all.layout.bands, 5u);
+    EXPECT_EQ(all.moving().layout.in_bands, 5u);
 }
 
 TEST(UploadPlan, NamesTheTextureLimitAndWhatWouldFit) {
     // 64 x 64 = 4096 texels; a component of transfer takes 3 channels x 100 vertices.
-    const Model model = dimensions(100, 2, 3, 40, 14);
+    const Asset model = dimensions(100, 2, 3, 40, 14);
     EXPECT_EQ(refusal(model, {}, 64),
               "14 components of transfer need 4200 texels, this driver's largest texture "
               "(GL_MAX_TEXTURE_SIZE 64) holds 4096: 13 components would fit");
@@ -76,10 +76,10 @@ TEST(UploadPlan, NamesTheTextureLimitAndWhatWouldFit) {
 // 100 vertices, 20 clusters of 6 components: 2 texels of coefficients a vertex; 1 + 3 · 2 texels of
 // light products a cluster.
 TEST(UploadPlan, HoldsClusters) {
-    Model model = dimensions(100, 8, 3, 1, 50);  // whose transfer would not fit
+    Asset model = dimensions(100, 8, 3, 1, 50);  // whose transfer would not fit
     model.clusters.num_clusters = 20;
     model.clusters.num_components = 6;
-    model.transfer.num_points = model.clusters.num_rows();
+    model.moving().transfer->matrix.num_points = model.clusters.num_rows();
     const UploadPlan plan = plan_upload(model, {}, 16);
     EXPECT_EQ(plan.cluster_components, 6u);
     EXPECT_EQ(plan.cluster_groups(), 2u);
@@ -95,7 +95,7 @@ TEST(UploadPlan, HoldsClusters) {
 
 // Shaders count texels in 32 bits, whatever the driver's textures hold.
 TEST(UploadPlan, StaysWithinThirtyTwoBits) {
-    const Model model = dimensions(1 << 20, 2, 1, 3000, 1);
+    const Asset model = dimensions(1 << 20, 2, 1, 3000, 1);
     EXPECT_NE(refusal(model, {}, 65536).find("holds 2147483647: 2047 components would fit"),
               std::string::npos);
 }

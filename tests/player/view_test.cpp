@@ -295,8 +295,8 @@ TEST(FrameCost, CountsWhatClustersDo) {
     options.num_clusters = 9;
     options.cluster_components = 6;
     options.coefficient_precisions = {Precision::i16, Precision::i8};
-    const Model model = make_test_model(options);
-    const uint64_t num_vertices = model.topology.num_vertices;
+    const Asset model = make_test_model(options);
+    const uint64_t num_vertices = model.moving().topology.num_vertices;
     const Cost all = frame_cost(model, {});
     EXPECT_EQ(all.multiply_adds, 3u * 4 + 3u * 7);
     EXPECT_EQ(all.cluster_multiply_adds, 63u * (25 * 5 + 3 * 25));
@@ -317,8 +317,8 @@ TEST(FrameCost, CountsWhatTheShaderDoes) {
     TestModelOptions options;
     options.channels = 3;
     options.precision = Precision::f16;
-    const Model model = make_test_model(options);  // 5 bands, 3 + 5 components, 6 poses
-    const uint64_t num_vertices = model.topology.num_vertices;
+    const Asset model = make_test_model(options);  // 5 bands, 3 + 5 components, 6 poses
+    const uint64_t num_vertices = model.moving().topology.num_vertices;
     const Cost all = frame_cost(model, {});
     EXPECT_EQ(all.multiply_adds, 3u * 4 + 75u * 6 + 3u * 25);
     EXPECT_EQ(all.bytes, 4 * 3 * num_vertices + 3 * (2 * 3 * num_vertices + 4 * 6) +

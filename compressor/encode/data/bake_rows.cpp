@@ -19,8 +19,8 @@ TransferRows::TransferRows(const BakeReader& bake, uint32_t bands, Content conte
       content_(content),
       layout_(bake.identity().layout),
       num_vertices_(bake.identity().num_vertices) {
-    PAIM_CHECK(bands >= 1 && bands <= layout_.bands);
-    layout_.bands = bands;
+    PAIM_CHECK(bands >= 1 && bands <= layout_.in_bands);
+    layout_.in_bands = bands;
 }
 
 void TransferRows::read(uint64_t first, Eigen::MatrixXf& block) const {

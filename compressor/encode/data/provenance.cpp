@@ -9,7 +9,7 @@ namespace paim {
 
 std::string bake_provenance(const BakeIdentity& identity, const PoseStatistics& total) {
     nlohmann::ordered_json json;
-    json["bake_bands"] = identity.layout.bands;
+    json["bake_bands"] = identity.layout.in_bands;
     json["sampler"] = identity.sampler;
     json["streams"] = identity.streams;
     json["rays"] = identity.rays;

@@ -78,7 +78,7 @@ EncodeSize bake_size(const BakeReader& bake) {
             bake.num_poses(),
             static_cast<uint64_t>(max_parallelism()),
             bake.identity().num_vertices,
-            layout.bands,
+            layout.in_bands,
             scenery_bytes};
 }
 

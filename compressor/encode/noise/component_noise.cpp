@@ -48,7 +48,7 @@ class Measurement {
 
     BlockEnergies measure(uint64_t first, uint64_t count) const {
         BlockEnergies block;
-        block.energy = MatrixXd::Zero(static_cast<Index>(layout_.bands), v_.cols());
+        block.energy = MatrixXd::Zero(static_cast<Index>(layout_.in_bands), v_.cols());
         block.noise = block.energy;
         MatrixXf values(static_cast<Index>(count), v_.rows());
         transfer_.read(first, values);
@@ -60,7 +60,7 @@ class Measurement {
 
     uint64_t num_vertices() const { return transfer_.num_rows() / layout_.num_planes(); }
     Index band_of_row(uint64_t row) const {
-        return layout_.band_of_plane(static_cast<uint32_t>(row / num_vertices()));
+        return layout_.input_band(static_cast<uint32_t>(row / num_vertices()));
     }
 
   private:
@@ -103,7 +103,7 @@ double ComponentNoise::num_independent() const {
     double squares = 0.0;
     for (size_t v = 0; v < num_vertices; ++v) {
         double of_vertex = 0.0;
-        for (size_t l = 0; l < layout.bands; ++l) of_vertex += vertex_noise[l * num_vertices + v];
+        for (size_t l = 0; l < layout.in_bands; ++l) of_vertex += vertex_noise[l * num_vertices + v];
         sum += of_vertex;
         squares += of_vertex * of_vertex;
     }
@@ -122,9 +122,9 @@ ComponentNoise measure_component_noise(const RowSource& transfer, const RowSourc
     result.layout = layout;
     result.num_poses = transfer.num_columns();
     result.num_vertices = static_cast<uint32_t>(measurement.num_vertices());
-    result.energy = MatrixXd::Zero(static_cast<Index>(layout.bands), components.rank());
+    result.energy = MatrixXd::Zero(static_cast<Index>(layout.in_bands), components.rank());
     result.noise = result.energy;
-    result.vertex_energy.resize(size_t{layout.bands} * result.num_vertices, 0.0);
+    result.vertex_energy.resize(size_t{layout.in_bands} * result.num_vertices, 0.0);
     result.vertex_noise.resize(result.vertex_energy.size(), 0.0);
 
     const uint64_t block_rows = rows_per_block(transfer.num_columns());

@@ -55,7 +55,7 @@ void Shrinkage::apply(uint64_t first, std::vector<std::vector<float>>& component
         std::vector<float>& rows = components[k];
         for (size_t r = 0; r < rows.size();) {
             const uint64_t plane = (first + r) / num_vertices_;
-            const uint32_t band = layout_.band_of_plane(static_cast<uint32_t>(plane));
+            const uint32_t band = layout_.input_band(static_cast<uint32_t>(plane));
             const size_t end = std::min(rows.size(), (plane + 1) * num_vertices_ - first);
             for (; r < end; ++r) {
                 const size_t v = (first + r) % num_vertices_;
@@ -103,7 +103,7 @@ EncodedError Shrinkage::expected_error(uint32_t num_components) const {
     EncodedError error;
     error.truncation = std::max(0.0, component_signal_.tail(component_signal_.size() - kept).sum());
     error.noise = mean_noise_;
-    for (uint32_t l = 0; l < layout_.bands; ++l) {
+    for (uint32_t l = 0; l < layout_.in_bands; ++l) {
         for (size_t v = 0; v < num_vertices_; ++v) error.noise += risk(l, v, kept);
     }
     error.noise = std::max(0.0, error.noise);

@@ -10,7 +10,7 @@
 #include "compressor/encode/cluster/clustered_pca.h"
 #include "compressor/encode/quantise/quantise.h"
 #include "compressor/encode/quantise/scaled_factors.h"
-#include "paim/codec/model.h"
+#include "paim/codec/cpca/vertex_clusters.h"
 
 namespace paim {
 
@@ -54,7 +54,7 @@ ClusteredFactors cluster_bases(const ScaledFactors& factors,
                                uint32_t num_components);
 
 struct ClusteredMatrix {
-    LowRankMatrix matrix;  // of the bases
+    LowRank matrix;  // of the bases
     VertexClusters clusters;
 };
 

@@ -135,14 +135,14 @@ StoredValues store(const ScaledFactors& factors, const Quantiser& quantiser,
 
 }  // namespace
 
-LowRankMatrix quantise(const ScaledFactors& factors, const Quantiser& quantiser) {
+LowRank quantise(const ScaledFactors& factors, const Quantiser& quantiser) {
     const Normal normal = normal_equations(factors, quantiser);
     const MatrixXd fitted = fit(normal);
     MatrixXd wide(1 + factors.weights.rows(), factors.weights.cols());
     wide << Eigen::RowVectorXd::Ones(factors.weights.cols()), factors.weights;
     const MatrixXd weights = fitted * wide;
 
-    LowRankMatrix matrix;
+    LowRank matrix;
     matrix.num_points = factors.num_points;
     matrix.num_planes = factors.num_planes;
     matrix.num_poses = factors.num_poses();

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "compressor/encode/quantise/scaled_factors.h"
-#include "paim/codec/model.h"
+#include "paim/codec/asset.h"
 
 namespace paim {
 
@@ -26,7 +26,7 @@ struct Quantiser {
 // one of their steps costs as much error as one of a component's. Components whose values or weights
 // are nothing but zero are dropped, the others say which singular value they have.
 // Error (unsupported) if a step is so small that values do not fit in 16 bits.
-LowRankMatrix quantise(const ScaledFactors& factors, const Quantiser& quantiser);
+LowRank quantise(const ScaledFactors& factors, const Quantiser& quantiser);
 
 // Weighted squared error of such a matrix over all rows and poses, without the rounding of weights.
 double quantised_error(const ScaledFactors& factors, const Quantiser& quantiser);

@@ -1,12 +1,11 @@
 // Bands that hold nothing are not stored.
 #pragma once
 
-#include "paim/codec/model.h"
+#include "paim/codec/asset.h"
 
 namespace paim {
 
-// Removes the highest bands of the transfer, and of the scenery's, as long as they are nothing but
-// zeros; one is kept.
-void trim_bands(Model& model);
+// Removes the highest bands of the transfer as long as they are zero in all parts; one is kept.
+void trim_bands(Asset& asset);
 
 }  // namespace paim

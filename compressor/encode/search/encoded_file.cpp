@@ -7,37 +7,42 @@
 #include <utility>
 
 #include "compressor/encode/data/provenance.h"
-#include "compressor/encode/search/quantise_scenery.h"
-#include "compressor/encode/search/transfer_cost.h"
+#include "compressor/encode/search/quantise_still.h"
+#include "paim/codec/svd/svd_transfer.h"
 
 namespace paim {
 
-const QuantisedScenery& TargetFiles::scenery_of(const Targets& targets) {
-    if (scenery_targets_ == targets) return scenery_;
-    scenery_ = is_integer(options_.precision)
-                   ? quantise_scenery(problem_, targets.transfer, targets.geometry)
-                   : exact_scenery(problem_);
-    scenery_targets_ = targets;
-    return scenery_;
+const QuantisedStill& EncodedFiles::still_of(const Targets& targets) {
+    if (still_targets_ == targets) return still_;
+    still_ = is_integer(options_.precision)
+                 ? quantise_still(problem_, targets.transfer, targets.geometry)
+                 : exact_still(problem_);
+    still_targets_ = targets;
+    return still_;
 }
 
-uint64_t TargetFiles::frame_bytes(double transfer_error) {
-    Model frame = problem_.frame;
-    frame.scenery = scenery_of(targets(transfer_error)).scenery;
-    const auto fill = [&](uint32_t num_planes, LowRankMatrix& matrix) {
-        matrix.num_points = frame.topology.num_vertices;
+uint64_t EncodedFiles::overhead_bytes(double transfer_error) {
+    Asset shell = problem_.shell;
+    if (const QuantisedStill& still = still_of(targets(transfer_error)); still.mesh) {
+        *shell.still() = *still.mesh;
+    }
+    CodedMesh& mesh = shell.moving();
+    const auto nothing = [&](uint32_t num_planes) {
+        LowRank matrix;
+        matrix.num_points = mesh.topology.num_vertices;
         matrix.num_planes = num_planes;
         matrix.num_poses = problem_.bake.num_poses();
         matrix.mean = std::vector<int8_t>(matrix.num_rows());
         matrix.steps.assign(num_planes, 1.0f);
+        return matrix;
     };
-    fill(3, frame.geometry);
-    fill(frame.layout.num_planes(), frame.transfer);
-    frame.provenance_json = bake_provenance(problem_.bake.identity(), problem_.statistics);
-    return PackedFile(frame, Effort::fast).size_bytes();
+    mesh.positions = nothing(3);
+    mesh.transfer = SvdTransfer(nothing(mesh.layout.num_planes()));
+    shell.provenance_json = bake_provenance(problem_.bake.identity(), problem_.statistics);
+    return PackedFile(shell, Effort::fast).size_bytes();
 }
 
-std::optional<TargetFiles::Draft> TargetFiles::draft(double transfer_error, std::string& reason) {
+std::optional<EncodedFiles::Draft> EncodedFiles::draft(double transfer_error, std::string& reason) {
     Draft draft;
     auto coding = search_.choose(targets(transfer_error), draft.candidates, reason);
     if (!coding) {
@@ -49,7 +54,7 @@ std::optional<TargetFiles::Draft> TargetFiles::draft(double transfer_error, std:
     return draft;
 }
 
-std::optional<TargetFile> TargetFiles::meet(double transfer_error, std::string& reason) {
+std::optional<EncodedFile> EncodedFiles::meet(double transfer_error, std::string& reason) {
     const Targets targets = this->targets(transfer_error);
     // What is chosen by estimates may leave its integers too little room once it is measured: then
     // something of a smaller error by estimate.
@@ -61,7 +66,7 @@ std::optional<TargetFile> TargetFiles::meet(double transfer_error, std::string& 
             reason = bake_name() + ": " + reason;
             return std::nullopt;
         }
-        auto refined = refine(problem_, scenery_of(targets), std::move(*coding), targets);
+        auto refined = refine(problem_, still_of(targets), std::move(*coding), targets);
         if (refined) return pack(targets, std::move(candidates), std::move(*refined), reason);
     }
     reason = fmt::format(
@@ -71,19 +76,21 @@ std::optional<TargetFile> TargetFiles::meet(double transfer_error, std::string& 
     return std::nullopt;
 }
 
-std::optional<TargetFile> TargetFiles::meet(double transfer_error, Draft draft,
+std::optional<EncodedFile> EncodedFiles::meet(double transfer_error, Draft draft,
                                             std::string& reason) {
     const Targets targets = this->targets(transfer_error);
-    auto refined = refine(problem_, scenery_of(targets), std::move(draft.coding), targets);
+    auto refined = refine(problem_, still_of(targets), std::move(draft.coding), targets);
     if (!refined) return meet(transfer_error, reason);
     return pack(targets, std::move(draft.candidates), std::move(*refined), reason);
 }
 
-std::optional<TargetFile> TargetFiles::pack(const Targets& targets,
-                                            std::vector<Candidate> candidates, RefinedModel refined,
+std::optional<EncodedFile> EncodedFiles::pack(const Targets& targets,
+                                            std::vector<Candidate> candidates, RefinedAsset refined,
                                             std::string& reason) const {
-    Model& model = refined.model;
-    const uint32_t cost = transfer_cost(model);
+    Asset& asset = refined.asset;
+    const CodedMesh& mesh = asset.moving();
+    const auto cost =
+        static_cast<uint32_t>(mesh.transfer->cost(mesh.layout, {}, true).per_vertex());
     // Floats may have needed a component more than was asked about.
     if (target_.decode_cost && cost > *target_.decode_cost) {
         reason = fmt::format(
@@ -95,8 +102,8 @@ std::optional<TargetFile> TargetFiles::pack(const Targets& targets,
     for (Candidate& candidate : candidates) {
         if (!candidate.chosen) continue;
         // Refining may have changed what was compared.
-        candidate.bands = model.layout.bands;
-        candidate.components = model.transfer.num_components;
+        candidate.bands = mesh.layout.in_bands;
+        candidate.components = mesh.transfer->matrix.num_components;
         candidate.multiply_adds = cost;
     }
     nlohmann::ordered_json provenance = nlohmann::ordered_json::parse(
@@ -104,12 +111,12 @@ std::optional<TargetFile> TargetFiles::pack(const Targets& targets,
     provenance["noise"] = options_.noise == NoiseTreatment::shrink ? "shrink" : "keep";
     provenance["measured"] =
         nlohmann::ordered_json::parse(error_statement_json(refined.error, target_.spectrum));
-    model.provenance_json = provenance.dump();
-    return TargetFile{PackedFile(model),
+    asset.provenance_json = provenance.dump();
+    return EncodedFile{PackedFile(asset),
                       refined.error,
                       targets,
                       std::move(candidates),
-                      model.geometry.num_components,
+                      mesh.positions.num_components,
                       std::move(refined.coding)};
 }
 

@@ -6,22 +6,22 @@
 #include <vector>
 
 #include "compressor/encode/search/rate_control.h"
-#include "paim/format/paim/paim_packer.h"
+#include "paim/format/paim/packed_file.h"
 
 namespace paim {
 
-struct TargetFile {
+struct EncodedFile {
     PackedFile file;
-    ModelError error;  // measured
+    AssetError error;  // measured
     Targets targets;   // that were met
     std::vector<Candidate> candidates;
     uint32_t geometry_components = 0;
     Coding coding;  // with the steps that it was made with
 };
 
-class TargetFiles {
+class EncodedFiles {
   public:
-    TargetFiles(const EncodeProblem& problem, const EncodeOptions& options,
+    EncodedFiles(const EncodeProblem& problem, const EncodeOptions& options,
                 const EncodeTarget& target)
         : problem_(problem),
           options_(options),
@@ -32,34 +32,34 @@ class TargetFiles {
         return targets_of(problem_, target_, transfer_error);
     }
 
-    // Of a file of this error, beside geometry and transfer.
-    uint64_t frame_bytes(double transfer_error);
+    // Of a file of this error: all but geometry and transfer of the part that moves.
+    uint64_t overhead_bytes(double transfer_error);
 
     // A coding that should do for an error, and how large that makes geometry and transfer, about.
     struct Draft {
         Coding coding;
         std::vector<Candidate> candidates;
-        uint64_t estimated_bytes = 0;  // without the frame
+        uint64_t estimated_bytes = 0;  // without the overhead
     };
     std::optional<Draft> draft(double transfer_error, std::string& reason);
 
     // The file of this error. Nothing, with the reason, if there is none.
     // draft  of this error or one near by, with steps that should meet it
-    std::optional<TargetFile> meet(double transfer_error, std::string& reason);
-    std::optional<TargetFile> meet(double transfer_error, Draft draft, std::string& reason);
+    std::optional<EncodedFile> meet(double transfer_error, std::string& reason);
+    std::optional<EncodedFile> meet(double transfer_error, Draft draft, std::string& reason);
 
   private:
-    std::optional<TargetFile> pack(const Targets& targets, std::vector<Candidate> candidates,
-                                   RefinedModel refined, std::string& reason) const;
-    const QuantisedScenery& scenery_of(const Targets& targets);
+    std::optional<EncodedFile> pack(const Targets& targets, std::vector<Candidate> candidates,
+                                   RefinedAsset refined, std::string& reason) const;
+    const QuantisedStill& still_of(const Targets& targets);
     std::string bake_name() const { return problem_.bake.directory().string(); }
 
     const EncodeProblem& problem_;
     const EncodeOptions& options_;
     const EncodeTarget& target_;
     CodingSearch search_;
-    QuantisedScenery scenery_;  // of the last targets that were asked about
-    std::optional<Targets> scenery_targets_;
+    QuantisedStill still_;  // of the last targets that were asked about
+    std::optional<Targets> still_targets_;
 };
 
 }  // namespace paim

@@ -7,40 +7,41 @@
 
 namespace paim {
 
-void throw_missed(const std::string& message) {
+void throw_infeasible(const std::string& message) {
     throw Error(ExitCode::threshold_exceeded, message);
 }
 
 namespace {
 
-// whose  of the bake's parts has this floor
-void check_floor(const EncodeProblem& problem, const TransferError& floor, const char* whose,
+// best   the smallest error that the part can have
+// whose  part of the bake it is
+void check_part(const EncodeProblem& problem, const TransferError& best, const char* whose,
                  double transfer_error) {
-    if (floor.total() < transfer_error) return;
+    if (best.total() < transfer_error) return;
     const std::string asked =
         fmt::format("{}: a transfer error of {:.3g} % is asked for, but {}",
                     problem.bake.directory().string(), 100.0 * transfer_error, whose);
-    const uint32_t baked = problem.bake.identity().layout.bands;
-    if (floor.missing_bands > floor.error) {
-        throw_missed(fmt::format(
+    const uint32_t baked = problem.bake.identity().layout.in_bands;
+    if (best.missing_bands > best.error) {
+        throw_infeasible(fmt::format(
             "{}its {} bands leave out {:.3g} % of what light of this spectrum shows: the best is "
             "{:.3g} %; bake with more --bands",
-            asked, baked, 100.0 * floor.missing_bands, 100.0 * floor.total()));
+            asked, baked, 100.0 * best.missing_bands, 100.0 * best.total()));
     }
-    if (problem.layout.bands < baked) {
-        throw_missed(fmt::format("{}{} of its {} bands leave {:.3g} % at best: keep more --bands",
-                                 asked, problem.layout.bands, baked, 100.0 * floor.total()));
+    if (problem.layout.in_bands < baked) {
+        throw_infeasible(fmt::format("{}{} of its {} bands leave {:.3g} % at best: keep more --bands",
+                                 asked, problem.layout.in_bands, baked, 100.0 * best.total()));
     }
-    throw_missed(fmt::format("{}the bake's noise leaves {:.3g} % at best: bake with more --rays",
-                             asked, 100.0 * floor.total()));
+    throw_infeasible(fmt::format("{}the bake's noise leaves {:.3g} % at best: bake with more --rays",
+                             asked, 100.0 * best.total()));
 }
 
 }  // namespace
 
-void check_reachable(const EncodeProblem& problem, double transfer_error) {
-    check_floor(problem, problem.floor.transfer, "", transfer_error);
-    if (!problem.floor.scenery) return;
-    check_floor(problem, problem.floor.scenery->transfer, "of the scenery ", transfer_error);
+void check_feasible(const EncodeProblem& problem, double transfer_error) {
+    check_part(problem, problem.best_achievable.transfer, "", transfer_error);
+    if (!problem.best_achievable.still) return;
+    check_part(problem, problem.best_achievable.still->transfer, "of the scenery ", transfer_error);
 }
 
 }  // namespace paim

@@ -1,4 +1,4 @@
-// What no file of a bake can meet.
+// Targets that no file of a bake can meet.
 #pragma once
 
 #include "compressor/encode/search/problem.h"
@@ -6,9 +6,9 @@
 namespace paim {
 
 // Error (threshold exceeded): the bake's file for this error.
-[[noreturn]] void throw_missed(const std::string& message);
+[[noreturn]] void throw_infeasible(const std::string& message);
 
 // Refuses transfer errors below what noise and bands of the bake leave, with the best that there is.
-void check_reachable(const EncodeProblem& problem, double transfer_error);
+void check_feasible(const EncodeProblem& problem, double transfer_error);
 
 }  // namespace paim

@@ -10,7 +10,7 @@
 
 namespace paim {
 
-uint64_t stored_bytes(const LowRankMatrix& matrix, const PlanePredictor& predictor, Effort effort) {
+uint64_t stored_bytes(const LowRank& matrix, const PlanePredictor& predictor, Effort effort) {
     // A section has an entry in the table and ends, on average, in the middle of its last 64 bytes.
     constexpr uint64_t kSectionBytes = sizeof(container::TableEntry) + container::kAlignment / 2;
     std::vector<uint64_t> bytes(matrix.components.size() + 1);

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "paim/codec/model.h"
+#include "paim/codec/asset.h"
 #include "paim/format/pack/plane_predictor.h"
 #include "paim/format/pack/zstd_codec.h"
 
@@ -11,6 +11,6 @@ namespace paim {
 
 // Bytes of its mean, components and weights as they will be stored, with their table entries. Fast
 // effort gives some percent more than what the file will have: good for comparing.
-uint64_t stored_bytes(const LowRankMatrix& matrix, const PlanePredictor& predictor, Effort effort);
+uint64_t stored_bytes(const LowRank& matrix, const PlanePredictor& predictor, Effort effort);
 
 }  // namespace paim

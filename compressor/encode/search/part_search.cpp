@@ -54,7 +54,7 @@ std::vector<PartChoice> part_choices(const ScaledFactors& factors,
         if (choice.quantiser.step == 0.0) continue;
         choice.quantiser.step = std::max(choice.quantiser.step,
                                          smallest_step(factors, choice.quantiser, Precision::i16));
-        const LowRankMatrix matrix = quantise(factors, choice.quantiser);
+        const LowRank matrix = quantise(factors, choice.quantiser);
         choice.num_components = matrix.num_components;
         choice.bytes = stored_bytes(matrix, predictor, Effort::fast);
         choices.push_back(std::move(choice));

@@ -1,4 +1,4 @@
-// Everything about a bake that ways to code it are compared on.
+// Everything about a bake that the search for settings compares them on.
 #include "compressor/encode/search/problem.h"
 
 #include <algorithm>
@@ -6,11 +6,12 @@
 #include <utility>
 
 #include "compressor/encode/data/bake_rows.h"
-#include "compressor/encode/data/playable_scenery.h"
+#include "compressor/encode/data/still_part.h"
 #include "compressor/encode/memory/memory_plan.h"
 #include "compressor/encode/memory/target_memory.h"
 #include "compressor/encode/noise/component_noise.h"
-#include "compressor/encode/quantise/float_part.h"
+#include "compressor/encode/quantise/float_matrix.h"
+#include "paim/codec/svd/svd_transfer.h"
 #include "paim/metrics/vertex_match.h"
 
 namespace paim {
@@ -37,18 +38,19 @@ Albedo in_order(const Albedo& albedo, const std::vector<uint32_t>& old_vertex) {
     return ordered;
 }
 
-Scenery in_cache_order(Scenery scenery) {
-    CacheOrder order = cache_order(scenery.topology);
-    const auto reorder = [&](StillPlanes& planes) {
-        std::vector<float> values = planes.floats();
+// A still part of floats with vertices and triangles in cache order.
+CodedMesh in_cache_order(CodedMesh mesh) {
+    CacheOrder order = cache_order(mesh.topology);
+    const auto reorder = [&](LowRank& matrix) {
+        std::vector<float> values = matrix.mean.floats();
         reorder_planes(values, order.old_vertex);
-        planes = std::move(values);
+        matrix.mean = std::move(values);
     };
-    reorder(scenery.positions);
-    reorder(scenery.transfer);
-    scenery.albedo = in_order(scenery.albedo, order.old_vertex);
-    scenery.topology = std::move(order.topology);
-    return scenery;
+    reorder(mesh.positions);
+    reorder(mesh.transfer->matrix);
+    mesh.albedo = in_order(mesh.albedo, order.old_vertex);
+    mesh.topology = std::move(order.topology);
+    return mesh;
 }
 
 // Largest diagonal of a pose's bounding box.
@@ -62,6 +64,56 @@ double largest_diagonal(const BakeReader& bake) {
     return measured.diagonal;
 }
 
+// The asset without positions and transfer of the part that moves.
+// order  of that part's vertices
+Asset make_shell(const BakeReader& bake, const EncodeOptions& options, const TransferLayout& layout,
+                 CacheOrder& order) {
+    Asset shell;
+    shell.vertex_order = VertexOrder::cache;
+    shell.origin = bake.identity().origin;
+    shell.frames_per_second = options.frames_per_second;
+    shell.name = options.name;
+    CodedMesh& mesh = shell.moving();
+    mesh.topology = std::move(order.topology);
+    mesh.albedo = in_order(bake.albedo(), order.old_vertex);
+    mesh.layout = layout;
+    if (auto still = still_part(bake, layout.in_bands)) {
+        shell.parts.push_back(in_cache_order(std::move(*still)));
+    }
+    return shell;
+}
+
+// Light has some of every band, if little: no band may err without bounds.
+std::vector<double> plane_weights(const TransferLayout& layout, const BandPower& spectrum) {
+    std::vector<double> weights;
+    for (uint32_t plane = 0; plane < layout.num_planes(); ++plane) {
+        weights.push_back(std::max(1e-6, spectrum.weight(layout.input_band(plane))));
+    }
+    return weights;
+}
+
+// Mean square of a pose's transfer, as if all that is dropped were in the band that weighs most.
+double transfer_energy(const EncodeProblem& problem) {
+    double energy = 0.0, heaviest = 0.0;
+    for (uint32_t l = 0; l < problem.layout.in_bands; ++l) {
+        const double rms = problem.statistics.transfer_rms[l];
+        const double weight = problem.spectrum.weight(l);
+        energy += weight * (2.0 * l + 1.0) * problem.layout.channels * rms * rms;
+        heaviest = std::max(heaviest, weight);
+    }
+    return heaviest > 0.0 ? energy / heaviest : energy;
+}
+
+// The errors of all components as floats.
+AssetError measure_best(const EncodeProblem& problem) {
+    Asset best = problem.shell;
+    best.moving().positions =
+        float_matrix(problem.geometry, problem.geometry.num_components(), Precision::f32);
+    best.moving().transfer = SvdTransfer(
+        float_matrix(problem.transfer, problem.transfer.num_components(), Precision::f32));
+    return measure_asset(best, problem.bake, problem.spectrum);
+}
+
 }  // namespace
 
 EncodeProblem read_problem(const BakeReader& bake, const EncodeOptions& options,
@@ -69,36 +121,14 @@ EncodeProblem read_problem(const BakeReader& bake, const EncodeOptions& options,
     uint32_t in_flight = choose_num_in_flight(encode_size(bake, options), options.memory_bytes,
                                               bake.directory().string());
     const BakeIdentity& identity = bake.identity();
-    EncodeProblem problem{bake,
-                          identity.layout,
-                          target.spectrum,
-                          bake.total_statistics(),
-                          {},
-                          {},
-                          {},
-                          {},
-                          {},
-                          {},
-                          0.0,
-                          0,
-                          0};
-    problem.layout.bands = std::min(options.bands, identity.layout.bands);
     CacheOrder order = cache_order(bake.topology());
-    Model& frame = problem.frame;
-    frame.topology = std::move(order.topology);
-    frame.vertex_order = VertexOrder::cache;
-    frame.albedo = in_order(bake.albedo(), order.old_vertex);
-    frame.layout = problem.layout;
-    frame.origin = identity.origin;
-    frame.frames_per_second = options.frames_per_second;
-    frame.name = options.name;
-    frame.scenery = in_cache_order(playable_scenery(bake, problem.layout.bands));
-    problem.predictor = PlanePredictor(frame.topology);
-    for (uint32_t plane = 0; plane < problem.layout.num_planes(); ++plane) {
-        const double weight = target.spectrum.weight(problem.layout.band_of_plane(plane));
-        // Light has some of every band, if little: no band may err without bounds.
-        problem.plane_weight.push_back(std::max(1e-6, weight));
-    }
+    EncodeProblem problem{.bake = bake,
+                          .layout = identity.layout.with_bands(options.bands),
+                          .spectrum = target.spectrum,
+                          .statistics = bake.total_statistics()};
+    problem.shell = make_shell(bake, options, problem.layout, order);
+    problem.predictor = PlanePredictor(problem.shell.moving().topology);
+    problem.plane_weight = plane_weights(problem.layout, problem.spectrum);
 
     const double asked = target.transfer_error.value_or(0.001);
     const double num_values = static_cast<double>(identity.num_vertices) * bake.num_poses();
@@ -106,20 +136,12 @@ EncodeProblem read_problem(const BakeReader& bake, const EncodeOptions& options,
     const PrincipalComponents geometry = principal_components(geometry_rows, in_flight);
     const double distance =
         largest_diagonal(bake) * target.geometry_error.value_or(kGeometryPerTransferError * asked);
-    const TransferRows transfer_rows(bake, problem.layout.bands);
-    const TransferRows noise_rows(bake, problem.layout.bands, TransferRows::Content::noise);
+    const TransferRows transfer_rows(bake, problem.layout.in_bands);
+    const TransferRows noise_rows(bake, problem.layout.in_bands, TransferRows::Content::noise);
     const PrincipalComponents transfer = principal_components(transfer_rows, in_flight);
     const ComponentNoise noise =
         measure_component_noise(transfer_rows, noise_rows, problem.layout, transfer, in_flight);
-    // As if all that is dropped were in the band that weighs most.
-    double energy = 0.0, heaviest = 0.0;
-    for (uint32_t l = 0; l < problem.layout.bands; ++l) {
-        const double rms = problem.statistics.transfer_rms[l];
-        const double weight = target.spectrum.weight(l);
-        energy += weight * (2.0 * l + 1.0) * problem.layout.channels * rms * rms;
-        heaviest = std::max(heaviest, weight);
-    }
-    if (heaviest > 0.0) energy /= heaviest;
+    const double energy = transfer_energy(problem);
     TargetSize size{encode_size(bake, options), problem.layout.num_planes()};
     size.geometry_components = components_for(
         geometry.rank(), kDroppedShare * kDroppedShare * distance * distance * num_values,
@@ -139,15 +161,10 @@ EncodeProblem read_problem(const BakeReader& bake, const EncodeOptions& options,
                                     options.noise == NoiseTreatment::shrink ? &shrinkage : nullptr,
                                     order.old_vertex, in_flight);
 
-    Model floor = problem.frame;
-    floor.geometry =
-        float_part(problem.geometry, problem.geometry.num_components(), Precision::f32);
-    floor.transfer =
-        float_part(problem.transfer, problem.transfer.num_components(), Precision::f32);
-    problem.floor = problem.measure(floor);
-    for (uint32_t l = 0; l < identity.layout.bands; ++l) {
+    problem.best_achievable = measure_best(problem);
+    for (uint32_t l = 0; l < identity.layout.in_bands; ++l) {
         problem.transfer_energy +=
-            target.spectrum.weight(l) * problem.floor.transfer.bands[l].baked;
+            target.spectrum.weight(l) * problem.best_achievable.transfer.bands[l].baked;
     }
     return problem;
 }

@@ -1,4 +1,4 @@
-// Everything about a bake that ways to code it are compared on.
+// Everything about a bake that the search for settings compares them on.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 #include "compressor/encode/search/rate_target.h"
 #include "paim/format/pack/plane_predictor.h"
 #include "paim/mesh/cache_order.h"
-#include "paim/metrics/model_error.h"
+#include "paim/metrics/asset_error.h"
 
 namespace paim {
 
@@ -18,21 +18,22 @@ struct EncodeProblem {
     TransferLayout layout;  // bands as asked for
     BandPower spectrum;
     PoseStatistics statistics;
-    Model frame;  // all but geometry and transfer; vertices in local order
-    PlanePredictor predictor;
-    ScaledFactors geometry, transfer;  // as many components as can matter; noise taken out
-    std::vector<double> plane_weight;  // [planes of layout] of squared transfer errors
-    ModelError floor;                  // of these components, not quantised: the best there is
+    // Everything but positions and transfer of the part that moves; vertices in cache order.
+    Asset shell = {};
+    PlanePredictor predictor = {};     // of the part that moves
+    ScaledFactors geometry = {}, transfer = {};  // as many components as can matter; noise taken out
+    std::vector<double> plane_weight = {};  // [planes of layout] of squared transfer errors
+    // Of these components, not quantised: no file of this bake has smaller errors.
+    AssetError best_achievable = {};
     double transfer_energy = 0.0;      // weighted ‖y‖² of the whole bake
     uint64_t spare_bytes = 0;          // of options.memory_bytes, beside what is held throughout
     uint64_t unneeded_bytes = 0;       // of these, beside all that can be needed
 
-    ModelError measure(const Model& model) const { return measure_model(model, bake, spectrum); }
-
-    // What noise and bands of the bake leave of the transfer error at best, scenery included.
+    // Transfer error that noise and bands of the bake leave at best, in the part where it is larger.
     double least_error() const {
-        const double still = floor.scenery ? floor.scenery->transfer.total() : 0.0;
-        return std::max(floor.transfer.total(), still);
+        const double still =
+            best_achievable.still ? best_achievable.still->transfer.total() : 0.0;
+        return std::max(best_achievable.transfer.total(), still);
     }
 };
 

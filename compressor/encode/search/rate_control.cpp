@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compressor/encode/quantise/float_part.h"
+#include "compressor/encode/quantise/float_matrix.h"
 #include "compressor/encode/quantise/trim_bands.h"
 #include "paim/base/error.h"
 
@@ -12,22 +12,25 @@ namespace paim {
 
 namespace {
 
-Model build(const EncodeProblem& problem, const Scenery& scenery, const Coding& coding) {
-    Model model = problem.frame;
-    model.scenery = scenery;
-    model.geometry = is_integer(coding.geometry_precision)
+Asset build(const EncodeProblem& problem, const QuantisedStill& still, const Coding& coding) {
+    Asset asset = problem.shell;
+    if (still.mesh) *asset.still() = *still.mesh;
+    CodedMesh& mesh = asset.moving();
+    mesh.positions = is_integer(coding.geometry_precision)
                          ? quantise(problem.geometry, coding.geometry)
-                         : float_part(problem.geometry, coding.geometry.num_components,
-                                      coding.geometry_precision);
-    coding.transfer.apply(problem, model);
-    trim_bands(model);
-    return model;
+                         : float_matrix(problem.geometry, coding.geometry.num_components,
+                                        coding.geometry_precision);
+    const TransferCoding& transfer = coding.transfer;
+    mesh.transfer =
+        transfer.settings->code(problem, transfer.quantiser, transfer.precision);
+    trim_bands(asset);
+    return asset;
 }
 
-// Errors above the floor grow about as the step does.
-void scale_step(double from, double to, double floor, double slack, Quantiser& quantiser) {
-    const double now = from * from - floor * floor;
-    const double wanted = to * to - floor * floor;
+// What an error has above the best achievable one grows about as the step does.
+void scale_step(double from, double to, double best_error, double slack, Quantiser& quantiser) {
+    const double now = from * from - best_error * best_error;
+    const double wanted = to * to - best_error * best_error;
     if (now > 0.0 && wanted > 0.0) {
         quantiser.step *= std::clamp(slack * std::sqrt(wanted / now), 0.5, 1.25);
     }
@@ -35,10 +38,10 @@ void scale_step(double from, double to, double floor, double slack, Quantiser& q
 
 // Floats have no step: one more component.
 void adjust(Quantiser& quantiser, Precision precision, bool coarser, double error, double target,
-            double floor) {
+            double best_error) {
     constexpr double kSlack = 0.997;
     if (is_integer(precision)) {
-        scale_step(error, target, floor, kSlack, quantiser);
+        scale_step(error, target, best_error, kSlack, quantiser);
     } else if (!coarser && error > target) {
         ++quantiser.num_components;
     }
@@ -46,34 +49,34 @@ void adjust(Quantiser& quantiser, Precision precision, bool coarser, double erro
 
 }  // namespace
 
-std::optional<RefinedModel> refine(const EncodeProblem& problem, const QuantisedScenery& still,
+std::optional<RefinedAsset> refine(const EncodeProblem& problem, const QuantisedStill& still,
                                    Coding coding, const Targets& targets) {
     constexpr int kMaxRounds = 8;
     constexpr double kRoom = 0.985;  // below this share of a target a coarser step is tried
-    const double floor = problem.floor.transfer.total();
-    std::optional<RefinedModel> best;
+    const double best_error = problem.best_achievable.transfer.total();
+    std::optional<RefinedAsset> best;
     for (int round = 0; round < kMaxRounds; ++round) {
-        Model model;
+        Asset asset;
         try {
-            model = build(problem, still.scenery, coding);
+            asset = build(problem, still, coding);
         } catch (const Error& error_of_step) {
             // Finer than values of 16 bits can be: what there is, is the best there is.
             if (error_of_step.code() != ExitCode::unsupported) throw;
             break;
         }
-        ModelError measured = measure_animation(model, problem.bake, problem.spectrum);
-        measured.scenery = still.error;
+        const AssetError measured{measure_part(asset, 0, problem.bake, problem.spectrum),
+                                  still.error};
         const double transfer = measured.transfer.total();
         const double geometry = measured.geometry.rms();
         const bool good = transfer <= targets.transfer && geometry <= targets.geometry;
         if (best && !good) break;  // a step too far
-        if (good) best = RefinedModel{std::move(model), measured, coding};
+        if (good) best = RefinedAsset{std::move(asset), measured, coding};
         const bool room =
             transfer < kRoom * targets.transfer || geometry < kRoom * targets.geometry;
         if (good && (!room || round >= 3)) break;
         const bool coarser = good;
         adjust(coding.transfer.quantiser, coding.transfer.precision, coarser, transfer,
-               targets.transfer, floor);
+               targets.transfer, best_error);
         adjust(coding.geometry, coding.geometry_precision, coarser, geometry, targets.geometry,
                0.0);
     }
@@ -83,7 +86,7 @@ std::optional<RefinedModel> refine(const EncodeProblem& problem, const Quantised
 void scale_steps(const EncodeProblem& problem, const Targets& from, const Targets& to,
                  Coding& coding) {
     if (is_integer(coding.transfer.precision)) {
-        scale_step(from.transfer, to.transfer, problem.floor.transfer.total(), 1.0,
+        scale_step(from.transfer, to.transfer, problem.best_achievable.transfer.total(), 1.0,
                    coding.transfer.quantiser);
     }
     if (is_integer(coding.geometry_precision)) {

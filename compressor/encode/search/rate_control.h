@@ -3,21 +3,21 @@
 
 #include <optional>
 
-#include "compressor/encode/search/quantise_scenery.h"
+#include "compressor/encode/search/quantise_still.h"
 #include "compressor/encode/search/settings_search.h"
 
 namespace paim {
 
-struct RefinedModel {
-    Model model;
-    ModelError error;  // measured
+struct RefinedAsset {
+    Asset asset;
+    AssetError error;  // measured
     Coding coding;     // with the steps that it was made with
 };
 
 // Makes steps finer until both errors, measured, are within the targets, and coarser where there is
 // room. Nothing if no step was found.
 // still  of these targets
-std::optional<RefinedModel> refine(const EncodeProblem& problem, const QuantisedScenery& still,
+std::optional<RefinedAsset> refine(const EncodeProblem& problem, const QuantisedStill& still,
                                    Coding coding, const Targets& targets);
 
 // Steps that should do for other targets, where those of `from` were met.

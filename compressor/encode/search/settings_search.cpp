@@ -13,7 +13,7 @@ Targets targets_of(const EncodeProblem& problem, const EncodeTarget& target,
                    double transfer_error) {
     const double relative =
         target.geometry_error.value_or(kGeometryPerTransferError * transfer_error);
-    return {transfer_error, relative * problem.floor.geometry.diagonal};
+    return {transfer_error, relative * problem.best_achievable.geometry.diagonal};
 }
 
 std::optional<Coding> CodingSearch::choose(const Targets& targets,
@@ -30,7 +30,7 @@ std::optional<Coding> CodingSearch::choose(const Targets& targets,
     const std::vector<TransferCoding> codings = search_.codings(transfer_budget(targets.transfer));
     std::optional<uint64_t> most;
     if (target_.size_bytes && target_.transfer_error) {
-        const uint64_t rest = coding.geometry_bytes + frame_bytes();
+        const uint64_t rest = coding.geometry_bytes + estimated_overhead_bytes();
         most = *target_.size_bytes > rest ? *target_.size_bytes - rest : 0;
     }
     const TransferCoding* best = best_coding(codings, target_.preference, most);
@@ -51,8 +51,8 @@ std::optional<Coding> CodingSearch::choose(const Targets& targets,
 
 // Squares that truncation and quantisation may add to what the best of the bake already errs.
 double CodingSearch::transfer_budget(double target) const {
-    const double floor = problem_.floor.transfer.total();
-    return std::max(0.0, (target * target - floor * floor) * problem_.transfer_energy);
+    const double best = problem_.best_achievable.transfer.total();
+    return std::max(0.0, (target * target - best * best) * problem_.transfer_energy);
 }
 
 bool CodingSearch::choose_geometry(double target, Coding& coding) const {
@@ -93,10 +93,12 @@ std::string CodingSearch::missed_transfer(double target) {
     return asked + "needs values of more than 16 bits: use --precision f32";
 }
 
-// Triangles, colours, table, and what stands still, whose integers take about an eighth of floats.
-uint64_t CodingSearch::frame_bytes() const {
-    return 2 * problem_.frame.topology.triangles.size() + 4096 +
-           problem_.frame.scenery.transfer.values.size_bytes() / 8;
+// Triangles, colours, table, and the still part, whose integers take about an eighth of its floats.
+uint64_t CodingSearch::estimated_overhead_bytes() const {
+    const Asset& shell = problem_.shell;
+    const uint64_t still =
+        shell.still() == nullptr ? 0 : shell.still()->transfer->matrix.mean.size_bytes();
+    return 2 * shell.moving().topology.triangles.size() + 4096 + still / 8;
 }
 
 }  // namespace paim

@@ -47,7 +47,7 @@ class CodingSearch {
     double transfer_budget(double target) const;
     bool choose_geometry(double target, Coding& coding) const;
     std::string missed_transfer(double target);
-    uint64_t frame_bytes() const;
+    uint64_t estimated_overhead_bytes() const;
 
     const EncodeProblem& problem_;
     const EncodeOptions& options_;

@@ -46,7 +46,7 @@ class SizeCurve {
 
 class SizeFit {
   public:
-    SizeFit(const EncodeProblem& problem, TargetFiles& files, uint64_t most_bytes,
+    SizeFit(const EncodeProblem& problem, EncodedFiles& files, uint64_t most_bytes,
             const std::function<void(const char*)>& say)
         : problem_(problem),
           files_(files),
@@ -56,7 +56,7 @@ class SizeFit {
           low_(std::min(high_, std::log(1.02 * std::max(1e-4, problem.least_error())))),
           say_(say) {}
 
-    TargetFile run() {
+    EncodedFile run() {
         // Where nothing but halving helps, the widest of intervals takes so many.
         constexpr int kMaxRounds = 12;
         // A little smaller, to fit although sizes are not quite as the curve says.
@@ -88,7 +88,7 @@ class SizeFit {
         for (int round = 0; round < kMaxEstimates; ++round) {
             say("comparing ways to code", x);
             if (choose(x)) {
-                curve_.add(x, log_of(files_.frame_bytes(std::exp(x)) + draft_->estimated_bytes));
+                curve_.add(x, log_of(files_.overhead_bytes(std::exp(x)) + draft_->estimated_bytes));
                 const double next = inside(curve_.error_of(most_));
                 if (std::abs(next - x) <= kNear) return next;
                 x = next;
@@ -116,7 +116,7 @@ class SizeFit {
     }
 
     void miss(double x) {
-        if (x >= high_ && !best_) throw_missed(reason_);
+        if (x >= high_ && !best_) throw_infeasible(reason_);
         low_ = x;
         low_tried_ = true;
     }
@@ -125,7 +125,7 @@ class SizeFit {
     void try_error(double x) {
         say("trying", x);
         const double error = std::exp(x);
-        std::optional<TargetFile> file;
+        std::optional<EncodedFile> file;
         // Near by, the same way to code it is the best, with other steps.
         if ((draft_ && std::abs(x - chosen_at_) <= kNear) || choose(x)) {
             scale_steps(problem_, files_.targets(std::exp(draft_at_)), files_.targets(error),
@@ -137,7 +137,7 @@ class SizeFit {
             miss(x);
             return;
         }
-        draft_ = TargetFiles::Draft{std::move(file->coding), file->candidates};
+        draft_ = EncodedFiles::Draft{std::move(file->coding), file->candidates};
         draft_at_ = x;
         const uint64_t bytes = file->file.size_bytes();
         if (tried_) {
@@ -161,7 +161,7 @@ class SizeFit {
     bool is_close() const { return high_ - curve_.error_of(most_) <= kResolution; }
 
     const EncodeProblem& problem_;
-    TargetFiles& files_;
+    EncodedFiles& files_;
     const uint64_t most_bytes_;
     const double most_;
     double high_,
@@ -169,19 +169,19 @@ class SizeFit {
     bool low_tried_ = false;
     bool tried_ = false;  // a file, so that the curve is of sizes and not of estimates
     SizeCurve curve_;
-    std::optional<TargetFiles::Draft> draft_;
+    std::optional<EncodedFiles::Draft> draft_;
     double chosen_at_ = 0.0;  // the error that the draft's coding was chosen for
     double draft_at_ = 0.0;   // and the one of its steps
-    std::optional<TargetFile> best_;
+    std::optional<EncodedFile> best_;
     std::string reason_;
     const std::function<void(const char*)>& say_;
 };
 
 }  // namespace
 
-TargetFile fit_size(const EncodeProblem& problem, TargetFiles& files, uint64_t most_bytes,
+EncodedFile fit_size(const EncodeProblem& problem, EncodedFiles& files, uint64_t most_bytes,
                     const std::function<void(const char*)>& say) {
-    check_reachable(problem, kLargestError);
+    check_feasible(problem, kLargestError);
     return SizeFit(problem, files, most_bytes, say).run();
 }
 

@@ -11,7 +11,7 @@ namespace paim {
 // of small files most: of 1,000 vertices, files of errors 3 to 9 % smaller fitted as well.
 // say  is told each error that is tried
 // Errors: threshold exceeded, with the smallest file there is.
-TargetFile fit_size(const EncodeProblem& problem, TargetFiles& files, uint64_t most_bytes,
+EncodedFile fit_size(const EncodeProblem& problem, EncodedFiles& files, uint64_t most_bytes,
                     const std::function<void(const char*)>& say);
 
 }  // namespace paim

@@ -16,13 +16,13 @@ namespace paim {
 namespace {
 
 // Of this error, and of this size if one is asked for.
-TargetFile meet_error(const EncodeProblem& problem, TargetFiles& files, const EncodeTarget& target,
+EncodedFile meet_error(const EncodeProblem& problem, EncodedFiles& files, const EncodeTarget& target,
                       double transfer_error) {
     std::string reason;
-    std::optional<TargetFile> file = files.meet(transfer_error, reason);
-    if (!file) throw_missed(reason);
+    std::optional<EncodedFile> file = files.meet(transfer_error, reason);
+    if (!file) throw_infeasible(reason);
     if (target.size_bytes && file->file.size_bytes() > *target.size_bytes) {
-        throw_missed(
+        throw_infeasible(
             fmt::format("{}: a transfer error of {:.3g} % takes {} bytes, --max-size allows {}",
                         problem.bake.directory().string(), 100.0 * transfer_error,
                         file->file.size_bytes(), *target.size_bytes));
@@ -50,16 +50,16 @@ TargetSummary encode_to_target(const BakeReader& bake, const EncodeOptions& opti
                            output.filename().string() + ".");
     say("finding components");
     const EncodeProblem problem = read_problem(bake, options, target);
-    if (target.transfer_error) check_reachable(problem, *target.transfer_error);
+    if (target.transfer_error) check_feasible(problem, *target.transfer_error);
     say("comparing ways to code them");
-    TargetFiles files(problem, options, target);
-    TargetFile result = target.transfer_error
+    EncodedFiles files(problem, options, target);
+    EncodedFile result = target.transfer_error
                             ? meet_error(problem, files, target, *target.transfer_error)
                             : fit_size(problem, files, *target.size_bytes, say);
     result.file.write(output);
     TargetSummary summary;
     summary.error = result.error;
-    summary.floor = problem.floor.transfer.total();
+    summary.best_achievable = problem.best_achievable.transfer.total();
     summary.transfer_target = result.targets.transfer;
     summary.geometry_target = result.targets.geometry;
     summary.candidates = std::move(result.candidates);

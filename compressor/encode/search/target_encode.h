@@ -6,13 +6,13 @@
 
 #include "compressor/encode/encode.h"
 #include "compressor/encode/search/rate_target.h"
-#include "paim/metrics/model_error.h"
+#include "paim/metrics/asset_error.h"
 
 namespace paim {
 
 struct TargetSummary {
-    ModelError error;              // of the file, measured
-    double floor = 0.0;            // transfer error of the best that this bake can give
+    AssetError error;              // of the file, measured
+    double best_achievable = 0.0;  // transfer error that no file of this bake is below
     double transfer_target = 0.0;  // that was met
     double geometry_target = 0.0;  // RMS distance, scene units
     std::vector<Candidate> candidates;

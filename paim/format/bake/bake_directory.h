@@ -92,7 +92,7 @@ class BakeWriter {
 
     // What the bake of a pose that is there found out about itself.
     PoseStatistics read_statistics(uint32_t p) const {
-        return read_bake_statistics(directory_, identity_checksum_, p, identity_.layout.bands);
+        return read_bake_statistics(directory_, identity_checksum_, p, identity_.layout.in_bands);
     }
 
     // All or nothing; may be called from several threads.
@@ -126,7 +126,7 @@ class BakeReader {
     // Reads every byte of pose p and checks it. May be called from several threads.
     BakedPose read_pose(uint32_t p) const;
     PoseStatistics read_statistics(uint32_t p) const {
-        return read_bake_statistics(directory_, identity_checksum_, p, identity_.layout.bands);
+        return read_bake_statistics(directory_, identity_checksum_, p, identity_.layout.in_bands);
     }
 
     // Of all files that belong to it.

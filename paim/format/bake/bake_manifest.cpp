@@ -7,7 +7,7 @@
 #include "paim/base/error.h"
 #include "paim/base/file.h"
 #include "paim/base/hash.h"
-#include "paim/codec/model.h"
+#include "paim/codec/asset.h"
 #include "paim/format/container/metadata.h"
 
 namespace paim {
@@ -63,7 +63,7 @@ std::string manifest_text(const BakeIdentity& identity) {
     json["version"] = kManifestVersion;
     json["baker"] = identity.baker;
     json["transfer_kind"] = "diffuse";
-    json["bands"] = identity.layout.bands;
+    json["bands"] = identity.layout.in_bands;
     json["channels"] = identity.layout.channels;
     json["sampler"] = identity.sampler;
     json["streams"] = identity.streams;
@@ -102,7 +102,7 @@ BakeIdentity read_manifest(const std::filesystem::path& path) {
         throw_unsupported("{}: transfer of kind '{}'", file, metadata.text("transfer_kind"));
     }
     BakeIdentity identity;
-    identity.layout.bands = metadata.integer("bands", 1, sh::kMaxBands);
+    identity.layout.in_bands = metadata.integer("bands", 1, sh::kMaxBands);
     identity.layout.channels = metadata.integer("channels", 1, 3);
     if (identity.layout.channels == 2) throw_unsupported("{}: 2 transfer channels", file);
     identity.baker = metadata.integer("baker", 0, kMaxCount);
@@ -151,7 +151,7 @@ std::string first_difference(const BakeIdentity& there, const BakeIdentity& want
     for (const std::string& difference :
          {differ("baker", there.baker, wanted.baker),
           differ("bounces", there.bounces, wanted.bounces),
-          differ("bands", there.layout.bands, wanted.layout.bands),
+          differ("bands", there.layout.in_bands, wanted.layout.in_bands),
           differ("channels", there.layout.channels, wanted.layout.channels),
           differ("sampler", there.sampler, wanted.sampler),
           differ("streams", there.streams, wanted.streams),

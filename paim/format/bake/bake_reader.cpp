@@ -105,7 +105,7 @@ BakeReader::BakeReader(std::filesystem::path directory) : directory_(std::move(d
     }
     // The manifest's count of vertices is believed only once a file holds that many.
     const ContainerReader pose(bake_pose_file(directory_, 0), section::kKindPose);
-    read_statistics_of(pose, identity_checksum_, 0, identity_.layout.bands);
+    read_statistics_of(pose, identity_checksum_, 0, identity_.layout.in_bands);
     require_planes(pose, section::kPositions, 3, identity_.num_vertices);
     require_planes(pose, section::kTransfer, identity_.layout.num_planes(), identity_.num_vertices);
 }
@@ -126,7 +126,7 @@ BakedPose BakeReader::read_pose(uint32_t p) const {
         return read_planes(reader, tag, num_planes, identity_.num_vertices, type);
     };
     BakedPose pose;
-    pose.statistics = read_statistics_of(reader, identity_checksum_, p, identity_.layout.bands);
+    pose.statistics = read_statistics_of(reader, identity_checksum_, p, identity_.layout.in_bands);
     pose.positions = read(section::kPositions, 3);
     pose.normals = read(section::kNormals, 3);
     pose.transfer = read(section::kTransfer, identity_.layout.num_planes());
@@ -145,7 +145,7 @@ BakedScenery read_bake_scenery(const std::filesystem::path& directory, uint64_t 
     const ContainerReader reader(bake_scenery_file(directory), section::kKindMesh);
     BakedScenery scenery;
     scenery.pose.statistics =
-        read_statistics_of(reader, identity_checksum, kSceneryPose, layout.bands);
+        read_statistics_of(reader, identity_checksum, kSceneryPose, layout.in_bands);
     const uint32_t num_vertices = count_vertices(reader, section::kPositions);
     scenery.pose.positions = read_planes(reader, section::kPositions, 3, num_vertices);
     scenery.pose.normals = read_planes(reader, section::kNormals, 3, num_vertices);
@@ -172,7 +172,7 @@ void BakeReader::verify_all() const {
             verify_planes(reader,
                           require_planes(reader, tag, num_planes, identity_.num_vertices, type));
         };
-        read_statistics_of(reader, identity_checksum_, p, identity_.layout.bands);
+        read_statistics_of(reader, identity_checksum_, p, identity_.layout.in_bands);
         verify(section::kPositions, 3);
         verify(section::kNormals, 3);
         verify(section::kTransfer, identity_.layout.num_planes());

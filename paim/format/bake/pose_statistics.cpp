@@ -40,9 +40,9 @@ double PoseStatistics::relative_noise() const {
 std::vector<double> rms_by_band(const TransferLayout& layout, std::span<const float> planes) {
     const size_t num_vertices = planes.size() / layout.num_planes();
     PAIM_CHECK_EQ(planes.size(), num_vertices * layout.num_planes());
-    std::vector<double> energy(layout.bands, 0.0);
+    std::vector<double> energy(layout.in_bands, 0.0);
     for (uint32_t plane = 0; plane < layout.num_planes(); ++plane) {
-        double& sum = energy[layout.band_of_plane(plane)];
+        double& sum = energy[layout.input_band(plane)];
         for (const float value : planes.subspan(plane * num_vertices, num_vertices)) {
             sum += static_cast<double>(value) * static_cast<double>(value);
         }

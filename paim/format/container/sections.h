@@ -23,19 +23,15 @@ constexpr Tag kSingularValues[2] = {Tag("GSPC"), Tag("TSPC")};  // f64 or f32 [n
 constexpr Tag kSteps[2] = {Tag("GSTP"), Tag("TSTP")};        // f32 [planes]
 constexpr Tag kWeightSteps[2] = {Tag("GWST"), Tag("TWST")};  // f32 [K]
 
-// .paim: clustered transfer, whose mean and components then have a column for every row of a basis.
-constexpr Tag kClusters("CIDX");             // i16 [V]
-constexpr Tag kClusterScales("CSCL");        // f32 [clusters][1 + components]
-constexpr Tag kClusterCoefficients("CCOE");  // f32, i16 or i8 [V], index j
 
-// .paim: scenery, all four or none.
-constexpr Tag kSceneryTriangles("STRI");  // u32 [F][3]
-constexpr Tag kSceneryPositions("SPOS");  // f32, i16 or i8 [3][S]
-constexpr Tag kSceneryAlbedo("SALB");     // f32 [1 or S][3]
-constexpr Tag kSceneryTransfer("STRN");   // f32, i16 or i8 [planes][S]
+// .paim: the part that stands still, all four or none.
+constexpr Tag kStillTriangles("STRI");  // u32 [F][3]
+constexpr Tag kStillPositions("SPOS");  // f32, i16 or i8 [3][S]
+constexpr Tag kStillAlbedo("SALB");     // f32 [1 or S][3]
+constexpr Tag kStillTransfer("STRN");   // f32, i16 or i8 [planes][S]
 // Of integers, f32 [planes].
-constexpr Tag kSceneryPositionSteps("SPST");
-constexpr Tag kSceneryTransferSteps("STST");
+constexpr Tag kStillPositionSteps("SPST");
+constexpr Tag kStillTransferSteps("STST");
 
 // .bake poses and scenery.
 constexpr Tag kPositions("POSN");  // f32 [3][V]

@@ -14,29 +14,29 @@ constexpr const char* kSingularIndices[2] = {"geometry_singular_indices",
 
 }  // namespace
 
-std::string paim_metadata(const Model& model) {
+std::string paim_metadata(const Asset& asset) {
+    const CodedMesh& mesh = asset.moving();
     nlohmann::ordered_json json;
-    json["name"] = model.name;
-    json["num_vertices"] = model.topology.num_vertices;
-    json["num_poses"] = model.num_poses();
-    json["frames_per_second"] = model.frames_per_second;
-    if (const Vec3d& o = model.origin; !o.isZero(0.0)) json["origin"] = {o.x(), o.y(), o.z()};
+    json["name"] = asset.name;
+    json["num_vertices"] = mesh.topology.num_vertices;
+    json["num_poses"] = asset.num_poses();
+    json["frames_per_second"] = asset.frames_per_second;
+    if (const Vec3d& o = asset.origin; !o.isZero(0.0)) json["origin"] = {o.x(), o.y(), o.z()};
     json["transfer_kind"] = "diffuse";
-    json["bands"] = model.layout.bands;
-    json["channels"] = model.layout.channels;
-    if (model.vertex_order == VertexOrder::cache) json["vertex_order"] = "local";
-    if (!model.clusters.empty()) {
-        json["clusters"] = model.clusters.num_clusters;
-        json["cluster_components"] = model.clusters.num_components;
+    json["bands"] = mesh.layout.in_bands;
+    json["channels"] = mesh.layout.channels;
+    if (asset.vertex_order == VertexOrder::cache) json["vertex_order"] = "local";
+    for (const NamedNumber& number : mesh.transfer->numbers()) {
+        json[number.name] = *number.value;
     }
-    json["geometry_components"] = model.geometry.num_components;
-    json["transfer_components"] = model.transfer.num_components;
+    json["geometry_components"] = mesh.positions.num_components;
+    json["transfer_components"] = mesh.transfer->matrix.num_components;
     for (const Attribute attribute : {Attribute::geometry, Attribute::transfer}) {
-        const std::vector<uint32_t>& indices = model.attribute(attribute).singular_indices;
+        const std::vector<uint32_t>& indices = mesh.attribute(attribute).singular_indices;
         if (!indices.empty()) json[kSingularIndices[static_cast<size_t>(attribute)]] = indices;
     }
     json["provenance"] =
-        nlohmann::ordered_json::parse(model.provenance_json.empty() ? "{}" : model.provenance_json);
+        nlohmann::ordered_json::parse(asset.provenance_json.empty() ? "{}" : asset.provenance_json);
     return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 

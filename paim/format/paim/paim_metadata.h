@@ -4,14 +4,14 @@
 #include <string>
 #include <vector>
 
-#include "paim/codec/model.h"
+#include "paim/codec/asset.h"
 #include "paim/format/container/metadata.h"
 
 namespace paim {
 
-std::string paim_metadata(const Model& model);
+std::string paim_metadata(const Asset& asset);
 
-// Which singular value each of num_components has (LowRankMatrix::singular_indices): none if the
+// Which singular value each of num_components has (LowRank::singular_indices): none if the
 // metadata says nothing of them.
 // Error (bad input) unless they ascend below num_singular_values.
 std::vector<uint32_t> read_singular_indices(const Metadata& metadata, Attribute attribute,

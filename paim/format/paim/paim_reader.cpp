@@ -2,19 +2,20 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <limits>
+#include <utility>
 
 #include "paim/base/error.h"
+#include "paim/codec/codecs.h"
+#include "paim/codec/svd/svd_transfer.h"
 #include "paim/format/container/mesh_sections.h"
 #include "paim/format/container/metadata.h"
 #include "paim/format/container/sections.h"
-#include "paim/format/paim/matrix_sections.h"
-#include "paim/format/paim/paim_file.h"
 #include "paim/format/paim/paim_metadata.h"
+#include "paim/format/paim/paim_read.h"
 #include "paim/format/paim/prefixes.h"
-#include "paim/format/paim/scenery_sections.h"
+#include "paim/format/paim/section_reader.h"
 
 namespace paim {
 
@@ -33,93 +34,136 @@ Prefix find_prefix(const ContainerReader& reader) {
     return *std::prev(next);
 }
 
+TransferLayout read_layout(const Metadata& metadata) {
+    TransferLayout layout;
+    layout.in_bands = metadata.integer("bands", 1, sh::kMaxBands);
+    layout.channels = metadata.integer("channels", 1, 3);
+    if (layout.channels == 2) throw_unsupported("{}: 2 transfer channels", metadata.file());
+    if (metadata.text("transfer_kind") != "diffuse") {
+        throw_unsupported("{}: transfer of kind '{}'", metadata.file(),
+                          metadata.text("transfer_kind"));
+    }
+    return layout;
+}
+
+VertexOrder read_vertex_order(const Metadata& metadata) {
+    if (!metadata.root().contains("vertex_order")) return VertexOrder::baked;
+    if (metadata.text("vertex_order") != "local") {
+        throw_unsupported("{}: vertices in '{}' order", metadata.file(),
+                          metadata.text("vertex_order"));
+    }
+    return VertexOrder::cache;
+}
+
+// The codec that the metadata tells of, with the numbers that it has there.
+CodedTransfer start_transfer(const Metadata& metadata) {
+    const std::span<const TransferCodec> codecs = transfer_codecs();
+    const auto marked = std::find_if(codecs.begin(), codecs.end(), [&](const TransferCodec& codec) {
+        return !codec.marker.empty() && metadata.root().contains(codec.marker);
+    });
+    const auto unmarked = std::find_if(codecs.begin(), codecs.end(), [](const TransferCodec& codec) {
+        return codec.marker.empty();
+    });
+    CodedTransfer transfer = (marked != codecs.end() ? marked : unmarked)->make();
+    for (const NamedNumber& number : transfer->numbers()) {
+        *number.value = metadata.integer(number.name, number.lowest, number.highest);
+    }
+    return transfer;
+}
+
+// A matrix with the dimensions of the file. components  the metadata's number of components
+LowRank start_matrix(const Metadata& metadata, const char* components, uint32_t num_points,
+                     uint32_t num_planes, uint32_t num_poses) {
+    LowRank matrix;
+    matrix.num_points = num_points;
+    matrix.num_planes = num_planes;
+    matrix.num_poses = num_poses;
+    // No matrix has more components than columns or rows.
+    const uint64_t most = std::min<uint64_t>(num_poses, matrix.num_rows());
+    matrix.num_components = metadata.integer(components, 0, static_cast<uint32_t>(most));
+    return matrix;
+}
+
+CodedMesh start_moving(const Metadata& metadata) {
+    CodedMesh mesh;
+    mesh.topology.num_vertices =
+        metadata.integer("num_vertices", 0, std::numeric_limits<int32_t>::max());
+    mesh.layout = read_layout(metadata);
+    const uint32_t num_poses = metadata.integer("num_poses", 1, kMaxPoses);
+    mesh.positions = start_matrix(metadata, "geometry_components", mesh.topology.num_vertices, 3,
+                                  num_poses);
+    mesh.transfer = start_transfer(metadata);
+    const uint32_t num_points = mesh.transfer->start(mesh.topology.num_vertices);
+    mesh.transfer->matrix = start_matrix(metadata, "transfer_components", num_points,
+                                         mesh.layout.num_planes(), num_poses);
+    return mesh;
+}
+
+bool has_still_part(const ContainerReader& reader) {
+    const Tag tags[] = {section::kStillTriangles, section::kStillPositions, section::kStillAlbedo,
+                        section::kStillTransfer};
+    return std::any_of(std::begin(tags), std::end(tags),
+                       [&](Tag tag) { return reader.find(tag) != nullptr; });
+}
+
+CodedMesh start_still(const ContainerReader& reader, const TransferLayout& layout) {
+    CodedMesh mesh;
+    mesh.layout = layout;
+    mesh.topology.num_vertices = count_vertices(reader, section::kStillPositions);
+    const auto start = [&](uint32_t num_planes) {
+        LowRank matrix;
+        matrix.num_points = mesh.topology.num_vertices;
+        matrix.num_planes = num_planes;
+        matrix.num_poses = 1;
+        return matrix;
+    };
+    mesh.positions = start(3);
+    mesh.transfer = SvdTransfer(start(layout.num_planes()));
+    return mesh;
+}
+
+void read_indices(const Metadata& metadata, Attribute attribute, uint32_t num_components,
+                  LowRank& matrix) {
+    matrix.singular_indices = read_singular_indices(metadata, attribute, num_components,
+                                                    matrix.singular_values.size());
+    // Those that are there.
+    if (!matrix.singular_indices.empty()) matrix.singular_indices.resize(matrix.num_components);
+}
+
 }  // namespace
 
-Model read_paim(const std::filesystem::path& path, const ReadOptions& options) {
+Asset read_paim(const std::filesystem::path& path, const ReadOptions& options) {
     if (std::filesystem::is_directory(path)) {
         throw_bad_input(
-            "{}: is a directory, expected a .paim file (paim-compress encode makes one of a "
-            ".bake)",
+            "{}: is a directory, expected a .paim file (paim-compress encode makes one of a .bake)",
             path.string());
     }
     const ContainerReader reader(path, section::kKindAnimation,
-                                 options.progressive ? Extent::beginning : Extent::whole);
+                                 options.prefix ? Extent::beginning : Extent::whole);
     const Prefix prefix = find_prefix(reader);
     const Metadata metadata(reader.read_text(reader.require(section::kMetadata, ScalarType::u8)),
                             reader.path());
-    Model model;
-    const auto num_vertices =
-        metadata.integer("num_vertices", 0, std::numeric_limits<int32_t>::max());
-    const uint32_t num_poses = metadata.integer("num_poses", 1, kMaxPoses);
-    model.layout.bands = metadata.integer("bands", 1, sh::kMaxBands);
-    model.layout.channels = metadata.integer("channels", 1, 3);
-    if (model.layout.channels == 2) throw_unsupported("{}: 2 transfer channels", reader.path());
-    if (metadata.text("transfer_kind") != "diffuse") {
-        throw_unsupported("{}: transfer of kind '{}'", reader.path(),
-                          metadata.text("transfer_kind"));
-    }
-    model.frames_per_second = static_cast<float>(metadata.number("frames_per_second", 1e-3, 1e6));
-    model.origin = metadata.point("origin");
-    model.name = metadata.text("name");
-    model.provenance_json = metadata.object_text("provenance");
-    model.topology = read_triangles(reader, num_vertices);
-    model.albedo = read_albedo(reader, num_vertices);
-
-    if (metadata.root().contains("vertex_order")) {
-        if (metadata.text("vertex_order") != "local") {
-            throw_unsupported("{}: vertices in '{}' order", reader.path(),
-                              metadata.text("vertex_order"));
-        }
-        model.vertex_order = VertexOrder::cache;
-    }
-    if (metadata.root().contains("clusters")) {
-        model.clusters.num_clusters = metadata.integer("clusters", 1, kMaxClusters);
-        model.clusters.num_components =
-            metadata.integer("cluster_components", 0, kMaxClusterComponents);
+    Asset asset;
+    asset.frames_per_second = static_cast<float>(metadata.number("frames_per_second", 1e-3, 1e6));
+    asset.origin = metadata.point("origin");
+    asset.name = metadata.text("name");
+    asset.provenance_json = metadata.object_text("provenance");
+    asset.vertex_order = read_vertex_order(metadata);
+    asset.moving() = start_moving(metadata);
+    if (has_still_part(reader)) {
+        asset.parts.push_back(start_still(reader, asset.moving().layout));
     }
 
-    const auto start = [&](const char* key, uint32_t num_points, uint32_t num_planes) {
-        LowRankMatrix matrix;
-        matrix.num_points = num_points;
-        matrix.num_planes = num_planes;
-        matrix.num_poses = num_poses;
-        // No matrix has more components than columns or rows.
-        const uint64_t most = std::min<uint64_t>(num_poses, matrix.num_rows());
-        matrix.num_components = metadata.integer(key, 0, static_cast<uint32_t>(most));
-        return matrix;
-    };
-    const bool clustered = !model.clusters.empty();
-    model.geometry = start("geometry_components", num_vertices, 3);
-    model.transfer =
-        start("transfer_components", clustered ? model.clusters.num_rows() : num_vertices,
-              model.layout.num_planes());
-    // Memory for every vertex is taken once the file is known to claim values for it.
-    const Section* mean = reader.find(section::kMean[0]);
-    if (mean == nullptr) {
-        throw_bad_input("{}: section {} 0 is missing", reader.path(), section::kMean[0].str());
-    }
-    expect_shape(reader, *mean, 3, num_vertices);
-    const PlanePredictor predictor = read_predictor(reader, model.topology);
-    const uint32_t geometry_components = model.geometry.num_components;
-    const uint32_t transfer_components = model.transfer.num_components;
-    read_matrix(reader, Attribute::geometry, predictor, prefix.geometry_components, model.geometry);
-    if (clustered) read_clusters(reader, predictor, num_vertices, model.clusters);
-    read_matrix(reader, Attribute::transfer, clustered ? PlanePredictor() : predictor,
-                prefix.transfer_components, model.transfer);
-    const auto index = [&](Attribute attribute, uint32_t num_components, LowRankMatrix& matrix) {
-        matrix.singular_indices = read_singular_indices(metadata, attribute, num_components,
-                                                        matrix.singular_values.size());
-        // Those that are there.
-        if (!matrix.singular_indices.empty()) {
-            matrix.singular_indices.resize(matrix.num_components);
-        }
-    };
-    index(Attribute::geometry, geometry_components, model.geometry);
-    index(Attribute::transfer, transfer_components, model.transfer);
-    model.complete = model.geometry.num_components == geometry_components &&
-                     model.transfer.num_components == transfer_components;
-    model.scenery = read_scenery(reader, model.layout);
-    return model;
+    LowRank& positions = asset.moving().positions;
+    LowRank& transfer = asset.moving().transfer->matrix;
+    const uint32_t geometry_components = positions.num_components;
+    const uint32_t transfer_components = transfer.num_components;
+    read_sections(reader, {prefix.geometry_components, prefix.transfer_components}, asset);
+    read_indices(metadata, Attribute::geometry, geometry_components, positions);
+    read_indices(metadata, Attribute::transfer, transfer_components, transfer);
+    asset.complete = positions.num_components == geometry_components &&
+                     transfer.num_components == transfer_components;
+    return asset;
 }
 
 }  // namespace paim

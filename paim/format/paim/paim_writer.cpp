@@ -1,130 +1,119 @@
-// Writes .paim files.
+// Writes .paim files: those of floats as they are, all others packed.
 #include <algorithm>
 #include <utility>
 
 #include "paim/base/check.h"
 #include "paim/base/half.h"
-#include "paim/format/container/mesh_sections.h"
 #include "paim/format/container/sections.h"
-#include "paim/format/paim/paim_file.h"
+#include "paim/format/paim/packed_file.h"
 #include "paim/format/paim/paim_metadata.h"
-#include "paim/format/paim/paim_packer.h"
-#include "paim/format/paim/scenery_sections.h"
+#include "paim/format/paim/paim_write.h"
 
 namespace paim {
 
 namespace {
 
-constexpr Attribute kAttributes[] = {Attribute::geometry, Attribute::transfer};
-
-ScalarType scalar_type(Precision precision) {
-    return precision == Precision::f16 ? ScalarType::f16 : ScalarType::f32;
-}
-
-}  // namespace
-
-std::vector<ComponentId> component_order(const Model& model) {
-    struct Ranked {
-        ComponentId id;
-        double share;
-    };
-    std::vector<Ranked> ranked;
-    for (const Attribute attribute : kAttributes) {
-        const LowRankMatrix& matrix = model.attribute(attribute);
-        const double largest = matrix.singular_values.empty() ? 0.0 : matrix.singular_values[0];
-        double energy = 0.0;  // relative to the largest value, which may be too big to square
-        for (const double s : matrix.singular_values) energy += (s / largest) * (s / largest);
-        for (uint32_t k = 0; k < matrix.num_components; ++k) {
-            const double ratio =
-                largest > 0.0 ? matrix.singular_values[matrix.singular_index(k)] / largest : 0.0;
-            ranked.push_back({{attribute, k}, largest > 0.0 ? ratio * ratio / energy : 0.0});
-        }
+// The type that a row of floats has in a file that is not packed.
+struct PlainType {
+    ScalarType operator()(const Topology*) const { return ScalarType::u32; }
+    ScalarType operator()(const SingularValues&) const { return ScalarType::f64; }
+    ScalarType operator()(const MatrixValues& row) const {
+        return row.is_component && row.matrix->precision == Precision::f16 ? ScalarType::f16
+                                                                           : ScalarType::f32;
     }
-    std::stable_sort(ranked.begin(), ranked.end(),
-                     [](const Ranked& a, const Ranked& b) { return a.share > b.share; });
-    std::vector<ComponentId> order(ranked.size());
-    std::transform(ranked.begin(), ranked.end(), order.begin(),
-                   [](const Ranked& r) { return r.id; });
-    return order;
-}
-
-// Which section holds what.
-struct PaimWriter::Index {
-    std::string metadata;
-    std::vector<SectionPlan> specs;
-    size_t scenery;  // the first of its sections
-    size_t spectrum[2], weights[2], mean[2];
-    std::vector<size_t> component[2];
-
-    explicit Index(const Model& model) : metadata(paim_metadata(model)) {
-        add({section::kMetadata,
-             ScalarType::u8,
-             0,
-             {1, 1, static_cast<uint32_t>(metadata.size())}});
-        specs.push_back(triangles_spec(model.topology));
-        specs.push_back(albedo_spec(model.albedo));
-        scenery = specs.size();
-        for (const SectionSpec& spec : scenery_specs(model.scenery, model.layout)) add(spec);
-        for (const Attribute attribute : kAttributes) {
-            const auto i = static_cast<size_t>(attribute);
-            const LowRankMatrix& matrix = model.attribute(attribute);
-            spectrum[i] = add({section::kSingularValues[i],
-                               ScalarType::f64,
-                               0,
-                               {1, 1, static_cast<uint32_t>(matrix.singular_values.size())}});
-            weights[i] = add({section::kWeights[i],
-                              ScalarType::f32,
-                              0,
-                              {1, matrix.num_components, matrix.num_poses}});
-        }
-        for (const Attribute attribute : kAttributes) {
-            const auto i = static_cast<size_t>(attribute);
-            const LowRankMatrix& matrix = model.attribute(attribute);
-            mean[i] = add(
-                {section::kMean[i], ScalarType::f32, 0, {1, matrix.num_planes, matrix.num_points}});
-            component[i].resize(matrix.num_components);
-        }
-        for (const auto& [attribute, k] : component_order(model)) {
-            const auto i = static_cast<size_t>(attribute);
-            const LowRankMatrix& matrix = model.attribute(attribute);
-            component[i][k] = add({section::kComponent[i],
-                                   scalar_type(matrix.precision),
-                                   k,
-                                   {1, matrix.num_planes, matrix.num_points}});
-        }
-    }
-
-    size_t add(SectionSpec spec) {
-        specs.push_back(spec);
-        return specs.size() - 1;
+    template <typename Row>
+    ScalarType operator()(const Row&) const {
+        return ScalarType::f32;
     }
 };
 
-uint64_t paim_size_bytes(const Model& model) {
-    if (needs_packing(model)) return PackedFile(model).size_bytes();
-    return container_size_bytes(PaimWriter::section_plans(model));
+// Writes a row of floats.
+struct PlainValues {
+    ContainerWriter& writer;
+    size_t section;
+
+    void operator()(const Topology* row) const {
+        writer.append(section, std::span<const Triangle>(row->triangles));
+    }
+    void operator()(const Albedo* row) const {
+        writer.append(section, std::span<const Vec3f>(row->values));
+    }
+    void operator()(const SingularValues& row) const {
+        writer.append(section, std::span<const double>(row.matrix->singular_values));
+    }
+    void operator()(const Weights& row) const { floats(row.matrix->weights); }
+    void operator()(const WeightSteps& row) const { floats(row.matrix->weight_steps); }
+    void operator()(const Steps& row) const { floats(row.matrix->steps); }
+    void operator()(const MatrixValues& row) const { floats(row.values->floats()); }
+    void operator()(const StoredValues* row) const { floats(row->floats()); }
+    void operator()(const std::vector<float>* row) const { floats(*row); }
+    void operator()(const SmallNumbers&) const { PAIM_CHECK(!"integers are packed"); }
+
+  private:
+    void floats(const std::vector<float>& values) const {
+        writer.append(section, std::span<const float>(values));
+    }
+};
+
+}  // namespace
+
+// The sections of a file of floats, and which of them hold what arrives in pieces.
+struct PaimWriter::Layout {
+    std::string metadata;
+    std::vector<TableRow> table;  // row j is section 1 + j
+    std::vector<SectionPlan> plans;
+    size_t mean[2] = {0, 0};
+    std::vector<size_t> component[2];
+
+    explicit Layout(const Asset& asset) : metadata(paim_metadata(asset)) {
+        plans.push_back(SectionSpec{section::kMetadata,
+                                    ScalarType::u8,
+                                    0,
+                                    {1, 1, static_cast<uint32_t>(metadata.size())}});
+        for (TableRow& row : section_table(asset)) {
+            if (row.is_present()) table.push_back(std::move(row));
+        }
+        const LowRank* const matrices[] = {&asset.moving().positions,
+                                           &asset.moving().transfer->matrix};
+        for (size_t i = 0; i < 2; ++i) component[i].resize(matrices[i]->num_components);
+        for (const TableRow& row : table) {
+            if (const auto* values = std::get_if<MatrixValues>(&row.values)) {
+                for (size_t i = 0; i < 2; ++i) {
+                    if (values->matrix != matrices[i]) continue;
+                    (values->is_component ? component[i][row.index] : mean[i]) = plans.size();
+                }
+            }
+            plans.push_back(SectionSpec{row.tag,
+                                        std::visit(PlainType(), row.values),
+                                        row.index,
+                                        {1, row.shape[0], row.shape[1]}});
+        }
+    }
+};
+
+uint64_t paim_size_bytes(const Asset& asset) {
+    if (needs_packing(asset)) return PackedFile(asset).size_bytes();
+    return container_size_bytes(PaimWriter::section_plans(asset));
 }
 
-std::vector<SectionPlan> PaimWriter::section_plans(const Model& model) {
-    return Index(model).specs;
+std::vector<SectionPlan> PaimWriter::section_plans(const Asset& asset) {
+    return Layout(asset).plans;
 }
 
-PaimWriter::PaimWriter(const std::filesystem::path& path, const Model& model)
-    : PaimWriter(path, model, Index(model)) {}
+PaimWriter::PaimWriter(const std::filesystem::path& path, const Asset& asset)
+    : PaimWriter(path, asset, Layout(asset)) {}
 
-PaimWriter::PaimWriter(const std::filesystem::path& path, const Model& model, Index index)
-    : precision_{model.geometry.precision, model.transfer.precision},
-      mean_section_{index.mean[0], index.mean[1]},
-      component_section_{std::move(index.component[0]), std::move(index.component[1])},
-      writer_(path, section::kKindAnimation, index.specs) {
-    writer_.append(0, index.metadata.data(), index.metadata.size());
-    append_mesh(writer_, 1, 2, model.topology, model.albedo);
-    append_scenery(writer_, index.scenery, model.scenery);
-    for (const Attribute attribute : kAttributes) {
-        const auto i = static_cast<size_t>(attribute);
-        const LowRankMatrix& matrix = model.attribute(attribute);
-        writer_.append(index.spectrum[i], std::span(matrix.singular_values));
-        writer_.append(index.weights[i], std::span(matrix.weights));
+PaimWriter::PaimWriter(const std::filesystem::path& path, const Asset& asset, Layout layout)
+    : precision_{asset.moving().positions.precision, asset.moving().transfer->matrix.precision},
+      mean_section_{layout.mean[0], layout.mean[1]},
+      component_section_{std::move(layout.component[0]), std::move(layout.component[1])},
+      writer_(path, section::kKindAnimation, layout.plans) {
+    writer_.append(0, std::span<const char>(layout.metadata));
+    for (size_t j = 0; j < layout.table.size(); ++j) {
+        const TableRow& row = layout.table[j];
+        // Those of the part that moves arrive in pieces.
+        if (row.part == 0 && std::holds_alternative<MatrixValues>(row.values)) continue;
+        std::visit(PlainValues{writer_, 1 + j}, row.values);
     }
 }
 
@@ -144,14 +133,14 @@ void PaimWriter::append_component(ComponentId id, std::span<const float> rows) {
     writer_.append(section, std::span<const uint16_t>(halves));
 }
 
-void write_paim(const std::filesystem::path& path, const Model& model) {
-    if (needs_packing(model)) {
-        PackedFile(model).write(path);
+void write_paim(const std::filesystem::path& path, const Asset& asset) {
+    if (needs_packing(asset)) {
+        PackedFile(asset).write(path);
         return;
     }
-    PaimWriter writer(path, model);
-    for (const Attribute attribute : kAttributes) {
-        const LowRankMatrix& matrix = model.attribute(attribute);
+    PaimWriter writer(path, asset);
+    for (const Attribute attribute : {Attribute::geometry, Attribute::transfer}) {
+        const LowRank& matrix = asset.moving().attribute(attribute);
         PAIM_CHECK_EQ(matrix.mean.size(), matrix.num_rows());
         PAIM_CHECK_EQ(matrix.components.size(), size_t{matrix.num_components});
         writer.append_mean(attribute, matrix.mean.floats());

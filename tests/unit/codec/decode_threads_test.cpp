@@ -5,8 +5,8 @@
 #include "paim/base/parallel.h"
 #include "paim/base/seed.h"
 #include "paim/codec/accumulate.h"
-#include "paim/codec/low_rank.h"
-#include "paim/codec/make_decoder.h"
+#include "paim/codec/rebuild_planes.h"
+#include "paim/codec/mesh_decoder.h"
 
 namespace paim {
 namespace {
@@ -20,9 +20,9 @@ StoredValues random_values(RandomStream& random, size_t count, double limit) {
     return values;
 }
 
-LowRankMatrix random_matrix(uint32_t num_points, uint32_t num_planes) {
+LowRank random_matrix(uint32_t num_points, uint32_t num_planes) {
     RandomStream random(num_planes);
-    LowRankMatrix matrix;
+    LowRank matrix;
     matrix.num_points = num_points;
     matrix.num_planes = num_planes;
     matrix.num_poses = 3;
@@ -39,13 +39,13 @@ LowRankMatrix random_matrix(uint32_t num_points, uint32_t num_planes) {
     return matrix;
 }
 
-Model random_model(bool clustered) {
-    Model model;
-    model.topology.num_vertices = kVertices;
-    model.layout = {TransferKind::diffuse, 3, 1};
-    model.geometry = random_matrix(kVertices, 3);
+Asset random_model(bool clustered) {
+    Asset model;
+    model.moving().topology.num_vertices = kVertices;
+    model.moving().layout = {TransferKind::diffuse, 3, 1};
+    model.moving().positions = random_matrix(kVertices, 3);
     if (!clustered) {
-        model.transfer = random_matrix(kVertices, 9);
+        model.moving().transfer->matrix = random_matrix(kVertices, 9);
         return model;
     }
     RandomStream random(4);
@@ -59,13 +59,13 @@ Model random_model(bool clustered) {
         clusters.coefficients.push_back(random_values<int8_t>(random, kVertices, 127.0));
     }
     clusters.scales.assign(clusters.num_rows(), 0.5f);
-    model.transfer = random_matrix(clusters.num_rows(), 9);
+    model.moving().transfer->matrix = random_matrix(clusters.num_rows(), 9);
     return model;
 }
 
 TEST(DecodeThreads, GiveTheSameBytes) {
     for (const bool clustered : {false, true}) {
-        const Model model = random_model(clustered);
+        const Asset model = random_model(clustered);
         const std::unique_ptr<Decoder> decoder = make_decoder(model);
         DecodedPose one, some;
         {
@@ -76,16 +76,16 @@ TEST(DecodeThreads, GiveTheSameBytes) {
             const ThreadLimit limit(num_threads);
             decoder->decode(1.3, {}, some);
             EXPECT_EQ(some.positions, one.positions);
-            EXPECT_EQ(some.transfer, one.transfer);
+            EXPECT_EQ(some.moving().transfer->matrix, one.transfer);
         }
     }
 }
 
 TEST(DecodeThreads, GiveTheBytesOfThePlainLoop) {
-    const Model model = random_model(false);
+    const Asset model = random_model(false);
     DecodedPose pose;
     make_decoder(model)->decode(1.3, {}, pose);
-    const LowRankMatrix& matrix = model.transfer;
+    const LowRank& matrix = model.moving().transfer->matrix;
     std::vector<float> weights, plane(kVertices);
     interpolate_weights(matrix, 1.3, weights);
     for (uint32_t j = 0; j < matrix.num_planes; ++j) {
@@ -98,7 +98,7 @@ TEST(DecodeThreads, GiveTheBytesOfThePlainLoop) {
 
 // Frames of one model into one pose: the work space is that of the first.
 TEST(DecodeThreads, KeepTheWorkSpace) {
-    const Model model = random_model(true);
+    const Asset model = random_model(true);
     const std::unique_ptr<Decoder> decoder = make_decoder(model);
     DecodedPose pose;
     decoder->decode(0.0, {}, pose);

@@ -11,32 +11,32 @@ namespace paim {
 namespace {
 
 // Two vertices; component 0 moves the second along x, component 1 the first along z.
-Model moving_points(uint32_t num_poses) {
-    Model model;
-    model.topology.num_vertices = 2;
-    model.layout.bands = 1;
-    model.geometry.num_points = 2;
-    model.geometry.num_planes = 3;
-    model.geometry.num_poses = num_poses;
-    model.geometry.num_components = 2;
-    model.geometry.mean = std::vector<float>{0, 1, 0, 2, 0, 3};  // x x y y z z
-    model.geometry.components = {std::vector<float>{0, 1, 0, 0, 0, 0},
+Asset moving_points(uint32_t num_poses) {
+    Asset model;
+    model.moving().topology.num_vertices = 2;
+    model.moving().layout.in_bands = 1;
+    model.moving().positions.num_points = 2;
+    model.moving().positions.num_planes = 3;
+    model.moving().positions.num_poses = num_poses;
+    model.moving().positions.num_components = 2;
+    model.moving().positions.mean = std::vector<float>{0, 1, 0, 2, 0, 3};  // x x y y z z
+    model.moving().positions.components = {std::vector<float>{0, 1, 0, 0, 0, 0},
                                  std::vector<float>{0, 0, 0, 0, 1, 0}};
     for (uint32_t p = 0; p < num_poses; ++p) {
-        model.geometry.weights.push_back(static_cast<float>(p));
+        model.moving().positions.weights.push_back(static_cast<float>(p));
     }
     for (uint32_t p = 0; p < num_poses; ++p) {
-        model.geometry.weights.push_back(p == 1 ? -4.0f : 0.0f);
+        model.moving().positions.weights.push_back(p == 1 ? -4.0f : 0.0f);
     }
-    model.transfer.num_points = 2;
-    model.transfer.num_planes = 1;
-    model.transfer.num_poses = num_poses;
-    model.transfer.mean = std::vector<float>{0, 0};
+    model.moving().transfer->matrix.num_points = 2;
+    model.moving().transfer->matrix.num_planes = 1;
+    model.moving().transfer->matrix.num_poses = num_poses;
+    model.moving().transfer->matrix.mean = std::vector<float>{0, 0};
     return model;
 }
 
 TEST(PoseBounds, AreThoseOfTheDecodedPositions) {
-    const Model model = moving_points(3);
+    const Asset model = moving_points(3);
     Bounds bounds = pose_bounds(model, 1.0, 2);
     EXPECT_EQ(bounds.lower, Vec3f(0, 0, -4));
     EXPECT_EQ(bounds.upper, Vec3f(2, 2, 3));
@@ -59,7 +59,7 @@ TEST(SequenceBounds, HoldEveryPose) {
 }
 
 TEST(SequenceBounds, HoldSceneryNearBy) {
-    Model model = moving_points(1);  // from the origin to (1, 2, 3), diagonal √14
+    Asset model = moving_points(1);  // from the origin to (1, 2, 3), diagonal √14
     const auto scenery = [&](float x) {
         model.scenery.topology.num_vertices = 1;
         model.scenery.positions = std::vector<float>{x, 1, 1};
@@ -78,9 +78,9 @@ TEST(SequenceBounds, HoldSceneryNearBy) {
 }
 
 TEST(SequenceBounds, OfNothingAreEmpty) {
-    Model model = moving_points(3);
-    model.topology.num_vertices = 0;
-    for (LowRankMatrix* matrix : {&model.geometry, &model.transfer}) {
+    Asset model = moving_points(3);
+    model.moving().topology.num_vertices = 0;
+    for (LowRank* matrix : {&model.moving().positions, &model.moving().transfer->matrix}) {
         matrix->num_points = 0;
         matrix->mean = {};
         matrix->components.clear();

@@ -12,7 +12,7 @@
 namespace paim {
 namespace {
 
-double decoded_energy(const Model& model, const Model& other, Attribute attribute,
+double decoded_energy(const Asset& model, const Asset& other, Attribute attribute,
                       const std::vector<double>& plane_weight) {
     double energy = 0.0;
     for (uint32_t plane = 0; plane < plane_weight.size(); ++plane) {
@@ -23,22 +23,22 @@ double decoded_energy(const Model& model, const Model& other, Attribute attribut
     return energy;
 }
 
-Model without_values(Model model, Attribute attribute) {
-    LowRankMatrix& matrix = attribute == Attribute::geometry ? model.geometry : model.transfer;
+Asset without_values(Asset model, Attribute attribute) {
+    LowRank& matrix = attribute == Attribute::geometry ? model.moving().positions : model.moving().transfer->matrix;
     model = attribute == Attribute::geometry
-                ? first_components(model, 0, model.transfer.num_components)
-                : first_components(model, model.geometry.num_components, 0);
+                ? first_components(model, 0, model.moving().transfer->matrix.num_components)
+                : first_components(model, model.moving().positions.num_components, 0);
     matrix.mean = std::vector<float>(matrix.num_rows());
     return model;
 }
 
 // Components of the examples are random, so that they are far from orthogonal.
 TEST(PrefixError, IsWhatDecodingLacks) {
-    for (const Model& model :
+    for (const Asset& model :
          {make_example_model(3, 1), quantise_example(make_example_model(2, 3)),
           make_clustered_example(2, 3, 2, true), make_clustered_example(3, 1, 1)}) {
         for (const Attribute attribute : {Attribute::geometry, Attribute::transfer}) {
-            const LowRankMatrix& matrix = model.attribute(attribute);
+            const LowRank& matrix = model.moving().attribute(attribute);
             std::vector<double> plane_weight;
             for (uint32_t j = 0; j < matrix.num_planes; ++j) plane_weight.push_back(1.0 / (1 + j));
             const ComponentEnergy energy = component_energy(model, attribute, plane_weight);
@@ -49,7 +49,7 @@ TEST(PrefixError, IsWhatDecodingLacks) {
             ASSERT_EQ(energy.dropped.size(), size_t{matrix.num_components} + 1);
             EXPECT_EQ(energy.dropped.back(), 0.0);
             for (uint32_t k = 0; k < matrix.num_components; ++k) {
-                const Model coarser = first_components(model, k, k);
+                const Asset coarser = first_components(model, k, k);
                 const double lacking = decoded_energy(model, coarser, attribute, plane_weight);
                 EXPECT_GT(lacking, 0.0);
                 EXPECT_NEAR(energy.dropped[k], lacking, 1e-6 * decoded) << k;
@@ -59,15 +59,15 @@ TEST(PrefixError, IsWhatDecodingLacks) {
 }
 
 // One vertex, one plane or three, numbers that can be followed by hand.
-Model hand_made() {
-    Model model = make_example_model(1, 1, 2, 1);
-    const auto fill = [](LowRankMatrix& matrix, float mean, float component) {
+Asset hand_made() {
+    Asset model = make_example_model(1, 1, 2, 1);
+    const auto fill = [](LowRank& matrix, float mean, float component) {
         matrix.mean = std::vector<float>(matrix.num_rows(), mean);
         matrix.components = {StoredValues(std::vector<float>(matrix.num_rows(), component))};
         matrix.weights = {1.0f, -1.0f};
     };
-    fill(model.geometry, 5.0f, 2.0f);
-    fill(model.transfer, 4.0f, 3.0f);
+    fill(model.moving().positions, 5.0f, 2.0f);
+    fill(model.moving().transfer->matrix, 4.0f, 3.0f);
     return model;
 }
 
@@ -112,12 +112,12 @@ TEST(PrefixError, AddsWhatTheFileStatesInSquares) {
 
 // Bands count as much as there is light in them.
 TEST(PrefixError, WeighsBandsByTheLight) {
-    Model model = make_example_model(2, 1, 2, 1);
+    Asset model = make_example_model(2, 1, 2, 1);
     const std::vector<float> mean{1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
     const std::vector<float> component{0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 0, 0, 0, 0};
-    model.transfer.mean = mean;
-    model.transfer.components = {StoredValues(component)};
-    model.transfer.weights = {1.0f, -1.0f};
+    model.moving().transfer->matrix.mean = mean;
+    model.moving().transfer->matrix.components = {StoredValues(component)};
+    model.moving().transfer->matrix.weights = {1.0f, -1.0f};
     EXPECT_DOUBLE_EQ(prefix_errors(model, {}).transfer[0], std::sqrt(1.0 / 2.0));
     // (l + 1)⁻² is a quarter in band 1.
     const ErrorStatement statement{"natural", {{"transfer_total_error", 0.0}}};
@@ -126,9 +126,9 @@ TEST(PrefixError, WeighsBandsByTheLight) {
 
 // An animation of which nothing is lit has no error that is not a number.
 TEST(PrefixError, OfZerosIsZero) {
-    Model model = make_example_model(2, 1, 3, 1);
-    model.transfer.mean = std::vector<float>(16);
-    model.transfer.components = {StoredValues(std::vector<float>(16))};
+    Asset model = make_example_model(2, 1, 3, 1);
+    model.moving().transfer->matrix.mean = std::vector<float>(16);
+    model.moving().transfer->matrix.components = {StoredValues(std::vector<float>(16))};
     EXPECT_EQ(prefix_errors(model, {}).transfer, (std::vector<double>{0.0, 0.0}));
 }
 

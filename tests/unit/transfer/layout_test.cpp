@@ -13,7 +13,7 @@ TEST(TransferLayout, PlanesAreOfTheBandOfTheirCoefficient) {
         for (uint32_t channel = 0; channel < channels; ++channel) {
             for (uint32_t l = 0; l < 5; ++l) {
                 for (uint32_t i = l * l; i < (l + 1) * (l + 1); ++i) {
-                    EXPECT_EQ(layout.band_of_plane(layout.plane(channel, i)), l);
+                    EXPECT_EQ(layout.input_band(layout.plane(channel, i)), l);
                 }
             }
         }

@@ -53,7 +53,7 @@ class ClusterTransfer : public testing::Test {
     double decoded(const ScaledFactors& factors, const ClusteredFactors& clustered,
                    const Quantiser& quantiser) const {
         ClusteredMatrix quantised = quantise_clusters(clustered, quantiser);
-        Model model = model_of(std::move(quantised.matrix), factors.num_points);
+        Asset model = model_of(std::move(quantised.matrix), factors.num_points);
         model.clusters = std::move(quantised.clusters);
         return decoded_error(model, factors, kWeights);
     }

@@ -53,12 +53,12 @@ TEST(Quantise, StepsOfPlanesWeighAlike) {
     const ScaledFactors factors = random_factors();
     const std::vector<double> weights{1.0, 4.0, 0.25, 0.01};
     const Quantiser quantiser{0.01, kAll, weights};
-    const LowRankMatrix matrix = quantise(factors, quantiser);
+    const LowRank matrix = quantise(factors, quantiser);
     const std::vector<float> expected{0.01f, 0.005f, 0.02f, 0.1f};
     ASSERT_EQ(matrix.steps.size(), 4u);
     for (uint32_t j = 0; j < 4; ++j) EXPECT_FLOAT_EQ(matrix.steps[j], expected[j]);
     // So that each plane has about as much of the error: 1600 squares, deviation 2.3 %.
-    const Model model = model_of(matrix, factors.num_points);
+    const Asset model = model_of(matrix, factors.num_points);
     const double share = quantised_error(factors, quantiser) / 4.0;
     for (uint32_t j = 0; j < 4; ++j) {
         std::vector<double> one(4, 0.0);
@@ -70,7 +70,7 @@ TEST(Quantise, StepsOfPlanesWeighAlike) {
 TEST(Quantise, ComponentsWeakerThanTheStepVanish) {
     const ScaledFactors factors = random_factors({400, 4, 12, {1.0, 0.059, 0.02, 0.5}});
     const Quantiser quantiser{0.1, kAll, alike(factors)};
-    const LowRankMatrix matrix = quantise(factors, quantiser);
+    const LowRank matrix = quantise(factors, quantiser);
     EXPECT_EQ(matrix.num_components, 2u);
     ASSERT_EQ(matrix.components.size(), 2u);
     EXPECT_EQ(matrix.weight_steps.size(), 2u);
@@ -84,13 +84,13 @@ TEST(Quantise, ComponentsWithoutWeightsAreDropped) {
     ScaledFactors factors = random_factors({400, 1, 64, {1.0, 1.0}});
     std::fill(factors.components[1].begin(), factors.components[1].end(), 0.0f);
     factors.components[1][7] = 0.1f;
-    const LowRankMatrix matrix = quantise(factors, {0.1, kAll, alike(factors)});
+    const LowRank matrix = quantise(factors, {0.1, kAll, alike(factors)});
     EXPECT_EQ(matrix.num_components, 1u);
 }
 
 TEST(Quantise, WeightsAreMultiplesOfStepsThatCostAsMuchAsAValue) {
     const ScaledFactors factors = random_factors();
-    const LowRankMatrix matrix = quantise(factors, {0.02, kAll, alike(factors)});
+    const LowRank matrix = quantise(factors, {0.02, kAll, alike(factors)});
     ASSERT_EQ(matrix.num_components, 3u);
     for (uint32_t k = 0; k < 3; ++k) {
         double squares = 0.0;
@@ -123,7 +123,7 @@ TEST(Quantise, IntegersThatDependOnEachOtherHaveOrdinaryWeights) {
             }
         }
         const Quantiser quantiser{1.0, kAll, {1.0}};
-        const LowRankMatrix matrix = quantise(factors, quantiser);
+        const LowRank matrix = quantise(factors, quantiser);
         ASSERT_EQ(matrix.num_components, 5u);
         for (const float weight : matrix.weights) {
             // The shares of five components, each at most √12 in a pose.
@@ -159,7 +159,7 @@ TEST(Quantise, LargestStepKnowsItsLimits) {
     std::fill(factors.mean.begin(), factors.mean.end(), 0.0f);
     for (auto& component : factors.components) std::fill(component.begin(), component.end(), 0.0f);
     EXPECT_EQ(largest_step(factors, any, 0.0), 1.0);
-    const LowRankMatrix nothing = quantise(factors, any);
+    const LowRank nothing = quantise(factors, any);
     EXPECT_EQ(nothing.num_components, 0u);
     EXPECT_EQ(quantised_error(factors, any), 0.0);
 }
@@ -169,7 +169,7 @@ TEST(Quantise, SmallestStepFitsItsBits) {
     for (const Precision precision : {Precision::i8, Precision::i16}) {
         Quantiser quantiser{1.0, kAll, {1.0, 4.0, 0.25, 0.01}};
         quantiser.step = smallest_step(factors, quantiser, precision);
-        const LowRankMatrix matrix = quantise(factors, quantiser);
+        const LowRank matrix = quantise(factors, quantiser);
         float largest = 0.0f;
         for (size_t r = 0; r < matrix.num_rows(); ++r) {
             largest = std::max(largest, std::abs(matrix.mean[r]));
@@ -195,7 +195,7 @@ TEST(Quantise, SmallestStepFitsItsBits) {
 TEST(Quantise, OnePoseIsAMean) {
     ScaledFactors factors = random_factors({50, 2, 1, {}});
     const Quantiser quantiser{0.01, kAll, alike(factors)};
-    const LowRankMatrix matrix = quantise(factors, quantiser);
+    const LowRank matrix = quantise(factors, quantiser);
     EXPECT_EQ(matrix.num_components, 0u);
     EXPECT_EQ(matrix.num_poses, 1u);
     // Floats of the decoded mean, 2^-24 of 1, beside errors of 0.003.

@@ -8,7 +8,7 @@
 #include "compressor/encode/quantise/scaled_factors.h"
 #include "paim/base/seed.h"
 #include "paim/codec/component_planes.h"
-#include "paim/codec/model.h"
+#include "paim/codec/asset.h"
 
 namespace paim {
 
@@ -62,7 +62,7 @@ inline Eigen::MatrixXd exact_plane(const ScaledFactors& factors, uint32_t j) {
 }
 
 // Weighted squares of what the transfer of a model decodes to beside the factors.
-inline double decoded_error(const Model& model, const ScaledFactors& factors,
+inline double decoded_error(const Asset& model, const ScaledFactors& factors,
                             const std::vector<double>& plane_weight) {
     double sum = 0.0;
     for (uint32_t j = 0; j < factors.num_planes; ++j) {
@@ -73,10 +73,10 @@ inline double decoded_error(const Model& model, const ScaledFactors& factors,
 }
 
 // A model that holds this transfer and nothing else.
-inline Model model_of(LowRankMatrix transfer, uint32_t num_vertices) {
-    Model model;
-    model.topology.num_vertices = num_vertices;
-    model.transfer = std::move(transfer);
+inline Asset model_of(LowRank transfer, uint32_t num_vertices) {
+    Asset model;
+    model.moving().topology.num_vertices = num_vertices;
+    model.moving().transfer->matrix = std::move(transfer);
     return model;
 }
 

@@ -93,7 +93,7 @@ TEST(ScaledFactors, TailErrorsAreWhatDroppedComponentsLeave) {
     const std::vector<double> tails = tail_errors(factors, weight);
     ASSERT_EQ(tails.size(), 4u);
     for (uint32_t k = 0; k <= 3; ++k) {
-        const Model model = model_of(float_part(factors, k, Precision::f32), factors.num_points);
+        const Asset model = model_of(float_part(factors, k, Precision::f32), factors.num_points);
         // Floats: 2^-24 of values near 1, 19200 of them.
         EXPECT_NEAR(decoded_error(model, factors, weight), tails[k], 1e-6 * tails[0] + 1e-9) << k;
     }
@@ -102,7 +102,7 @@ TEST(ScaledFactors, TailErrorsAreWhatDroppedComponentsLeave) {
 TEST(FloatPart, HasComponentsOfUnitRms) {
     ScaledFactors factors = random_factors();
     std::fill(factors.components[2].begin(), factors.components[2].end(), 0.0f);
-    const LowRankMatrix matrix = float_part(factors, 1000, Precision::f32);
+    const LowRank matrix = float_part(factors, 1000, Precision::f32);
     EXPECT_EQ(matrix.num_components, 3u);
     EXPECT_EQ(matrix.mean.floats(), factors.mean);
     for (uint32_t k = 0; k < 2; ++k) {
@@ -114,13 +114,13 @@ TEST(FloatPart, HasComponentsOfUnitRms) {
 
 TEST(FloatPart, RoundsToHalves) {
     const ScaledFactors factors = random_factors();
-    const LowRankMatrix matrix = float_part(factors, 3, Precision::f16);
+    const LowRank matrix = float_part(factors, 3, Precision::f16);
     for (const StoredValues& component : matrix.components) {
         for (const float c : component.floats()) EXPECT_EQ(from_half(to_half(c)), c);
     }
     // Halves of values up to √3 are off by 2^-11 of themselves at most, as components are: no more
     // than that of the energy beside the mean, and at least a tenth (uniform rounding: about 0.2).
-    const Model model = model_of(matrix, factors.num_points);
+    const Asset model = model_of(matrix, factors.num_points);
     const std::vector<double> alike(4, 1.0);
     const double energy = tail_errors(factors, alike)[0];
     const double relative = std::sqrt(decoded_error(model, factors, alike) / energy);

@@ -4,7 +4,8 @@
 #include "compressor/encode/quantise/quantise.h"
 #include "paim/base/error.h"
 #include "paim/format/container/metadata.h"
-#include "paim/format/paim/paim_file.h"
+#include "paim/format/paim/paim_read.h"
+#include "paim/format/paim/paim_write.h"
 #include "paim/format/paim/paim_metadata.h"
 #include "paim/metrics/singular_value_error.h"
 #include "tests/example_model.h"
@@ -15,30 +16,30 @@ namespace paim {
 namespace {
 
 // The second and third of four components are below half a step.
-LowRankMatrix quantised() {
+LowRank quantised() {
     ScaledFactors factors = random_factors({400, 4, 12, {1.0, 0.05, 0.05, 0.5}});
     factors.singular_values = {8.0, 4.0, 2.0, 1.0, 0.5};
     return quantise(factors, {0.1, 1000, std::vector<double>(4, 1.0)});
 }
 
 // A file whose transfer is that, of one band and grey.
-Model example_of(LowRankMatrix transfer) {
-    Model model = make_example_model();
-    model.layout = {TransferKind::diffuse, 2, 1};
-    model.topology = {400, {}};
-    model.geometry = {};
-    model.geometry.num_points = 400;
-    model.geometry.num_planes = 3;
-    model.geometry.num_poses = 12;
-    model.geometry.mean = std::vector<float>(1200, 0.0f);
+Asset example_of(LowRank transfer) {
+    Asset model = make_example_model();
+    model.moving().layout = {TransferKind::diffuse, 2, 1};
+    model.moving().topology = {400, {}};
+    model.moving().positions = {};
+    model.moving().positions.num_points = 400;
+    model.moving().positions.num_planes = 3;
+    model.moving().positions.num_poses = 12;
+    model.moving().positions.mean = std::vector<float>(1200, 0.0f);
     model.scenery = {};
-    model.albedo = {};
-    model.transfer = std::move(transfer);
+    model.moving().albedo = {};
+    model.moving().transfer->matrix = std::move(transfer);
     return model;
 }
 
 TEST(VanishedComponent, OthersKeepTheirSingularValues) {
-    const LowRankMatrix matrix = quantised();
+    const LowRank matrix = quantised();
     ASSERT_EQ(matrix.num_components, 2u);
     EXPECT_EQ(matrix.singular_values.size(), 5u);
     EXPECT_EQ(matrix.singular_indices, (std::vector<uint32_t>{0, 3}));
@@ -48,36 +49,36 @@ TEST(VanishedComponent, OthersKeepTheirSingularValues) {
 
 TEST(VanishedComponent, FirstOnesNeedNoIndices) {
     ScaledFactors factors = random_factors({400, 4, 12, {1.0, 0.5, 0.05}});
-    const LowRankMatrix some = quantise(factors, {0.1, 1000, std::vector<double>(4, 1.0)});
+    const LowRank some = quantise(factors, {0.1, 1000, std::vector<double>(4, 1.0)});
     EXPECT_EQ(some.num_components, 2u);
     EXPECT_TRUE(some.singular_indices.empty());
     EXPECT_DOUBLE_EQ(theory_error(some), theory_error(some.singular_values, 2));
     EXPECT_DOUBLE_EQ(energy_error(some), energy_error(some.singular_values, 2));
-    const LowRankMatrix none = quantise(factors, {10.0, 1000, std::vector<double>(4, 1.0)});
+    const LowRank none = quantise(factors, {10.0, 1000, std::vector<double>(4, 1.0)});
     EXPECT_TRUE(none.singular_indices.empty());
     EXPECT_DOUBLE_EQ(theory_error(none), 1.0);
 }
 
 // Had the last one the second value, it would come before the geometry's.
 TEST(VanishedComponent, OthersAreWhereTheirEnergyPutsThem) {
-    Model model = example_of(quantised());
-    model.geometry.num_components = 1;
-    model.geometry.singular_values = {3.0, 3.0};
-    model.transfer.singular_values = {8.0, 7.9, 7.9, 1.0};
+    Asset model = example_of(quantised());
+    model.moving().positions.num_components = 1;
+    model.moving().positions.singular_values = {3.0, 3.0};
+    model.moving().transfer->matrix.singular_values = {8.0, 7.9, 7.9, 1.0};
     const std::vector<ComponentId> expected{
         {Attribute::geometry, 0}, {Attribute::transfer, 0}, {Attribute::transfer, 1}};
     // Shares 0.5, 0.34 and 0.005. The second value would have 0.33.
     EXPECT_EQ(component_order(model), expected);
-    model.geometry.singular_values = {1.0, 2.0, 2.0};  // 0.11
+    model.moving().positions.singular_values = {1.0, 2.0, 2.0};  // 0.11
     EXPECT_EQ(component_order(model)[1], (ComponentId{Attribute::geometry, 0}));
 }
 
 TEST(VanishedComponent, FilesSayWhichAreLeft) {
     const TemporaryDirectory directory;
-    const Model model = example_of(quantised());
+    const Asset model = example_of(quantised());
     write_paim(directory / "x.paim", model);
-    const Model read = read_paim(directory / "x.paim");
-    EXPECT_EQ(read.transfer.singular_indices, model.transfer.singular_indices);
+    const Asset read = read_paim(directory / "x.paim");
+    EXPECT_EQ(read.transfer.singular_indices, model.moving().transfer->matrix.singular_indices);
     EXPECT_TRUE(read.geometry.singular_indices.empty());
     EXPECT_NEAR(theory_error(read.transfer), 6.5 / 15.5, 1e-7);  // of floats
     const std::string metadata = paim_metadata(model);

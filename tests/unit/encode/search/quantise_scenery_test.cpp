@@ -5,7 +5,8 @@
 
 #include "compressor/encode/search/target_encode.h"
 #include "paim/base/error.h"
-#include "paim/format/paim/paim_file.h"
+#include "paim/format/paim/paim_read.h"
+#include "paim/format/paim/paim_write.h"
 #include "tests/temporary_directory.h"
 #include "tests/unit/encode/search/target_bake.h"
 
@@ -23,7 +24,7 @@ class QuantiseScenery : public testing::Test {
     }
 
     // Reads the file again.
-    Model encode(const BakeReader& bake, double error) const {
+    Asset encode(const BakeReader& bake, double error) const {
         EncodeTarget target;
         target.transfer_error = error;
         target.spectrum = BandPower::flat(4);
@@ -39,10 +40,10 @@ class QuantiseScenery : public testing::Test {
 TEST_F(QuantiseScenery, IsAsCoarseAsTheTargetAllows) {
     const BakeReader bake = this->bake(0.001);
     for (const double error : {0.1, 0.02}) {
-        const Model model = encode(bake, error);
+        const Asset model = encode(bake, error);
         EXPECT_FALSE(model.scenery.transfer.values.holds_floats());
         EXPECT_FALSE(model.scenery.positions.values.holds_floats());
-        const ModelError measured = measure_model(model, bake, BandPower::flat(4));
+        const AssetError measured = measure_asset(model, bake, BandPower::flat(4));
         // Steps end within 0.5 % of the largest that are good, and errors of rounding are those of
         // 6400 and 1200 values.
         EXPECT_LE(measured.scenery->transfer.total(), error);
@@ -59,8 +60,8 @@ TEST_F(QuantiseScenery, IsAsCoarseAsTheTargetAllows) {
 
 TEST_F(QuantiseScenery, IsWithinTheTargetWithNoiseOfItsOwn) {
     const BakeReader bake = this->bake(0.02);
-    const Model model = encode(bake, 0.08);
-    const ModelError measured = measure_model(model, bake, BandPower::flat(4));
+    const Asset model = encode(bake, 0.08);
+    const AssetError measured = measure_asset(model, bake, BandPower::flat(4));
     EXPECT_GT(measured.scenery->transfer.bake_noise, 0.02);
     EXPECT_LE(measured.scenery->transfer.total(), 0.08);
     EXPECT_GT(measured.scenery->transfer.total(), 0.07);
@@ -84,7 +85,7 @@ TEST_F(QuantiseScenery, IsRefusedByNameWhereItsNoiseIsTooLarge) {
 TEST_F(QuantiseScenery, LeavesFloatsAsTheyAre) {
     options_.precision = Precision::f32;
     const BakeReader bake = this->bake(0.001);
-    const ModelError measured = measure_model(encode(bake, 0.02), bake, BandPower::flat(4));
+    const AssetError measured = measure_asset(encode(bake, 0.02), bake, BandPower::flat(4));
     EXPECT_EQ(measured.scenery->geometry.worst(), 0.0);
     EXPECT_EQ(measured.scenery->transfer.deviation, 0.0);
 }

@@ -11,7 +11,8 @@
 #include "paim/base/error.h"
 #include "paim/base/parallel.h"
 #include "paim/codec/component_planes.h"
-#include "paim/format/paim/paim_file.h"
+#include "paim/format/paim/paim_read.h"
+#include "paim/format/paim/paim_write.h"
 #include "paim/mesh/cache_order.h"
 #include "paim/metrics/rates.h"
 #include "tests/temporary_directory.h"
@@ -38,7 +39,7 @@ class TargetEncode : public testing::Test {
         EncodeTarget target;
         target.transfer_error = error;
         target.codec = codec;
-        target.spectrum = BandPower::flat(bake.identity().layout.bands);
+        target.spectrum = BandPower::flat(bake.identity().layout.in_bands);
         return target;
     }
 
@@ -68,14 +69,14 @@ TEST_F(TargetEncode, FilesAreWithinTheErrorsThatTheyState) {
     for (const CodecChoice codec : {CodecChoice::svd, CodecChoice::cpca}) {
         for (const double error : {0.05, 0.01}) {
             const TargetSummary summary = encode(bake, target(bake, error, codec));
-            const Model model = read_paim(output_);
+            const Asset model = read_paim(output_);
             EXPECT_EQ(model.clusters.empty(), codec == CodecChoice::svd);
             EXPECT_EQ(summary.chosen().codec, codec == CodecChoice::svd ? "svd" : "cpca");
             EXPECT_EQ(summary.size_bytes, std::filesystem::file_size(output_));
-            EXPECT_EQ(summary.chosen().components, model.transfer.num_components);
+            EXPECT_EQ(summary.chosen().components, model.moving().transfer->matrix.num_components);
             EXPECT_NE(model.provenance_json.find(R"("noise":"shrink")"), std::string::npos);
             const BandPower spectrum = BandPower::flat(4);
-            const auto measured = named_errors(measure_model(model, bake, spectrum));
+            const auto measured = named_errors(measure_asset(model, bake, spectrum));
             const ErrorStatement stated = read_error_statement(model, output_);
             EXPECT_EQ(stated.band_power, "flat");
             ASSERT_EQ(stated.errors.size(), measured.size());
@@ -94,14 +95,14 @@ TEST_F(TargetEncode, FilesAreWithinTheErrorsThatTheyState) {
 TEST_F(TargetEncode, DeviationIsThatOfReorderedVertices) {
     const BakeReader bake = this->bake();
     const TargetSummary summary = encode(bake, target(bake, 0.03));
-    const Model model = read_paim(output_);
+    const Asset model = read_paim(output_);
     ASSERT_EQ(model.vertex_order, VertexOrder::cache);
     const CacheOrder order = cache_order(bake.topology());
     double deviation = 0.0, energy = 0.0, distances = 0.0;
     for (uint32_t p = 0; p < bake.num_poses(); ++p) {
         const BakedPose pose = bake.read_pose(p);
         for (uint32_t j = 0; j < 16; ++j) {
-            const bool kept = j < model.layout.num_coefficients();
+            const bool kept = j < model.moving().layout.num_coefficients();
             const Eigen::MatrixXf plane = kept ? decode_plane(model, Attribute::transfer, j)
                                                : Eigen::MatrixXf::Zero(400, bake.num_poses());
             for (uint32_t v = 0; v < 400; ++v) {
@@ -149,9 +150,9 @@ TEST_F(TargetEncode, StillAnimationsAreOneMean) {
         const BakeReader bake = this->bake({.num_poses = num_poses, .movement = 0.0});
         for (const CodecChoice codec : {CodecChoice::svd, CodecChoice::cpca}) {
             const TargetSummary summary = encode(bake, target(bake, 0.02, codec));
-            const Model model = read_paim(output_);
-            EXPECT_EQ(model.geometry.num_components, 0u);
-            EXPECT_EQ(model.transfer.num_components, 0u);
+            const Asset model = read_paim(output_);
+            EXPECT_EQ(model.moving().positions.num_components, 0u);
+            EXPECT_EQ(model.moving().transfer->matrix.num_components, 0u);
             EXPECT_EQ(model.num_poses(), num_poses);
             EXPECT_LE(summary.error.transfer.total(), 0.02);
         }
@@ -165,9 +166,9 @@ TEST_F(TargetEncode, GreyScenesHaveOneChannelAndColouredOnesThree) {
             this->bake({.layout = {TransferKind::diffuse, 3, channels}, .num_poses = 6});
         for (const CodecChoice codec : {CodecChoice::svd, CodecChoice::cpca}) {
             const TargetSummary summary = encode(bake, target(bake, 0.02, codec));
-            const Model model = read_paim(output_);
-            EXPECT_EQ(model.layout.channels, channels);
-            const TransferError again = measure_model(model, bake, BandPower::flat(3)).transfer;
+            const Asset model = read_paim(output_);
+            EXPECT_EQ(model.moving().layout.channels, channels);
+            const TransferError again = measure_asset(model, bake, BandPower::flat(3)).transfer;
             EXPECT_EQ(again.total(), summary.error.transfer.total());
             EXPECT_LE(again.total(), 0.02);
         }
@@ -178,14 +179,14 @@ TEST_F(TargetEncode, BandsBelowTheTargetAreNotStored) {
     // Bands 0 … 3 have 1, 2^-8, 3^-8 and 4^-8 of a value: the last two are below 0.1 %.
     const BakeReader bake = this->bake({.noise = 0.0, .band_decay = 8.0});
     const TargetSummary summary = encode(bake, target(bake, 0.02));
-    const Model model = read_paim(output_);
-    EXPECT_LE(model.layout.bands, 2u);
+    const Asset model = read_paim(output_);
+    EXPECT_LE(model.moving().layout.in_bands, 2u);
     if (model.clusters.empty()) {
         EXPECT_EQ(
             summary.chosen().multiply_adds,
-            svd_transfer_cost(model.layout, model.transfer.num_components, true).per_vertex());
+            svd_transfer_cost(model.moving().layout, model.moving().transfer->matrix.num_components, true).per_vertex());
     }
-    EXPECT_EQ(summary.chosen().bands, model.layout.bands);
+    EXPECT_EQ(summary.chosen().bands, model.moving().layout.in_bands);
     EXPECT_LE(summary.error.transfer.total(), 0.02);
 }
 
@@ -283,9 +284,9 @@ TEST_F(TargetEncode, TransferOfNothingCostsNothing) {
     const BakeReader bake = this->bake({.noise = 0.0, .scale = 0.0});
     for (const CodecChoice codec : {CodecChoice::svd, CodecChoice::cpca}) {
         encode(bake, target(bake, 0.01, codec));
-        const Model model = read_paim(output_);
-        EXPECT_EQ(model.transfer.num_components, 0u);
-        EXPECT_EQ(model.layout.bands, 1u);
+        const Asset model = read_paim(output_);
+        EXPECT_EQ(model.moving().transfer->matrix.num_components, 0u);
+        EXPECT_EQ(model.moving().layout.in_bands, 1u);
         EXPECT_EQ(decode_plane(model, Attribute::transfer, 0).cwiseAbs().maxCoeff(), 0.0f);
     }
 }
@@ -322,11 +323,11 @@ TEST_F(TargetEncode, FloatsMeetTheTargetToo) {
         options_.precision = precision;
         const TargetSummary summary = encode(bake, target(bake, 0.02));
         EXPECT_LE(summary.error.transfer.total(), 0.02);
-        const Model model = read_paim(output_);
-        EXPECT_EQ(model.transfer.precision, precision);
-        EXPECT_EQ(measure_model(model, bake, BandPower::flat(4)).transfer.total(),
+        const Asset model = read_paim(output_);
+        EXPECT_EQ(model.moving().transfer->matrix.precision, precision);
+        EXPECT_EQ(measure_asset(model, bake, BandPower::flat(4)).transfer.total(),
                   summary.error.transfer.total());
-        EXPECT_EQ(summary.chosen().components, model.transfer.num_components);
+        EXPECT_EQ(summary.chosen().components, model.moving().transfer->matrix.num_components);
     }
 }
 

@@ -1,5 +1,6 @@
 // .paim files: round trip, order of components, cuts at 50 places, numbers that make no sense.
-#include "paim/format/paim/paim_file.h"
+#include "paim/format/paim/paim_read.h"
+#include "paim/format/paim/paim_write.h"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +18,7 @@
 namespace paim {
 namespace {
 
-void expect_equal(const LowRankMatrix& a, const LowRankMatrix& b) {
+void expect_equal(const LowRank& a, const LowRank& b) {
     EXPECT_EQ(a.num_planes, b.num_planes);
     EXPECT_EQ(a.num_components, b.num_components);
     EXPECT_EQ(a.precision, b.precision);
@@ -30,28 +31,28 @@ void expect_equal(const LowRankMatrix& a, const LowRankMatrix& b) {
 TEST(PaimFile, RoundTrips) {
     const TemporaryDirectory directory;
     for (const uint32_t channels : {1u, 3u}) {
-        Model model = make_example_model(3, channels);
-        if (channels == 3) model.albedo.values.assign(4, Vec3f(0.1f, 0.2f, 0.3f));
+        Asset model = make_example_model(3, channels);
+        if (channels == 3) model.moving().albedo.values.assign(4, Vec3f(0.1f, 0.2f, 0.3f));
         write_paim(directory / "x.paim", model);
-        const Model read = read_paim(directory / "x.paim");
-        EXPECT_EQ(read.topology, model.topology);
-        EXPECT_EQ(read.albedo.values, model.albedo.values);
-        EXPECT_EQ(read.layout, model.layout);
+        const Asset read = read_paim(directory / "x.paim");
+        EXPECT_EQ(read.moving().topology, model.moving().topology);
+        EXPECT_EQ(read.moving().albedo.values, model.moving().albedo.values);
+        EXPECT_EQ(read.moving().layout, model.moving().layout);
         EXPECT_EQ(read.name, model.name);
         EXPECT_EQ(read.provenance_json, model.provenance_json);
         EXPECT_EQ(read.frames_per_second, model.frames_per_second);
-        expect_equal(read.geometry, model.geometry);
-        expect_equal(read.transfer, model.transfer);
+        expect_equal(read.geometry, model.moving().positions);
+        expect_equal(read.transfer, model.moving().transfer->matrix);
         EXPECT_EQ(std::filesystem::file_size(directory / "x.paim"), paim_size_bytes(model));
     }
 }
 
 // With weights that are integers, too, as the encoder makes them.
-Model packed_example(bool clustered) {
-    Model model = clustered ? make_clustered_example(3, 3, 2, true)
+Asset packed_example(bool clustered) {
+    Asset model = clustered ? make_clustered_example(3, 3, 2, true)
                             : quantise_example(make_example_model(3, 3));
     model.vertex_order = VertexOrder::cache;
-    LowRankMatrix& matrix = model.transfer;
+    LowRank& matrix = model.moving().transfer->matrix;
     matrix.weight_steps = {0.25f, 0.0f, 1e-3f};
     for (size_t j = 0; j < matrix.weights.size(); ++j) {
         const float step = matrix.weight_steps[j / matrix.num_poses];
@@ -64,23 +65,23 @@ Model packed_example(bool clustered) {
 TEST(PaimFile, RoundTripsIntegersAndClusters) {
     const TemporaryDirectory directory;
     for (const bool clustered : {false, true}) {
-        Model model = packed_example(clustered);
+        Asset model = packed_example(clustered);
         model.scenery =
-            clustered ? make_quantised_scenery(model.layout) : make_example_scenery(model.layout);
+            clustered ? make_quantised_scenery(model.moving().layout) : make_example_scenery(model.moving().layout);
         write_paim(directory / "x.paim", model);
-        const Model read = read_paim(directory / "x.paim");
+        const Asset read = read_paim(directory / "x.paim");
         EXPECT_EQ(std::filesystem::file_size(directory / "x.paim"), paim_size_bytes(model));
         // Triangles may be turned.
-        ASSERT_EQ(read.topology.triangles.size(), model.topology.triangles.size());
-        for (size_t t = 0; t < read.topology.triangles.size(); ++t) {
-            Triangle turned = read.topology.triangles[t];
+        ASSERT_EQ(read.moving().topology.triangles.size(), model.moving().topology.triangles.size());
+        for (size_t t = 0; t < read.moving().topology.triangles.size(); ++t) {
+            Triangle turned = read.moving().topology.triangles[t];
             const auto first =
-                std::find(turned.begin(), turned.end(), model.topology.triangles[t][0]);
+                std::find(turned.begin(), turned.end(), model.moving().topology.triangles[t][0]);
             std::rotate(turned.begin(), first, turned.end());
-            EXPECT_EQ(turned, model.topology.triangles[t]);
+            EXPECT_EQ(turned, model.moving().topology.triangles[t]);
         }
         for (const Attribute attribute : {Attribute::geometry, Attribute::transfer}) {
-            const LowRankMatrix &a = read.attribute(attribute), &b = model.attribute(attribute);
+            const LowRank &a = read.attribute(attribute), &b = model.moving().attribute(attribute);
             EXPECT_EQ(a.precision, Precision::i16);
             EXPECT_EQ(a.num_points, b.num_points);
             EXPECT_EQ(a.steps, b.steps);
@@ -133,7 +134,7 @@ TEST(PaimFile, SurvivesAnyByteOfCompressedSections) {
                 }
                 writer.commit();
                 try {
-                    const Model model = read_paim(directory / "y.paim");
+                    const Asset model = read_paim(directory / "y.paim");
                     for (const uint32_t cluster : model.clusters.cluster) {
                         ASSERT_LT(cluster, model.clusters.num_clusters);
                     }
@@ -155,7 +156,7 @@ TEST(PaimFile, SurvivesAnyByteOfCompressedSections) {
 TEST(PaimFile, TakesNoMemoryForVerticesThatNothingIsClaimedOf) {
     const TemporaryDirectory directory;
     const auto path = directory / "x.paim";
-    Model model = packed_example(false);
+    Asset model = packed_example(false);
     write_paim(path, model);
     // Without the mean of the geometry, and two thousand million vertices.
     const auto bytes = read_file(path, 1 << 20);
@@ -206,15 +207,15 @@ TEST(PaimFile, RefusesClaimsOfFarMoreValuesThanBytes) {
 // Scenery alone is reason enough to pack a file; its values are integers times a step a plane.
 TEST(PaimFile, KeepsSceneryOfIntegers) {
     const TemporaryDirectory directory;
-    Model model = make_example_model(3, 3);
-    model.scenery = make_quantised_scenery(model.layout);
+    Asset model = make_example_model(3, 3);
+    model.scenery = make_quantised_scenery(model.moving().layout);
     write_paim(directory / "x.paim", model);
     const Scenery read = read_paim(directory / "x.paim").scenery;
     EXPECT_EQ(read.positions, model.scenery.positions);
     EXPECT_EQ(read.transfer, model.scenery.transfer);
     EXPECT_TRUE(read.transfer.values.holds_i8());
     const std::vector<float> floats = read.transfer.floats();
-    ASSERT_EQ(floats.size(), size_t{4} * model.layout.num_planes());
+    ASSERT_EQ(floats.size(), size_t{4} * model.moving().layout.num_planes());
     // Value 2 of plane 5: so many steps of 6 hundredths.
     EXPECT_EQ(floats[4 * 5 + 2], (6.0f / 100.0f) * read.transfer.values[4 * 5 + 2]);
 }
@@ -222,17 +223,17 @@ TEST(PaimFile, KeepsSceneryOfIntegers) {
 // What predicts them takes 40 bytes a vertex, whatever they are packed to.
 TEST(PaimFile, RefusesMoreVerticesThanASmallFileMayHave) {
     const TemporaryDirectory directory;
-    Model model = quantise_example(make_example_model(1));
-    model.topology = {2'000'000, {}};
-    const auto empty = [&](LowRankMatrix& matrix) {
-        matrix.num_points = model.topology.num_vertices;
+    Asset model = quantise_example(make_example_model(1));
+    model.moving().topology = {2'000'000, {}};
+    const auto empty = [&](LowRank& matrix) {
+        matrix.num_points = model.moving().topology.num_vertices;
         matrix.num_components = 0;
         matrix.mean = std::vector<int8_t>(matrix.num_rows());
         matrix.components.clear();
         matrix.weights.clear();
     };
-    empty(model.geometry);
-    empty(model.transfer);
+    empty(model.moving().positions);
+    empty(model.moving().transfer->matrix);
     try {
         write_paim(directory / "x.paim", model);
         ADD_FAILURE() << "written";
@@ -247,17 +248,17 @@ TEST(PaimFile, RefusesMoreVerticesThanASmallFileMayHave) {
 TEST(PaimFile, KeepsScenery) {
     const TemporaryDirectory directory;
     for (const uint32_t channels : {1u, 3u}) {
-        Model model = make_example_model(3, channels);
+        Asset model = make_example_model(3, channels);
         EXPECT_TRUE(model.scenery.empty());
         const uint64_t without = paim_size_bytes(model);
-        model.scenery = make_example_scenery(model.layout);
+        model.scenery = make_example_scenery(model.moving().layout);
         write_paim(directory / "x.paim", model);
-        const Model read = read_paim(directory / "x.paim");
+        const Asset read = read_paim(directory / "x.paim");
         EXPECT_EQ(read.scenery.topology, model.scenery.topology);
         EXPECT_EQ(read.scenery.albedo.values, model.scenery.albedo.values);
         EXPECT_EQ(read.scenery.positions, model.scenery.positions);
         EXPECT_EQ(read.scenery.transfer, model.scenery.transfer);
-        expect_equal(read.transfer, model.transfer);
+        expect_equal(read.transfer, model.moving().transfer->matrix);
         EXPECT_EQ(std::filesystem::file_size(directory / "x.paim"), paim_size_bytes(model));
         EXPECT_GT(paim_size_bytes(model), without);
     }
@@ -284,8 +285,8 @@ void drop_section(const std::filesystem::path& path, Tag tag) {
 TEST(PaimFile, SceneryIsWholeOrAbsent) {
     const TemporaryDirectory directory;
     const auto path = directory / "x.paim";
-    Model model = make_example_model();
-    model.scenery = make_example_scenery(model.layout);
+    Asset model = make_example_model();
+    model.scenery = make_example_scenery(model.moving().layout);
     const std::vector<Tag> tags{section::kSceneryTriangles, section::kSceneryPositions,
                                 section::kSceneryAlbedo, section::kSceneryTransfer};
     for (const Tag tag : tags) {
@@ -306,7 +307,7 @@ TEST(PaimFile, SceneryIsWholeOrAbsent) {
 
 TEST(PaimFile, KeepsTheOriginToTheLastDigit) {
     const TemporaryDirectory directory;
-    Model model = make_example_model();
+    Asset model = make_example_model();
     EXPECT_EQ(model.origin, Vec3d::Zero());
     const uint64_t size_bytes = paim_size_bytes(model);
     model.origin = Vec3d(1.0 / 3.0, -1e30, 0x1.fffffffffffffp-40);
@@ -321,14 +322,14 @@ TEST(PaimFile, KeepsTheOriginToTheLastDigit) {
 
 TEST(PaimFile, HalfComponentsAreRoundedToNearest) {
     const TemporaryDirectory directory;
-    Model model = make_example_model();
-    model.transfer.precision = Precision::f16;
+    Asset model = make_example_model();
+    model.moving().transfer->matrix.precision = Precision::f16;
     write_paim(directory / "x.paim", model);
-    const Model read = read_paim(directory / "x.paim");
+    const Asset read = read_paim(directory / "x.paim");
     EXPECT_EQ(read.transfer.precision, Precision::f16);
-    EXPECT_EQ(read.geometry.components, model.geometry.components);
-    for (size_t j = 0; j < model.transfer.num_rows(); ++j) {
-        const float exact = model.transfer.components[1][j];
+    EXPECT_EQ(read.geometry.components, model.moving().positions.components);
+    for (size_t j = 0; j < model.moving().transfer->matrix.num_rows(); ++j) {
+        const float exact = model.moving().transfer->matrix.components[1][j];
         // Half floats have 11 significant bits: half a unit in the last place is at most 2^-11 of
         // the value; below 2^-14 they are subnormal, with steps of 2^-24.
         EXPECT_LE(std::abs(read.transfer.components[1][j] - exact),
@@ -338,17 +339,17 @@ TEST(PaimFile, HalfComponentsAreRoundedToNearest) {
 
 TEST(PaimFile, HoldsStillAnimationsWithoutComponents) {
     const TemporaryDirectory directory;
-    Model model = make_example_model(2, 1, 5, 0);
+    Asset model = make_example_model(2, 1, 5, 0);
     write_paim(directory / "x.paim", model);
-    const Model read = read_paim(directory / "x.paim");
+    const Asset read = read_paim(directory / "x.paim");
     EXPECT_EQ(read.num_poses(), 5u);
     EXPECT_TRUE(read.transfer.components.empty());
 }
 
 TEST(PaimFile, OrdersComponentsByShareOfEnergy) {
-    Model model = make_example_model();
-    model.geometry.singular_values = {10.0, 1.0, 0.1};  // shares 0.99, 0.0099, 0.000099
-    model.transfer.singular_values = {1.0, 0.5, 0.25};  // shares 0.76, 0.19, 0.048
+    Asset model = make_example_model();
+    model.moving().positions.singular_values = {10.0, 1.0, 0.1};  // shares 0.99, 0.0099, 0.000099
+    model.moving().transfer->matrix.singular_values = {1.0, 0.5, 0.25};  // shares 0.76, 0.19, 0.048
     const std::vector<ComponentId> expected{{Attribute::geometry, 0}, {Attribute::transfer, 0},
                                             {Attribute::transfer, 1}, {Attribute::transfer, 2},
                                             {Attribute::geometry, 1}, {Attribute::geometry, 2}};
@@ -373,7 +374,7 @@ TEST(PaimFile, RefusesCutsAtFiftyPlaces) {
 }
 
 // What reading this model's file says.
-std::string complaint(const Model& model) {
+std::string complaint(const Asset& model) {
     const TemporaryDirectory directory;
     write_paim(directory / "x.paim", model);
     try {
@@ -386,23 +387,23 @@ std::string complaint(const Model& model) {
 }
 
 TEST(PaimFile, RefusesContentsThatCannotBePlayed) {
-    Model model = make_example_model();
-    model.topology.triangles[1][2] = 4;
+    Asset model = make_example_model();
+    model.moving().topology.triangles[1][2] = 4;
     EXPECT_NE(complaint(model).find("triangle 1: vertex 4, expected 0 to 3"), std::string::npos);
 
     model = make_example_model();
-    std::vector<float> values = model.transfer.components[0].floats();
+    std::vector<float> values = model.moving().transfer->matrix.components[0].floats();
     values[5] = std::nanf("");
-    model.transfer.components[0] = std::move(values);
+    model.moving().transfer->matrix.components[0] = std::move(values);
     EXPECT_NE(complaint(model).find("section TCMP: value 5 is nan"), std::string::npos)
         << complaint(model);
 
     model = make_example_model();
-    model.geometry.singular_values = {1.0, 2.0, 0.5};
+    model.moving().positions.singular_values = {1.0, 2.0, 0.5};
     EXPECT_NE(complaint(model).find("descending"), std::string::npos);
 
     model = make_example_model();
-    model.albedo.values.resize(3, Vec3f::Zero());
+    model.moving().albedo.values.resize(3, Vec3f::Zero());
     EXPECT_NE(complaint(model).find("expected 1 or 4 colours"), std::string::npos);
 
     model = make_example_model();
@@ -415,8 +416,8 @@ TEST(PaimFile, RefusesContentsThatCannotBePlayed) {
               std::string::npos);
 
     const auto with_scenery = [] {
-        Model whole = make_example_model();
-        whole.scenery = make_example_scenery(whole.layout);
+        Asset whole = make_example_model();
+        whole.scenery = make_example_scenery(whole.moving().layout);
         return whole;
     };
     model = with_scenery();
@@ -433,7 +434,7 @@ TEST(PaimFile, RefusesContentsThatCannotBePlayed) {
     model.scenery.transfer = transfer;
     EXPECT_NE(complaint(model).find("section STRN: value 3 is inf"), std::string::npos);
     model = with_scenery();
-    model.scenery = make_quantised_scenery(model.layout);
+    model.scenery = make_quantised_scenery(model.moving().layout);
     model.scenery.transfer.steps[1] = -1.0f;
     EXPECT_NE(complaint(model).find("steps: expected numbers from 0 to 1.04e+34, got -1"),
               std::string::npos)
@@ -443,7 +444,7 @@ TEST(PaimFile, RefusesContentsThatCannotBePlayed) {
     EXPECT_NE(complaint(model).find("expected 1 or 4 colours"), std::string::npos);
 
     model = make_example_model();
-    model.layout.bands = 3;  // says 9 planes, holds 4
+    model.moving().layout.in_bands = 3;  // says 9 planes, holds 4
     EXPECT_NE(complaint(model).find("expected 9 x 4"), std::string::npos) << complaint(model);
 }
 

@@ -12,7 +12,8 @@
 #include "paim/base/hash.h"
 #include "paim/format/container/container_writer.h"
 #include "paim/format/container/sections.h"
-#include "paim/format/paim/paim_file.h"
+#include "paim/format/paim/paim_read.h"
+#include "paim/format/paim/paim_write.h"
 #include "tests/example_model.h"
 #include "tests/first_components.h"
 #include "tests/temporary_directory.h"
@@ -24,12 +25,12 @@ constexpr ReadOptions kProgressive{.progressive = true};
 
 using Bytes = std::vector<char>;
 
-std::vector<std::pair<std::string, Model>> example_models() {
-    Model half = make_example_model(2, 3);
+std::vector<std::pair<std::string, Asset>> example_models() {
+    Asset half = make_example_model(2, 3);
     half.transfer.precision = Precision::f16;
     half.scenery = make_example_scenery(half.layout);
-    Model integers = quantise_example(make_example_model(2, 1, 5, 4));
-    for (LowRankMatrix* matrix : {&integers.geometry, &integers.transfer}) {
+    Asset integers = quantise_example(make_example_model(2, 1, 5, 4));
+    for (LowRank* matrix : {&integers.geometry, &integers.transfer}) {
         matrix->weight_steps = {0.25f, 0.0f, 1e-3f, 2.0f};
         for (size_t j = 0; j < matrix->weights.size(); ++j) {
             const auto q = static_cast<float>(j * 977 % 401) - 200.0f;
@@ -48,7 +49,7 @@ std::vector<std::pair<std::string, Model>> example_models() {
             {"still", make_example_model(2, 1, 1, 0)}};
 }
 
-void expect_equal(const LowRankMatrix& a, const LowRankMatrix& b) {
+void expect_equal(const LowRank& a, const LowRank& b) {
     EXPECT_EQ(a.num_points, b.num_points);
     EXPECT_EQ(a.num_planes, b.num_planes);
     EXPECT_EQ(a.num_poses, b.num_poses);
@@ -63,10 +64,10 @@ void expect_equal(const LowRankMatrix& a, const LowRankMatrix& b) {
     EXPECT_EQ(a.singular_indices, b.singular_indices);
 }
 
-void expect_equal(const Model& a, const Model& b) {
-    EXPECT_EQ(a.topology, b.topology);
-    EXPECT_EQ(a.albedo.values, b.albedo.values);
-    EXPECT_EQ(a.layout, b.layout);
+void expect_equal(const Asset& a, const Asset& b) {
+    EXPECT_EQ(a.moving().topology, b.moving().topology);
+    EXPECT_EQ(a.moving().albedo.values, b.moving().albedo.values);
+    EXPECT_EQ(a.moving().layout, b.moving().layout);
     EXPECT_EQ(a.name, b.name);
     EXPECT_EQ(a.provenance_json, b.provenance_json);
     EXPECT_EQ(a.vertex_order, b.vertex_order);
@@ -76,8 +77,8 @@ void expect_equal(const Model& a, const Model& b) {
     EXPECT_EQ(a.clusters.scales, b.clusters.scales);
     EXPECT_EQ(a.scenery.positions, b.scenery.positions);
     EXPECT_EQ(a.scenery.transfer, b.scenery.transfer);
-    expect_equal(a.geometry, b.geometry);
-    expect_equal(a.transfer, b.transfer);
+    expect_equal(a.moving().positions, b.moving().positions);
+    expect_equal(a.moving().transfer->matrix, b.moving().transfer->matrix);
 }
 
 // What reading says; empty if all is well.
@@ -128,7 +129,7 @@ TEST(Prefix, EveryCutIsTheWholeWithFewerComponentsOrAClearError) {
     for (const auto& [name, model] : example_models()) {
         SCOPED_TRACE(name);
         write_paim(path, model);
-        const Model whole = read_paim(path);
+        const Asset whole = read_paim(path);
         EXPECT_TRUE(whole.complete);
         const std::vector<Section> sections = sections_of(path);
         const std::vector<Prefix> prefixes = read_prefixes(path);
@@ -139,10 +140,10 @@ TEST(Prefix, EveryCutIsTheWholeWithFewerComponentsOrAClearError) {
             if (!is_component(section)) playable = std::max(playable, end_of(section));
         }
         EXPECT_EQ(prefixes.front(), (Prefix{playable, 0, 0}));
-        EXPECT_EQ(prefixes.back(), (Prefix{size_bytes, whole.geometry.num_components,
-                                           whole.transfer.num_components}));
+        EXPECT_EQ(prefixes.back(), (Prefix{size_bytes, whole.moving().positions.num_components,
+                                           whole.moving().transfer->matrix.num_components}));
         EXPECT_EQ(prefixes.size(),
-                  1 + whole.geometry.num_components + whole.transfer.num_components);
+                  1 + whole.moving().positions.num_components + whole.moving().transfer->matrix.num_components);
         for (uint64_t cut = size_bytes; cut-- > 0;) {
             SCOPED_TRACE(cut);
             std::filesystem::resize_file(path, cut);
@@ -164,7 +165,7 @@ TEST(Prefix, EveryCutIsTheWholeWithFewerComponentsOrAClearError) {
             }
             const uint32_t kg = count_components(sections, Tag("GCMP"), cut);
             const uint32_t kt = count_components(sections, Tag("TCMP"), cut);
-            const Model read = read_paim(path, kProgressive);
+            const Asset read = read_paim(path, kProgressive);
             EXPECT_FALSE(read.complete);
             expect_equal(read, first_components(whole, kg, kt));
             // The list says the same.
@@ -183,7 +184,7 @@ TEST(Prefix, WholeFilesReadProgressivelyAreComplete) {
     for (const auto& [name, model] : example_models()) {
         SCOPED_TRACE(name);
         write_paim(directory / "x.paim", model);
-        const Model read = read_paim(directory / "x.paim", kProgressive);
+        const Asset read = read_paim(directory / "x.paim", kProgressive);
         EXPECT_TRUE(read.complete);
         expect_equal(read, read_paim(directory / "x.paim"));
     }
@@ -346,7 +347,7 @@ TEST(Prefix, CountsBytesOfFilesInAnyOrder) {
                                        {end_of(moved[n - 1]), 3, 3}};
     EXPECT_EQ(read_prefixes(directory / "y.paim"), expected);
     std::filesystem::resize_file(directory / "y.paim", end_of(moved[n - 1]) - 1);
-    const Model read = read_paim(directory / "y.paim", kProgressive);
+    const Asset read = read_paim(directory / "y.paim", kProgressive);
     EXPECT_FALSE(read.complete);
     expect_equal(read, first_components(read_paim(path), 3, 0));
 }

@@ -1,0 +1,15 @@
+// What stands still in a bake, as a part of an asset.
+#pragma once
+
+#include <optional>
+
+#include "paim/codec/asset.h"
+#include "paim/format/bake/bake_directory.h"
+
+namespace paim {
+
+// Floats, with the first bands of the transfer; nothing if nothing in the bake stands still.
+// bands  1 … the bake's
+std::optional<CodedMesh> still_part(const BakeReader& bake, uint32_t bands);
+
+}  // namespace paim

@@ -1,0 +1,95 @@
+// Codec svd in the search.
+#include "compressor/encode/search/svd/svd_encoder.h"
+
+#include <utility>
+
+#include "compressor/encode/quantise/float_matrix.h"
+#include "compressor/encode/search/part_search.h"
+
+namespace paim {
+
+namespace {
+
+uint32_t multiply_adds(const TransferLayout& layout, uint32_t num_components) {
+    return static_cast<uint32_t>(svd_cost(layout, num_components, true).per_vertex());
+}
+
+class SvdSettings : public CodecSettings {
+  public:
+    CodedTransfer code(const EncodeProblem& problem, const Quantiser& quantiser,
+                       Precision precision) const override {
+        return SvdTransfer(
+            is_integer(precision)
+                ? quantise(problem.transfer, quantiser)
+                : float_matrix(problem.transfer, quantiser.num_components, precision));
+    }
+};
+
+class SvdEncoder : public TransferEncoder {
+  public:
+    explicit SvdEncoder(const TransferSearchTask& task) : task_(task) {}
+
+    void add_codings(double most_error, std::optional<uint32_t> decode_cost,
+                     std::vector<TransferCoding>& codings) override {
+        const auto add = [&](TransferCoding coding) {
+            coding.candidate.codec = SvdTransfer::kName;
+            coding.candidate.multiply_adds =
+                multiply_adds(task_.problem.layout, coding.candidate.components);
+            coding.settings = std::make_shared<SvdSettings>();
+            if (decode_cost && coding.candidate.multiply_adds > *decode_cost) return;
+            codings.push_back(std::move(coding));
+        };
+        if (is_integer(task_.options.precision)) {
+            add_integers(most_error, decode_cost, add);
+        } else {
+            add(floats(most_error));
+        }
+    }
+
+  private:
+    // The fewest components that leave no more than the error.
+    TransferCoding floats(double most_error) const {
+        const EncodeProblem& problem = task_.problem;
+        const std::vector<double> tails = tail_errors(problem.transfer, problem.plane_weight);
+        uint32_t k = 0;
+        while (k + 1 < tails.size() && tails[k] > most_error) ++k;
+        TransferCoding coding;
+        coding.precision = task_.options.precision;
+        coding.quantiser = {1.0, k, problem.plane_weight};
+        const uint64_t value = coding.precision == Precision::f16 ? 2 : 4;
+        coding.candidate.components = k;
+        coding.candidate.bytes = problem.transfer.mean.size() * (4 + k * value) +
+                                 4 * uint64_t{k} * problem.bake.num_poses();
+        return coding;
+    }
+
+    template <typename Add>
+    void add_integers(double most_error, std::optional<uint32_t> decode_cost,
+                      const Add& add) const {
+        const EncodeProblem& problem = task_.problem;
+        const auto is_cheap = [&](uint32_t num_components) {
+            return !decode_cost || multiply_adds(problem.layout, num_components) <= *decode_cost;
+        };
+        uint32_t most = problem.transfer.num_components();
+        while (most > 0 && !is_cheap(most)) --most;
+        if (!is_cheap(most)) return;
+        for (PartChoice& choice : part_choices(problem.transfer, problem.plane_weight, most_error,
+                                               most, problem.predictor)) {
+            TransferCoding coding;
+            coding.quantiser = std::move(choice.quantiser);
+            coding.candidate.components = choice.num_components;
+            coding.candidate.bytes = choice.bytes;
+            add(std::move(coding));
+        }
+    }
+
+    const TransferSearchTask task_;
+};
+
+}  // namespace
+
+std::unique_ptr<TransferEncoder> make_svd_encoder(const TransferSearchTask& task) {
+    return std::make_unique<SvdEncoder>(task);
+}
+
+}  // namespace paim

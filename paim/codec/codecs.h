@@ -1,0 +1,26 @@
+// The codecs that files may have. codecs.cpp is the one place that names them.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "paim/codec/transfer_model.h"
+
+namespace paim {
+
+struct TransferCodec {
+    std::string_view name;
+    // The metadata member that only files of this codec have; empty: files without any of the others'.
+    std::string_view marker;
+    std::unique_ptr<TransferModel> (*make)();  // without values
+};
+
+// Built-in codecs first, then those that were added.
+std::span<const TransferCodec> transfer_codecs();
+
+// Lets files of another codec be read from now on. Its name and marker are its own (checked). Not to be
+// called while another thread reads files.
+void add_transfer_codec(const TransferCodec& codec);
+
+}  // namespace paim

@@ -1,0 +1,74 @@
+// Sums of weighted rows of clusters' bases: every vertex gathers its own, all planes at once.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <new>
+#include <span>
+#include <vector>
+
+#include "paim/base/vector.h"
+#include "paim/codec/cpca/vertex_clusters.h"
+#include "paim/codec/stored_values.h"
+#include "paim/codec/vector_unit.h"
+
+namespace paim {
+
+// Memory that begins where a cache line does.
+template <typename T>
+struct LineAllocator {
+    using value_type = T;
+    static constexpr std::align_val_t kLine{64};
+
+    LineAllocator() = default;
+    template <typename Other>
+    LineAllocator(const LineAllocator<Other>&) {}
+
+    T* allocate(size_t count) { return static_cast<T*>(::operator new(count * sizeof(T), kLine)); }
+    void deallocate(T* values, size_t) { ::operator delete(values, kLine); }
+
+    bool operator==(const LineAllocator&) const { return true; }
+};
+
+// Bases of clusters as weighted_sum() wants them: rows of padded planes.
+struct BasisTable {
+    static constexpr size_t kNarrow = 4;  // padded planes of a table of few
+
+    uint32_t num_planes = 0;
+    uint32_t padded_planes = 0;
+    // [rows][padded planes], from a cache line's beginning: vectors that straddle two lines cost twice
+    std::vector<float, LineAllocator<float>> values;
+
+    // Takes rows times their scales. Reuses what the table holds.
+    // rows    [planes][R]
+    // scales  [R]
+    void assign(std::span<const float> rows, std::span<const float> scales);
+    // Takes rows of three planes.
+    void assign(std::span<const Vec3f> rows);
+};
+
+// What every vertex of a cluster is made from.
+struct BasisSum {
+    const BasisTable& table;
+    std::span<const uint32_t> cluster;           // [V]
+    std::span<const StoredValues> coefficients;  // [components] of [V]
+    uint32_t rows_per_cluster;                   // the components may be fewer than it has
+};
+
+// Vertex v of [first, first + count) in every plane, at out[plane · V + v], V = cluster.size():
+//   (row(v, 0) + coefficients[0][v] · row(v, 1)) + coefficients[1][v] · row(v, 2) …
+// where row(v, j) is row cluster[v] · rows_per_cluster + j of the table.
+void weighted_sum(const BasisSum& combination, size_t first, size_t count, std::span<float> out,
+                  VectorUnit unit = best_vector_unit());
+
+// The same values, of a table of at most BasisTable::kNarrow planes (checked), each vertex's together:
+// at out[(v − first) · kNarrow + plane], zero beyond the planes.
+void weighted_sum_by_vertex(const BasisSum& combination, size_t first, size_t count,
+                            std::span<float> out, VectorUnit unit = best_vector_unit());
+
+// Every vertex's values in every plane of the table, with the first num_components of each cluster, on
+// all threads. out [planes][V]
+void sum_all(const VertexClusters& clusters, const BasisTable& table, uint32_t num_components,
+             std::span<float> out);
+
+}  // namespace paim

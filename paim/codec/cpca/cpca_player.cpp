@@ -1,0 +1,160 @@
+// Pose, then light, then vertices.
+// Based on: Sloan, Hall, Hart and Snyder, Clustered Principal Components for Precomputed Radiance
+//           Transfer, 2003
+#include "paim/codec/cpca/cpca_player.h"
+
+#include <algorithm>
+#include <array>
+
+#include "paim/base/check.h"
+#include "paim/base/parallel.h"
+#include "paim/codec/accumulate.h"
+
+namespace paim {
+
+namespace {
+
+constexpr size_t kBlock = 512;  // rows whose planes and sums stay in the first cache
+using Plane = std::array<float, kBlock>;
+
+// Rows of the bases of one pose, in steps: rebuilt where they are wanted, or kept from before.
+struct PoseRows {
+    const LowRank& matrix;
+    std::span<const float> weights;  // of the components in use
+    std::span<const float> kept;     // [planes][rows], or empty
+
+    // Rows [first, first + count) of a plane; `scratch` holds them if they have to be rebuilt.
+    const float* rows(uint32_t plane, size_t first, size_t count, Plane& scratch) const {
+        const size_t start = size_t{plane} * matrix.num_points + first;
+        if (!kept.empty()) return kept.data() + start;
+        rebuild(start, std::span(scratch).first(count));
+        return scratch.data();
+    }
+    void rebuild(size_t start, std::span<float> out) const {
+        accumulate(matrix.mean, std::span(matrix.components).first(weights.size()), weights, 1.0f,
+                   start, out);
+    }
+};
+
+// What some rows show under a light, plane by plane.
+struct LitRows {
+    const PoseRows& pose;
+    uint32_t num_channels;
+    size_t first = 0;
+    size_t count = 0;
+    Plane scratch = {};
+    std::array<Plane, 3> sums = {};
+
+    // Grey transfer contributes to all channels.
+    void add(uint32_t plane_index, uint32_t channel, const Vec3f& incident) {
+        const float* const plane = pose.rows(plane_index, first, count, scratch);
+        const Vec3f light = pose.matrix.step(plane_index) * incident;
+        if (num_channels == 3) {
+            Plane& sum = sums[channel];
+            for (size_t j = 0; j < count; ++j) sum[j] += light[channel] * plane[j];
+            return;
+        }
+        for (size_t j = 0; j < count; ++j) {
+            sums[0][j] += light[0] * plane[j];
+            sums[1][j] += light[1] * plane[j];
+            sums[2][j] += light[2] * plane[j];
+        }
+    }
+};
+
+}  // namespace
+
+CpcaPlayer::CpcaPlayer(const CpcaTransfer& transfer, const TransferLayout& layout)
+    : transfer_(transfer), layout_(layout) {
+    PAIM_CHECK_EQ(transfer.matrix.num_points, transfer.clusters.num_rows());
+    PAIM_CHECK(layout.channels == 1 || layout.channels == 3);
+}
+
+void CpcaPlayer::decode(double time, const DecodeLimits& limits, TransferLayout& layout,
+                        std::vector<float>& transfer) {
+    points_.decode(transfer_.matrix, layout_, time, limits, layout, values_);
+    table_.assign(values_, transfer_.clusters.scales);
+    transfer.resize(size_t{layout.num_planes()} * transfer_.num_vertices());
+    sum_all(transfer_.clusters, table_,
+            std::min(limits.cluster_components, transfer_.clusters.num_components), transfer);
+}
+
+// The pose comes first. With K components over time and C coefficients, a row of grey transfer then
+// costs (K + 3) C multiply-adds, of coloured transfer 3 (K + 1) C; with the light first, both cost
+// 3 (K + 1) C + 3 K. A light that turns while the pose stays costs 3 C.
+void CpcaPlayer::basis_radiance(double time, const DecodeLimits& limits,
+                                const LightCoefficients& light,
+                                std::vector<Vec3f>& basis_radiance) {
+    const LowRank& matrix = transfer_.matrix;
+    const VertexClusters& clusters = transfer_.clusters;
+    const TransferLayout lit = layout_.with_bands(limits.bands);
+    const auto num_coefficients = std::min<uint32_t>(
+        lit.num_coefficients(), static_cast<uint32_t>(sh::num_coefficients(light.bands)));
+    const uint32_t num_components = std::min(limits.transfer_components, matrix.num_components);
+    interpolate_weights(matrix, time, weights_);
+    PoseRows pose{matrix, std::span(weights_).first(num_components), {}};
+    if (time_ != time || limits_ != limits) {
+        pose_rows_.clear();
+    } else if (pose_rows_.empty()) {
+        pose_rows_.resize(matrix.num_rows());
+        parallel_for(pose_rows_.size(), kBlock, [&](size_t begin, size_t end) {
+            pose.rebuild(begin, std::span(pose_rows_).subspan(begin, end - begin));
+        });
+    }
+    pose.kept = pose_rows_;
+    time_ = time;
+    limits_ = limits;
+
+    basis_radiance.resize(clusters.num_rows());
+    parallel_for(basis_radiance.size(), kBlock, [&](size_t begin, size_t end) {
+        LitRows rows{pose, layout_.channels, begin, end - begin};
+        for (uint32_t channel = 0; channel < layout_.channels; ++channel) {
+            for (uint32_t i = 0; i < num_coefficients; ++i) {
+                rows.add(layout_.plane(channel, i), channel, light.values[i]);
+            }
+        }
+        for (size_t j = 0; j < rows.count; ++j) {
+            basis_radiance[begin + j] = clusters.scales[begin + j] *
+                                        Vec3f(rows.sums[0][j], rows.sums[1][j], rows.sums[2][j]);
+        }
+    });
+    if (limits.cluster_components >= clusters.num_components) return;
+    const uint32_t stride = clusters.rows_per_cluster();
+    for (size_t r = 0; r < basis_radiance.size(); ++r) {
+        if (r % stride > limits.cluster_components) basis_radiance[r].setZero();
+    }
+}
+
+void CpcaPlayer::light(double time, const DecodeLimits& limits, const LightCoefficients& light,
+                       const Albedo& albedo, std::vector<Vec3f>& radiance) {
+    basis_radiance(time, limits, light, radiance_);
+    shade_clusters(transfer_.clusters, radiance_, limits.cluster_components, albedo, radiance);
+}
+
+void shade_clusters(const VertexClusters& clusters, std::span<const Vec3f> basis_radiance,
+                    uint32_t num_components, const Albedo& albedo, std::vector<Vec3f>& radiance) {
+    PAIM_CHECK_EQ(basis_radiance.size(), size_t{clusters.num_rows()});
+    const uint32_t used = std::min(num_components, clusters.num_components);
+    BasisTable table;
+    table.assign(basis_radiance);
+    const BasisSum combination{table, clusters.cluster,
+                               std::span(clusters.coefficients).first(used),
+                               clusters.rows_per_cluster()};
+    radiance.resize(clusters.cluster.size());
+    constexpr size_t kVerticesATask = 4096;
+    parallel_for(radiance.size(), kVerticesATask, [&](size_t begin, size_t end) {
+        constexpr size_t kVerticesATime = 128;  // their sums stay in the first cache
+        std::array<float, kVerticesATime * BasisTable::kNarrow> sums;
+        for (size_t first = begin; first < end; first += kVerticesATime) {
+            const size_t count = std::min(kVerticesATime, end - first);
+            weighted_sum_by_vertex(combination, first, count,
+                                   std::span(sums).first(count * BasisTable::kNarrow));
+            for (size_t j = 0; j < count; ++j) {
+                const Eigen::Map<const Vec3f> sum(sums.data() + j * BasisTable::kNarrow);
+                radiance[first + j] = sum.cwiseProduct(albedo.at(static_cast<uint32_t>(first + j)));
+            }
+        }
+    });
+}
+
+}  // namespace paim

@@ -1,0 +1,60 @@
+// Light before weights: clustered transfer meets the light in the bases that vertices share, so
+// that a vertex costs a few multiply-adds a channel however many coefficients its transfer has.
+// Based on: Sloan, Hall, Hart and Snyder, Clustered Principal Components for Precomputed Radiance
+//           Transfer, 2003
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "paim/codec/cpca/basis_table.h"
+#include "paim/codec/cpca/cpca_transfer.h"
+#include "paim/codec/rebuild_planes.h"
+#include "paim/codec/transfer_player.h"
+
+namespace paim {
+
+class CpcaPlayer : public TransferPlayer {
+  public:
+    // Keeps a reference to the transfer.
+    CpcaPlayer(const CpcaTransfer& transfer, const TransferLayout& layout);
+
+    void decode(double time, const DecodeLimits& limits, TransferLayout& layout,
+                std::vector<float>& transfer) override;
+    void light(double time, const DecodeLimits& limits, const LightCoefficients& light,
+               const Albedo& albedo, std::vector<Vec3f>& radiance) override;
+
+    // What the rows of all bases show under a light:
+    //   basis_radiance[r] = scales[r] · Σ_i row_r,i(time) L_i
+    // per channel, of every row r of every cluster; zero for components of clusters beyond the limits.
+    // Bands beyond the light's are taken as zero. From the second call with the same time and limits
+    // on, only the light is applied.
+    // time            in poses, as decode() takes it
+    // basis_radiance  [clusters · (1 + components)] linear RGB
+    void basis_radiance(double time, const DecodeLimits& limits, const LightCoefficients& light,
+                        std::vector<Vec3f>& basis_radiance);
+
+  private:
+    const CpcaTransfer& transfer_;
+    const TransferLayout layout_;
+    PointDecoder points_;
+    std::vector<float> values_;  // [planes][rows]
+    BasisTable table_;
+    std::vector<float> weights_;
+    // The pose that was lit last; its rows, [planes][rows] in steps, once it was lit twice.
+    std::optional<double> time_;
+    DecodeLimits limits_;
+    std::vector<float> pose_rows_;
+    std::vector<Vec3f> radiance_;
+};
+
+// radiance(v) = albedo(v) · (b(c, 0) + Σ_j coefficients[j][v] · b(c, 1 + j)), c being the vertex's
+// cluster and b(c, i) the radiance of row i of its basis: what decoding and shading give, to rounding.
+// basis_radiance  [rows], of CpcaPlayer::basis_radiance()
+// num_components  of clusters, in use
+// radiance        [V] linear RGB
+void shade_clusters(const VertexClusters& clusters, std::span<const Vec3f> basis_radiance,
+                    uint32_t num_components, const Albedo& albedo, std::vector<Vec3f>& radiance);
+
+}  // namespace paim

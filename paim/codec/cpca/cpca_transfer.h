@@ -1,0 +1,54 @@
+// Codec cpca, clustered PCA: vertices of a cluster share a basis, so that light and pose can be
+// applied to the bases instead of to every vertex.
+// Based on: Sloan, Hall, Hart and Snyder, Clustered Principal Components for Precomputed Radiance
+//           Transfer, 2003
+#pragma once
+
+#include "paim/codec/cpca/vertex_clusters.h"
+#include "paim/codec/transfer_model.h"
+
+namespace paim {
+
+// The points of the matrix are the rows of all bases.
+class CpcaTransfer : public TransferModel {
+  public:
+    static constexpr std::string_view kName = "cpca";
+
+    CpcaTransfer() = default;
+    CpcaTransfer(LowRank bases, VertexClusters vertices)
+        : TransferModel(std::move(bases)), clusters(std::move(vertices)) {}
+
+    std::string_view codec_name() const override { return kName; }
+    std::unique_ptr<TransferModel> clone() const override;
+    uint32_t num_vertices() const override {
+        return static_cast<uint32_t>(clusters.cluster.size());
+    }
+    uint32_t num_vertex_components() const override { return clusters.num_components; }
+    void vertices_from_points(std::span<const float> points, uint32_t num_components,
+                              std::span<float> out) const override;
+    std::unique_ptr<TransferPlayer> make_player(const TransferLayout& layout) const override;
+    FrameCost cost(const TransferLayout& layout, const DecodeLimits& limits,
+                   bool coloured_light) const override;
+    uint64_t vertex_bytes(uint32_t num_components) const override;
+    double vertex_gain() const override;
+    std::vector<Eigen::MatrixXd> point_metrics() const override;
+
+    std::vector<NamedNumber> numbers() override;
+    uint32_t start(uint32_t num_vertices) override;
+    std::vector<SectionRow> sections() override;
+    bool always_packed() const override { return true; }
+
+    VertexClusters clusters;
+
+  private:
+    uint32_t num_stored_vertices_ = 0;  // of a file that is being read
+};
+
+// Light first. Each cluster's mean and K components are multiplied by the light once a frame; a
+// vertex has K + 1 multiply-adds a channel left, light included.
+// num_time_components  of which the clusters' bases are weighted sums in every pose; 0: kept as they
+//                      are
+FrameCost cpca_cost(const TransferLayout& layout, uint32_t num_clusters, uint32_t num_components,
+                    uint32_t num_time_components, bool coloured_light);
+
+}  // namespace paim

@@ -1,0 +1,54 @@
+// Leaves out bands and components of coded data.
+#include "paim/codec/cut.h"
+
+#include <vector>
+
+namespace paim {
+
+namespace {
+
+StoredValues keep_planes(const StoredValues& values, const std::vector<uint32_t>& planes,
+                         size_t num_points) {
+    return std::visit(
+        [&](const auto& all) {
+            std::decay_t<decltype(all)> kept;
+            kept.reserve(planes.size() * num_points);
+            for (const uint32_t plane : planes) {
+                const auto first = all.begin() + static_cast<ptrdiff_t>(plane * num_points);
+                kept.insert(kept.end(), first, first + static_cast<ptrdiff_t>(num_points));
+            }
+            return StoredValues(std::move(kept));
+        },
+        values.values());
+}
+
+}  // namespace
+
+void keep_bands(CodedMesh& mesh, uint32_t bands) {
+    const TransferLayout layout = mesh.layout.with_bands(bands);
+    if (layout == mesh.layout) return;
+    std::vector<uint32_t> planes;
+    planes_of(mesh.layout, layout, planes);
+    LowRank& matrix = mesh.transfer->matrix;
+    matrix.mean = keep_planes(matrix.mean, planes, matrix.num_points);
+    for (StoredValues& component : matrix.components) {
+        component = keep_planes(component, planes, matrix.num_points);
+    }
+    if (!matrix.steps.empty()) {
+        std::vector<float> steps;
+        for (const uint32_t plane : planes) steps.push_back(matrix.steps[plane]);
+        matrix.steps = std::move(steps);
+    }
+    matrix.num_planes = layout.num_planes();
+    mesh.layout = layout;
+}
+
+void keep_within(const DecodeLimits& limits, Asset& asset) {
+    for (CodedMesh& mesh : asset.parts) {
+        keep_bands(mesh, limits.bands);
+        mesh.positions.keep_components(limits.geometry_components);
+        mesh.transfer->matrix.keep_components(limits.transfer_components);
+    }
+}
+
+}  // namespace paim

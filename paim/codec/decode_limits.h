@@ -1,0 +1,19 @@
+// How much of a file is used when it is played.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+namespace paim {
+
+// Larger numbers than there are mean all; at least one band is kept.
+struct DecodeLimits {
+    uint32_t geometry_components = std::numeric_limits<uint32_t>::max();
+    uint32_t transfer_components = std::numeric_limits<uint32_t>::max();
+    uint32_t bands = std::numeric_limits<uint32_t>::max();
+    uint32_t cluster_components = std::numeric_limits<uint32_t>::max();  // of each vertex
+
+    bool operator==(const DecodeLimits&) const = default;
+};
+
+}  // namespace paim

@@ -1,0 +1,11 @@
+// Rebuilds poses of a coded mesh, whatever its codec.
+#include "paim/codec/mesh_decoder.h"
+
+namespace paim {
+
+void MeshDecoder::decode(double time, const DecodeLimits& limits, DecodedPose& out) {
+    positions_.decode(mesh_.positions, time, limits.geometry_components, out.positions);
+    player_->decode(time, limits, out.layout, out.transfer);
+}
+
+}  // namespace paim

@@ -1,0 +1,42 @@
+// Rebuilds poses of a coded mesh, whatever its codec.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "paim/codec/asset.h"
+#include "paim/codec/decode_limits.h"
+#include "paim/codec/rebuild_planes.h"
+#include "paim/codec/transfer_player.h"
+
+namespace paim {
+
+// One rebuilt pose.
+struct DecodedPose {
+    TransferLayout layout;         // bands as limited
+    std::vector<float> positions;  // [3][V] scene units
+    std::vector<float> transfer;   // [layout.num_planes()][V]
+};
+
+// Keeps scratch memory: one a thread.
+class MeshDecoder {
+  public:
+    // Keeps a reference to the mesh.
+    explicit MeshDecoder(const CodedMesh& mesh)
+        : mesh_(mesh), player_(mesh.transfer->make_player(mesh.layout)) {}
+    explicit MeshDecoder(CodedMesh&&) = delete;
+
+    uint32_t num_vertices() const { return mesh_.topology.num_vertices; }
+    uint32_t num_poses() const { return mesh_.num_poses(); }
+
+    // Rebuilds the pose at `time` in poses: 0 … P−1, fractions interpolate the weights linearly;
+    // clamped to that range. Reuses what `out` holds.
+    void decode(double time, const DecodeLimits& limits, DecodedPose& out);
+
+  private:
+    const CodedMesh& mesh_;
+    PositionDecoder positions_;
+    std::unique_ptr<TransferPlayer> player_;
+};
+
+}  // namespace paim

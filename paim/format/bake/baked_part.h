@@ -1,0 +1,37 @@
+// One part of a bake: what moves, or what stands still around it. Both are read alike.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "paim/format/bake/bake_directory.h"
+
+namespace paim {
+
+class BakedPart {
+  public:
+    // Keeps a reference to the bake. number  0: what moves; 1: what stands still (checked: there is one)
+    BakedPart(const BakeReader& bake, size_t number);
+
+    const Topology& topology() const;
+    const Albedo& albedo() const;
+    uint32_t num_vertices() const { return topology().num_vertices; }
+    uint32_t num_poses() const { return still_ == nullptr ? bake_.num_poses() : 1; }
+
+    // Rows [first, first + count) of positions (3 · V rows), transfer or noise (planes · V rows) of
+    // pose p. May be called from several threads.
+    void read_position_rows(uint32_t p, uint64_t first, uint64_t count, float* out) const;
+    void read_transfer_rows(uint32_t p, uint64_t first, uint64_t count, float* out) const;
+    void read_noise_rows(uint32_t p, uint64_t first, uint64_t count, float* out) const;
+
+  private:
+    const BakeReader& bake_;
+    const BakedScenery* still_;  // or nullptr
+};
+
+// 1, or 2 with something that stands still.
+inline size_t num_baked_parts(const BakeReader& bake) {
+    return bake.scenery() ? 2 : 1;
+}
+
+}  // namespace paim

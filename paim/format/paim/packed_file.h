@@ -1,0 +1,36 @@
+// A .paim with compressed sections, put together in memory.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "paim/codec/asset.h"
+#include "paim/format/container/container_writer.h"
+#include "paim/format/pack/zstd_codec.h"
+
+namespace paim {
+
+// Whether any value of the asset is an integer, or its codec is always packed. All other files hold
+// floats as they are.
+bool needs_packing(const Asset& asset);
+
+class PackedFile {
+  public:
+    // A whole asset (shapes are checked). The same bytes on any number of threads.
+    // Error (unsupported): readers would not take so many values in so small a file.
+    explicit PackedFile(const Asset& asset, Effort effort = Effort::small);
+
+    uint64_t size_bytes() const { return container_size_bytes(plans_); }
+
+    // All or nothing. Errors (output failed) name the path.
+    void write(const std::filesystem::path& path) const;
+
+  private:
+    void check_expansion(const Asset& asset, uint64_t value_bytes) const;
+
+    std::vector<SectionPlan> plans_;
+    std::vector<std::vector<uint8_t>> bytes_;  // of each section
+};
+
+}  // namespace paim

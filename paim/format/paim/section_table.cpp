@@ -1,0 +1,171 @@
+// The table of sections of a .paim.
+#include "paim/format/paim/section_table.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "paim/base/check.h"
+#include "paim/base/error.h"
+#include "paim/format/container/sections.h"
+
+namespace paim {
+
+namespace {
+
+uint32_t size_of(size_t size) {
+    return static_cast<uint32_t>(size);
+}
+
+Tag tag_of(std::string_view name) {
+    PAIM_CHECK_EQ(name.size(), size_t{4});
+    Tag tag;
+    std::copy(name.begin(), name.end(), tag.text.begin());
+    return tag;
+}
+
+StoredValues* component_of(LowRank& matrix, uint32_t k) {
+    return k < matrix.components.size() ? &matrix.components[k] : nullptr;
+}
+
+class TableBuilder {
+  public:
+    explicit TableBuilder(Asset& asset) : asset_(asset) {}
+
+    std::vector<TableRow> build() {
+        CodedMesh& moving = asset_.moving();
+        add(section::kTriangles, {size_of(moving.topology.triangles.size()), 3}, &moving.topology);
+        add(section::kAlbedo, {size_of(moving.albedo.values.size()), 3}, &moving.albedo);
+        if (CodedMesh* still = asset_.still()) {
+            part_ = 1;
+            add_still(*still);
+            part_ = 0;
+        }
+        for (const SectionRow& row : moving.transfer->sections()) add_codec_row(row);
+        LowRank* const matrices[] = {&moving.positions, &moving.transfer->matrix};
+        for (size_t i = 0; i < 2; ++i) add_frame(i, *matrices[i]);
+        for (size_t i = 0; i < 2; ++i) {
+            add_values(section::kMean[i], 0, {matrices[i], &matrices[i]->mean, false}, i);
+        }
+        for (const auto& [attribute, k] : component_order(asset_)) {
+            const auto i = static_cast<size_t>(attribute);
+            add_values(section::kComponent[i], k,
+                       {matrices[i], component_of(*matrices[i], k), true}, i);
+        }
+        return std::move(rows_);
+    }
+
+  private:
+    void add(Tag tag, std::array<uint32_t, 2> shape, RowValues values,
+             Neighbours neighbours = Neighbours::none, uint32_t index = 0) {
+        rows_.push_back({tag, index, shape, neighbours, part_, std::move(values)});
+    }
+
+    void add_still(CodedMesh& mesh) {
+        LowRank& transfer = mesh.transfer->matrix;
+        add(section::kStillTriangles, {size_of(mesh.topology.triangles.size()), 3}, &mesh.topology);
+        const auto add_planes = [&](Tag tag, Tag tag_of_steps, LowRank& matrix) {
+            add(tag_of_steps, {1, matrix.num_planes}, Steps{&matrix});
+            add(tag, {matrix.num_planes, matrix.num_points}, MatrixValues{&matrix, &matrix.mean},
+                Neighbours::vertices);
+        };
+        add_planes(section::kStillPositions, section::kStillPositionSteps, mesh.positions);
+        add(section::kStillAlbedo, {size_of(mesh.albedo.values.size()), 3}, &mesh.albedo);
+        add_planes(section::kStillTransfer, section::kStillTransferSteps, transfer);
+    }
+
+    void add_codec_row(const SectionRow& row) {
+        std::visit(
+            [&](auto values) {
+                add(tag_of(row.tag), {row.num_rows, row.num_columns}, values,
+                    row.by_vertex ? Neighbours::vertices : Neighbours::none, row.index);
+            },
+            row.values);
+    }
+
+    // Everything of an attribute but means and components.
+    void add_frame(size_t i, LowRank& matrix) {
+        add(section::kSingularValues[i], {1, size_of(matrix.singular_values.size())},
+            SingularValues{&matrix});
+        add(section::kWeights[i], {matrix.num_components, matrix.num_poses}, Weights{&matrix},
+            Neighbours::poses);
+        add(section::kWeightSteps[i], {1, matrix.num_components}, WeightSteps{&matrix});
+        add(section::kSteps[i], {1, matrix.num_planes}, Steps{&matrix});
+    }
+
+    void add_values(Tag tag, uint32_t index, MatrixValues values, size_t i) {
+        const bool by_vertex = i == static_cast<size_t>(Attribute::geometry) ||
+                               asset_.moving().transfer->points_are_vertices();
+        add(tag, {values.matrix->num_planes, values.matrix->num_points}, values,
+            by_vertex ? Neighbours::vertices : Neighbours::none, index);
+    }
+
+    Asset& asset_;
+    size_t part_ = 0;
+    std::vector<TableRow> rows_;
+};
+
+void check_parts(const Asset& asset) {
+    if (asset.parts.size() > 2) {
+        throw_unsupported("an asset of {} parts: files hold one that moves and one that stands still",
+                          asset.parts.size());
+    }
+    const CodedMesh* const still = asset.still();
+    if (still == nullptr) return;
+    const TransferModel& transfer = *still->transfer;
+    if (still->num_poses() != 1 || still->positions.num_components != 0 ||
+        transfer.matrix.num_components != 0 || !transfer.points_are_vertices() ||
+        still->layout != asset.moving().layout) {
+        throw_unsupported(
+            "a second part that moves, or whose transfer is coded otherwise: files hold one that "
+            "stands still, every vertex with its own transfer of the first part's layout");
+    }
+}
+
+}  // namespace
+
+bool TableRow::is_present() const {
+    if (const auto* row = std::get_if<Steps>(&values)) return !row->matrix->steps.empty();
+    if (const auto* row = std::get_if<WeightSteps>(&values)) {
+        return !row->matrix->weight_steps.empty() && row->matrix->num_components > 0;
+    }
+    return true;
+}
+
+std::vector<TableRow> section_table(Asset& asset) {
+    check_parts(asset);
+    return TableBuilder(asset).build();
+}
+
+std::vector<TableRow> section_table(const Asset& asset) {
+    // Rows point to what reading fills; whoever has only a constant asset does not write through them.
+    return section_table(const_cast<Asset&>(asset));
+}
+
+std::vector<ComponentId> component_order(const Asset& asset) {
+    struct Ranked {
+        ComponentId id;
+        double share;
+    };
+    std::vector<Ranked> ranked;
+    for (const Attribute attribute : {Attribute::geometry, Attribute::transfer}) {
+        const LowRank& matrix = asset.moving().attribute(attribute);
+        const double largest = matrix.singular_values.empty() ? 0.0 : matrix.singular_values[0];
+        double energy = 0.0;  // relative to the largest value, which may be too big to square
+        for (const double s : matrix.singular_values) energy += (s / largest) * (s / largest);
+        for (uint32_t k = 0; k < matrix.num_components; ++k) {
+            const size_t index = matrix.singular_index(k);
+            const double ratio = largest > 0.0 && index < matrix.singular_values.size()
+                                     ? matrix.singular_values[index] / largest
+                                     : 0.0;
+            ranked.push_back({{attribute, k}, largest > 0.0 ? ratio * ratio / energy : 0.0});
+        }
+    }
+    std::stable_sort(ranked.begin(), ranked.end(),
+                     [](const Ranked& a, const Ranked& b) { return a.share > b.share; });
+    std::vector<ComponentId> order(ranked.size());
+    std::transform(ranked.begin(), ranked.end(), order.begin(),
+                   [](const Ranked& r) { return r.id; });
+    return order;
+}
+
+}  // namespace paim

@@ -1,0 +1,180 @@
+// A compressed animation, whatever its codec, against the bake it was made from.
+#include "paim/metrics/asset_error.h"
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "paim/base/error.h"
+#include "paim/base/parallel.h"
+#include "paim/codec/component_planes.h"
+#include "paim/codec/rebuild_planes.h"
+#include "paim/format/bake/baked_part.h"
+#include "paim/format/container/metadata.h"
+#include "paim/metrics/pose_space.h"
+#include "paim/metrics/vertex_match.h"
+
+namespace paim {
+
+using Eigen::Index;
+using Eigen::MatrixXf;
+
+namespace {
+
+void expect_equal(const BakeReader& bake, const char* what, uint64_t expected, uint64_t got) {
+    if (expected == got) return;
+    throw_bad_input("{}: expected a file made from this bake, with {} {}, got {}",
+                    bake.directory().string(), expected, what, got);
+}
+
+// Which vertex of the bake each vertex of the file is.
+std::vector<uint32_t> check_same_part(const Asset& asset, size_t number, const BakeReader& bake,
+                                      const BakedPart& baked) {
+    const CodedMesh& mesh = asset.parts[number];
+    const bool still = number > 0;
+    expect_equal(bake, still ? "vertices of scenery" : "vertices", baked.num_vertices(),
+                 mesh.topology.num_vertices);
+    expect_equal(bake, "poses", baked.num_poses(), mesh.num_poses());
+    std::vector<uint32_t> old_vertex = match_vertices(
+        mesh.topology, asset.vertex_order, baked.topology(), bake.directory().string(),
+        still ? "triangles of the scenery" : "triangles");
+    const TransferLayout& layout = bake.identity().layout;
+    if (mesh.layout.kind != layout.kind || mesh.layout.in_bands > layout.in_bands ||
+        (mesh.layout.channels != 1 && mesh.layout.channels != layout.channels)) {
+        throw_bad_input(
+            "{}: expected a file made from this bake, of {} bands and {} channels at most, got {} "
+            "and {}",
+            bake.directory().string(), layout.in_bands, layout.channels, mesh.layout.in_bands,
+            mesh.layout.channels);
+    }
+    return old_vertex;
+}
+
+TransferError measure_transfer(const CodedMesh& mesh, const BakedPart& bake,
+                               const TransferLayout& layout, const BandPower& spectrum,
+                               const std::vector<uint32_t>& old_vertex) {
+    const uint32_t num_vertices = bake.num_vertices();
+    const uint32_t num_poses = bake.num_poses();
+    TransferErrorMeter meter(layout, num_vertices, num_poses, spectrum,
+                             orthonormal_pose_space(mesh.transfer->matrix.weights, num_poses));
+    MatrixXf baked(static_cast<Index>(num_vertices), static_cast<Index>(num_poses));
+    MatrixXf noise = baked;
+    for (uint32_t plane = 0; plane < layout.num_planes(); ++plane) {
+        const uint64_t first = uint64_t{plane} * num_vertices;
+        parallel_for(num_poses, 1, [&](size_t p, size_t) {
+            const auto column = static_cast<Index>(p);
+            const auto pose = static_cast<uint32_t>(p);
+            bake.read_transfer_rows(pose, first, num_vertices, baked.col(column).data());
+            bake.read_noise_rows(pose, first, num_vertices, noise.col(column).data());
+            reorder_planes({baked.col(column).data(), num_vertices}, old_vertex);
+            reorder_planes({noise.col(column).data(), num_vertices}, old_vertex);
+        });
+        const auto stored = plane_of_file(mesh.layout, layout, plane);
+        meter.add(plane, baked, noise,
+                  stored ? decode_plane(mesh, Attribute::transfer, *stored)
+                         : MatrixXf::Zero(baked.rows(), baked.cols()));
+    }
+    return meter.result();
+}
+
+GeometryError measure_geometry(const CodedMesh& mesh, const BakedPart& bake,
+                               const std::vector<uint32_t>& old_vertex) {
+    GeometryError error;
+    PositionDecoder decoder;
+    std::vector<float> decoded;
+    std::vector<float> baked(size_t{3} * bake.num_vertices());
+    for (uint32_t p = 0; p < bake.num_poses(); ++p) {
+        bake.read_position_rows(p, 0, baked.size(), baked.data());
+        reorder_planes(baked, old_vertex);
+        decoder.decode(mesh.positions, p, mesh.positions.num_components, decoded);
+        error.add(decoded, baked, p);
+    }
+    return error;
+}
+
+}  // namespace
+
+MeshError measure_part(const Asset& asset, size_t number, const BakeReader& bake,
+                       const BandPower& spectrum) {
+    const BakedPart baked(bake, number);
+    const std::vector<uint32_t> old_vertex = check_same_part(asset, number, bake, baked);
+    const CodedMesh& mesh = asset.parts[number];
+    return {measure_transfer(mesh, baked, bake.identity().layout, spectrum, old_vertex),
+            measure_geometry(mesh, baked, old_vertex)};
+}
+
+AssetError measure_asset(const Asset& asset, const BakeReader& bake, const BandPower& spectrum) {
+    const auto still_vertices = [](const Topology* topology) -> uint64_t {
+        return topology == nullptr ? 0 : topology->num_vertices;
+    };
+    expect_equal(bake, "vertices of scenery",
+                 still_vertices(bake.scenery() ? &bake.scenery()->topology : nullptr),
+                 still_vertices(asset.still() ? &asset.still()->topology : nullptr));
+    AssetError error{measure_part(asset, 0, bake, spectrum), {}};
+    if (asset.still() != nullptr) error.still = measure_part(asset, 1, bake, spectrum);
+    return error;
+}
+
+std::vector<NamedError> named_errors(const AssetError& error) {
+    const TransferError& transfer = error.transfer;
+    const GeometryError& geometry = error.geometry;
+    std::vector<NamedError> errors{
+        {"transfer_error", transfer.error, true},
+        {"transfer_missing_bands", transfer.missing_bands, true},
+        {"transfer_total_error", transfer.total(), true},
+        {"transfer_deviation", transfer.deviation, true},
+        {"transfer_worst_vertex_deviation", transfer.worst_vertex_deviation, true},
+        {"transfer_worst_pose_deviation", transfer.worst_pose_deviation, true},
+        {"position_rms", geometry.rms(), false},
+        {"position_worst", geometry.worst(), false},
+        {"position_relative_rms", geometry.relative_rms(), false},
+        {"position_relative_worst", geometry.relative_worst(), false},
+        {"kg_error", geometry.kg_error(), false},
+        {"e_rms", geometry.e_rms(), false}};
+    if (!error.still) return errors;
+    const TransferError& still = error.still->transfer;
+    errors.insert(errors.end(),
+                  {{"scenery_transfer_error", still.error, true},
+                   {"scenery_transfer_missing_bands", still.missing_bands, true},
+                   {"scenery_transfer_total_error", still.total(), true},
+                   {"scenery_transfer_deviation", still.deviation, true},
+                   {"scenery_transfer_worst_vertex_deviation", still.worst_vertex_deviation, true},
+                   {"scenery_position_rms", error.still->geometry.rms(), false},
+                   {"scenery_position_worst", error.still->geometry.worst(), false}});
+    return errors;
+}
+
+std::string error_statement_json(const AssetError& error, const BandPower& spectrum) {
+    nlohmann::ordered_json json;
+    json["light_spectrum"] = spectrum.name;
+    for (const NamedError& named : named_errors(error)) json[named.name] = named.value;
+    // File names may have bytes that are not UTF-8.
+    return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+ErrorStatement read_error_statement(const Asset& asset, const std::filesystem::path& file) {
+    constexpr const char* kMember = "measured";
+    const Metadata provenance(asset.provenance_json.empty() ? "{}" : asset.provenance_json,
+                              file.string());
+    ErrorStatement statement;
+    if (provenance.root().contains(kMember)) {
+        const Metadata measured(provenance.object_text(kMember), file.string());
+        statement.band_power = measured.text("light_spectrum");
+        AssetError with_all;
+        with_all.still.emplace();
+        for (NamedError& named : named_errors(with_all)) {
+            if (!measured.root().contains(named.name)) continue;
+            named.value =
+                measured.number(named.name.c_str(), 0.0, std::numeric_limits<double>::max());
+            statement.errors.push_back(std::move(named));
+        }
+    }
+    if (statement.errors.empty()) {
+        throw_bad_input(
+            "{}: expected a file that states its errors, got none: "
+            "encode with --max-error, --max-size or --measure",
+            file.string());
+    }
+    return statement;
+}
+
+}  // namespace paim
