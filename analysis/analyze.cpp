@@ -94,13 +94,13 @@ void analyze(const AnalyzeOptions& options) {
     bake.verify_all();  // before anything is written
     ensure_directory(options.output);
 
-    const Asset model = encode_everything(bake, options.output);
+    const Asset asset = encode_everything(bake, options.output);
     const Stage stage(bake, lights, stage_camera(bake, options.azimuth_rad, options.elevation_rad),
                       options.size_pixels, options.num_poses);
-    std::vector<Curve> curves = plan_curves(bake, model, options.components, options.bands);
+    std::vector<Curve> curves = plan_curves(bake, asset, options.components, options.bands);
     cli::Progress progress("measuring", "images", num_points(curves) * stage.poses().size(), quiet);
     const std::vector<Image> references =
-        measure_curves(bake, model, stage, curves, [&] { progress.advance(); });
+        measure_curves(bake, asset, stage, curves, [&] { progress.advance(); });
     progress.finish();
 
     nlohmann::ordered_json json;
@@ -115,8 +115,8 @@ void analyze(const AnalyzeOptions& options) {
         "relative "
         "to the bake itself.",
         bake.identity().num_vertices, bake.identity().num_triangles, bake.num_poses(),
-        stage.poses().size(), model.moving().layout.in_bands);
-    write_report(options.output, "Error analysis of " + model.name, summary, curves, stage,
+        stage.poses().size(), asset.moving().layout.in_bands);
+    write_report(options.output, "Error analysis of " + asset.name, summary, curves, stage,
                  references, with_plots);
     if (options.json) {
         fmt::print("{}\n", json.dump(2, ' ', false, decltype(json)::error_handler_t::replace));

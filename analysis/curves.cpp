@@ -8,7 +8,7 @@
 #include <set>
 #include <span>
 
-#include "paim/format/paim/paim_read.h"
+#include "paim/codec/cut.h"
 #include "paim/format/paim/paim_write.h"
 #include "paim/metrics/singular_value_error.h"
 
@@ -25,38 +25,18 @@ std::vector<uint32_t> settings(uint32_t all, const std::vector<uint32_t>& others
     return {values.begin(), values.end()};
 }
 
-// The size of the model's file if it kept only this.
-uint64_t limited_size_bytes(const Asset& model, const DecodeLimits& limits) {
-    Asset limited;
-    limited.moving().topology.num_vertices = model.moving().topology.num_vertices;
-    limited.moving().topology.triangles.resize(model.moving().topology.triangles.size());
-    limited.moving().albedo = model.moving().albedo;
-    limited.moving().layout = model.moving().layout;
-    limited.moving().layout.in_bands = std::min(limits.bands, model.moving().layout.in_bands);
-    limited.frames_per_second = model.frames_per_second;
-    limited.name = model.name;
-    limited.provenance_json = model.provenance_json;
-    const auto limit_part = [](const LowRank& from, uint32_t num_planes, uint32_t limit) {
-        LowRank to;
-        to.num_points = from.num_points;
-        to.num_planes = num_planes;
-        to.num_poses = from.num_poses;
-        to.num_components = std::min(limit, from.num_components);
-        to.precision = from.precision;
-        to.singular_values = from.singular_values;
-        return to;
-    };
-    limited.moving().positions = limit_part(model.moving().positions, 3, limits.geometry_components);
-    limited.moving().transfer->matrix =
-        limit_part(model.moving().transfer->matrix, limited.moving().layout.num_planes(), limits.transfer_components);
+// The size of the asset's file if it kept only this.
+uint64_t limited_size_bytes(const Asset& asset, const DecodeLimits& limits) {
+    Asset limited = asset;
+    keep_within(limits, limited);
     return paim_size_bytes(limited);
 }
 
 // all        how many there are
-// spectrum   singular values, or what plays their part; size(value) of them are kept
+// spectrum   singular values, or norms of coefficients; the first size(value) of them are kept
 // limit      the limit that a setting is
 template <typename Size>
-Curve plan_curve(const Asset& model, const char* name, const char* title, uint32_t all,
+Curve plan_curve(const Asset& asset, const char* name, const char* title, uint32_t all,
                  const std::vector<uint32_t>& others, std::span<const double> spectrum,
                  const Size& size, uint32_t DecodeLimits::*limit) {
     Curve curve{name, title, {}, {}, {}};
@@ -71,7 +51,7 @@ Curve plan_curve(const Asset& model, const char* name, const char* title, uint32
         point.limits.*limit = value;
         point.theory_error = curve.theory_errors[value];
         point.energy_error = curve.energy_errors[value];
-        point.size_bytes = limited_size_bytes(model, point.limits);
+        point.size_bytes = limited_size_bytes(asset, point.limits);
         curve.points.push_back(std::move(point));
     }
     return curve;
@@ -96,22 +76,23 @@ std::vector<double> coefficient_norms(const BakeReader& bake) {
     return energies;
 }
 
-std::vector<Curve> plan_curves(const BakeReader& bake, const Asset& model,
+std::vector<Curve> plan_curves(const BakeReader& bake, const Asset& asset,
                                const std::vector<uint32_t>& components,
                                const std::vector<uint32_t>& bands) {
     const auto as_it_is = [](uint32_t value) { return value; };
-    const auto squared = [](uint32_t value) { return value * value; };
+    const auto coefficients = [](uint32_t value) { return static_cast<uint32_t>(sh::num_coefficients(static_cast<int>(value))); };
+    const CodedMesh& mesh = asset.moving();
     std::vector<Curve> curves;
     curves.push_back(
-        plan_curve(model, "geometry_components", "Geometry components (all of the transfer)",
-                   model.moving().positions.num_components, components, model.moving().positions.singular_values,
+        plan_curve(asset, "geometry_components", "Geometry components (all of the transfer)",
+                   mesh.positions.num_components, components, mesh.positions.singular_values,
                    as_it_is, &DecodeLimits::geometry_components));
     curves.push_back(
-        plan_curve(model, "transfer_components", "Transfer components (all of the geometry)",
-                   model.moving().transfer->matrix.num_components, components, model.moving().transfer->matrix.singular_values,
+        plan_curve(asset, "transfer_components", "Transfer components (all of the geometry)",
+                   mesh.transfer->matrix.num_components, components, mesh.transfer->matrix.singular_values,
                    as_it_is, &DecodeLimits::transfer_components));
-    curves.push_back(plan_curve(model, "bands", "Bands (all components)", model.moving().layout.in_bands, bands,
-                                coefficient_norms(bake), squared, &DecodeLimits::bands));
+    curves.push_back(plan_curve(asset, "bands", "Bands (all components)", mesh.layout.in_bands, bands,
+                                coefficient_norms(bake), coefficients, &DecodeLimits::bands));
     return curves;
 }
 

@@ -45,8 +45,8 @@ struct Curve {
 std::vector<double> coefficient_norms(const BakeReader& bake);
 
 // The three curves of the paper, not measured yet: all there is, then those of the asked-for
-// components and bands that are less. The model holds all components in f32.
-std::vector<Curve> plan_curves(const BakeReader& bake, const Asset& model,
+// components and bands that are less. The asset holds all components in f32.
+std::vector<Curve> plan_curves(const BakeReader& bake, const Asset& asset,
                                const std::vector<uint32_t>& components,
                                const std::vector<uint32_t>& bands);
 

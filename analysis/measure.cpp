@@ -45,11 +45,11 @@ double median(std::vector<double> values) {
 
 }  // namespace
 
-std::vector<Image> measure_curves(const BakeReader& bake, const Asset& model, const Stage& stage,
+std::vector<Image> measure_curves(const BakeReader& bake, const Asset& asset, const Stage& stage,
                                   std::vector<Curve>& curves,
                                   const std::function<void()>& on_step) {
     using Clock = std::chrono::steady_clock;
-    const std::unique_ptr<Decoder> decoder = make_decoder(model);
+    MeshDecoder decoder(asset.moving());
     std::vector<CurvePoint*> points;
     for (Curve& curve : curves) {
         for (CurvePoint& point : curve.points) points.push_back(&point);
@@ -64,10 +64,9 @@ std::vector<Image> measure_curves(const BakeReader& bake, const Asset& model, co
         std::vector<Image> reference = stage.render_pose(baked);
         for (size_t j = 0; j < points.size(); ++j) {
             CurvePoint& point = *points[j];
-            decoder->decode(p, point.limits,
-                            decoded);  // takes the memory, so that the clock sees work
+            decoder.decode(p, point.limits, decoded);  // takes the memory: the clock sees work alone
             const auto start = Clock::now();
-            decoder->decode(p, point.limits, decoded);
+            decoder.decode(p, point.limits, decoded);
             sums[j].times_ms.push_back(
                 std::chrono::duration<double, std::milli>(Clock::now() - start).count());
             std::vector<Image> images = stage.render_pose(decoded);

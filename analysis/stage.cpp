@@ -43,7 +43,11 @@ Camera stage_camera(const BakeReader& bake, double azimuth_rad, double elevation
         bake.read_position_rows(p, 0, planes.size(), planes.data());
         bounds.extend(from_planes(planes));
     }
-    if (bake.scenery()) bounds = framed_bounds(bounds, bake.scenery()->pose.positions);
+    if (bake.scenery()) {
+        Bounds still;
+        still.extend(from_planes(bake.scenery()->pose.positions));
+        bounds = framed_bounds(bounds, still);
+    }
     return frame_bounds(bounds, 1.0f, static_cast<float>(azimuth_rad),
                         static_cast<float>(elevation_rad));
 }
@@ -57,7 +61,7 @@ Stage::Stage(const BakeReader& bake, std::vector<NamedLight> lights, const Camer
       topology_(bake.topology()) {
     if (bake.scenery()) {
         topology_.append(bake.scenery()->topology);
-        scenery_positions_ = from_planes(bake.scenery()->pose.positions);
+        still_positions_ = from_planes(bake.scenery()->pose.positions);
     }
     const uint32_t count = std::min(num_poses, bake.num_poses());
     for (uint32_t j = 0; j < count; ++j) {
@@ -67,7 +71,7 @@ Stage::Stage(const BakeReader& bake, std::vector<NamedLight> lights, const Camer
 
 std::vector<Image> Stage::render_pose(const DecodedPose& pose) const {
     std::vector<Vec3f> positions = from_planes(pose.positions);
-    positions.insert(positions.end(), scenery_positions_.begin(), scenery_positions_.end());
+    positions.insert(positions.end(), still_positions_.begin(), still_positions_.end());
     std::vector<std::vector<Vec3f>> radiance(lights_.size());
     for (size_t j = 0; j < lights_.size(); ++j) {
         const LightCoefficients& light = lights_[j].coefficients;
@@ -76,10 +80,10 @@ std::vector<Image> Stage::render_pose(const DecodedPose& pose) const {
         // With as many bands as the pose has.
         LightCoefficients kept = light;
         kept.bands = std::min(light.bands, static_cast<int>(pose.layout.in_bands));
-        std::vector<Vec3f> scenery;
+        std::vector<Vec3f> still;
         shade(bake_.identity().layout, bake_.scenery()->pose.transfer, bake_.scenery()->albedo,
-              kept, scenery);
-        radiance[j].insert(radiance[j].end(), scenery.begin(), scenery.end());
+              kept, still);
+        radiance[j].insert(radiance[j].end(), still.begin(), still.end());
     }
     return render_images(topology_, positions, radiance, camera_, size_pixels_, size_pixels_);
 }

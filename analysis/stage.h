@@ -24,7 +24,7 @@ struct NamedLight {
 std::vector<NamedLight> load_lights(const std::vector<std::filesystem::path>& environments,
                                     uint32_t bands);
 
-// Renders baked or decoded poses of one model under several lights, against black.
+// Renders baked or decoded poses of one character under several lights, against black.
 class Stage {
   public:
     // num_poses poses, evenly spaced, are measured.
@@ -34,7 +34,7 @@ class Stage {
     const std::vector<NamedLight>& lights() const { return lights_; }
     const std::vector<uint32_t>& poses() const { return poses_; }
 
-    // Image of a pose under each light, with the model's colours. [lights]
+    // Image of a pose under each light, with the bake's colours. [lights]
     std::vector<Image> render_pose(const DecodedPose& pose) const;
 
   private:
@@ -43,8 +43,8 @@ class Stage {
     Camera camera_;
     int size_pixels_;
     std::vector<uint32_t> poses_;
-    Topology topology_;  // of the poses and, after them, the scenery
-    std::vector<Vec3f> scenery_positions_;
+    Topology topology_;  // of the poses and, after them, of what stands still
+    std::vector<Vec3f> still_positions_;
 };
 
 // Camera that sees the whole sequence.

@@ -96,12 +96,12 @@ void print_text(const AnalyzeOptions& options, const BandPower& spectrum,
 
 void verify(const AnalyzeOptions& options) {
     const ThreadLimit threads(options.num_threads);
-    const Asset model = read_paim(options.verify);
-    const ErrorStatement statement = read_error_statement(model, options.verify);
+    const Asset asset = read_paim(options.verify);
+    const ErrorStatement statement = read_error_statement(asset, options.verify);
     const BakeReader bake(options.bake_directory);
     const BandPower spectrum = choose_band_power(options, statement, bake.identity().layout.in_bands);
     bake.verify_all();
-    const AssetError error = measure_asset(model, bake, spectrum);
+    const AssetError error = measure_asset(asset, bake, spectrum);
     const std::vector<Comparison> comparisons =
         compare(error, statement, spectrum.name == statement.band_power);
     if (options.json) {

@@ -73,12 +73,12 @@ std::string target_text(const std::string& file, const TargetSummary& summary) {
         summary.geometry_components, geometry.rms(), summary.geometry_target,
         100.0 * geometry.relative_rms(), geometry.worst(), geometry.kg_error(), geometry.e_rms());
     if (!summary.error.still) return text;
-    const SceneryError& scenery = *summary.error.still;
+    const MeshError& still = *summary.error.still;
     text += fmt::format(
         "  scenery: transfer {:.3g} % measured, worst vertex {:.3g} %; RMS distance {:.3g}, worst "
         "{:.3g}\n",
-        100.0 * scenery.transfer.total(), 100.0 * scenery.transfer.worst_vertex_deviation,
-        scenery.geometry.rms(), scenery.geometry.worst());
+        100.0 * still.transfer.total(), 100.0 * still.transfer.worst_vertex_deviation,
+        still.geometry.rms(), still.geometry.worst());
     return text;
 }
 

@@ -8,9 +8,9 @@
 #include "analysis/bench/ratio.h"
 #include "paim/base/parallel.h"
 #include "paim/base/seed.h"
+#include "paim/codec/cpca/cpca_transfer.h"
 #include "paim/codec/mesh_decoder.h"
-#include "paim/codec/rebuild_planes.h"
-#include "paim/codec/cpca/cpca_player.h"
+#include "paim/codec/svd/svd_transfer.h"
 
 namespace paim::bench {
 
@@ -47,21 +47,21 @@ LowRank random_matrix(uint32_t num_points, uint32_t num_planes, uint32_t num_com
     return matrix;
 }
 
-Asset svd_model(uint32_t num_vertices, uint32_t num_components, Precision precision) {
-    Asset model;
-    model.moving().topology.num_vertices = num_vertices;
-    model.moving().layout = {TransferKind::diffuse, kBands, 1};
-    model.moving().positions = random_matrix(num_vertices, 3, num_components, precision);
-    model.moving().transfer->matrix =
-        random_matrix(num_vertices, model.moving().layout.num_planes(), num_components, precision);
-    return model;
+CodedMesh svd_mesh(uint32_t num_vertices, uint32_t num_components, Precision precision) {
+    CodedMesh mesh;
+    mesh.topology.num_vertices = num_vertices;
+    mesh.layout = {TransferKind::diffuse, kBands, 1};
+    mesh.positions = random_matrix(num_vertices, 3, num_components, precision);
+    mesh.transfer = SvdTransfer(
+        random_matrix(num_vertices, mesh.layout.num_planes(), num_components, precision));
+    return mesh;
 }
 
 // 256 clusters of 8 components. Vertices come in runs of a dozen of one cluster, as they do along the
 // surface of a mesh.
-Asset clustered_model(uint32_t num_vertices, uint32_t num_components, Precision precision) {
-    Asset model = svd_model(num_vertices, num_components, precision);
-    VertexClusters& clusters = model.clusters;
+CodedMesh clustered_mesh(uint32_t num_vertices, uint32_t num_components, Precision precision) {
+    CodedMesh mesh = svd_mesh(num_vertices, num_components, precision);
+    VertexClusters clusters;
     clusters.num_clusters = 256;
     clusters.num_components = 8;
     RandomStream random(5);
@@ -71,28 +71,32 @@ Asset clustered_model(uint32_t num_vertices, uint32_t num_components, Precision 
     }
     clusters.coefficients.assign(clusters.num_components, random_values(precision, num_vertices));
     clusters.scales.assign(clusters.num_rows(), 0.5f);
-    model.moving().transfer->matrix =
-        random_matrix(clusters.num_rows(), model.moving().layout.num_planes(), num_components, precision);
-    return model;
+    LowRank bases =
+        random_matrix(clusters.num_rows(), mesh.layout.num_planes(), num_components, precision);
+    mesh.transfer = CpcaTransfer(std::move(bases), std::move(clusters));
+    return mesh;
 }
 
 // Bytes that a frame with everything in it is made from.
-size_t bytes_read(const Asset& model) {
+size_t bytes_read(const CodedMesh& mesh) {
     size_t bytes = 0;
-    for (const LowRank* matrix : {&model.moving().positions, &model.moving().transfer->matrix}) {
+    for (const LowRank* matrix : {&mesh.positions, &mesh.transfer->matrix}) {
         bytes += matrix->mean.size_bytes();
         for (const StoredValues& component : matrix->components) bytes += component.size_bytes();
         bytes += 2 * sizeof(float) * matrix->num_components;  // of two poses
     }
-    bytes += std::span(model.clusters.cluster).size_bytes();
-    bytes += std::span(model.clusters.scales).size_bytes();
-    for (const StoredValues& values : model.clusters.coefficients) bytes += values.size_bytes();
+    if (const CpcaTransfer* clustered = mesh.transfer.as<CpcaTransfer>()) {
+        const VertexClusters& clusters = clustered->clusters;
+        bytes += std::span(clusters.cluster).size_bytes();
+        bytes += std::span(clusters.scales).size_bytes();
+        for (const StoredValues& values : clusters.coefficients) bytes += values.size_bytes();
+    }
     return bytes;
 }
 
 // What decoding leaves: positions and `planes` values of a vertex.
-size_t bytes_written(const Asset& model, uint32_t planes) {
-    return sizeof(float) * (size_t{3} + planes) * model.moving().topology.num_vertices;
+size_t bytes_written(const CodedMesh& mesh, uint32_t planes) {
+    return sizeof(float) * (size_t{3} + planes) * mesh.topology.num_vertices;
 }
 
 // One call of memcpy a thread.
@@ -120,12 +124,12 @@ class Copy {
 //   of_balanced_bandwidth   the same of a copy that moves as many bytes as the decoder: half as many
 //                           as it reads and writes together
 //   read_GB_s               what the decoder reads in a second
-void measure(benchmark::State& state, const Asset& model, size_t num_bytes_written,
+void measure(benchmark::State& state, const CodedMesh& mesh, size_t num_bytes_written,
              const std::function<void(double time)>& decode_frame) {
     const auto num_threads = static_cast<int>(state.range(0));
     const ThreadLimit limit(num_threads);
-    Copy copy(bytes_read(model));
-    Copy balanced_copy((bytes_read(model) + num_bytes_written) / 2);
+    Copy copy(bytes_read(mesh));
+    Copy balanced_copy((bytes_read(mesh) + num_bytes_written) / 2);
     double time = 0.0;
     std::vector<double> ratios, cpu_ratios, balanced_ratios, our_times;
     for (auto _ : state) {
@@ -145,45 +149,45 @@ void measure(benchmark::State& state, const Asset& model, size_t num_bytes_writt
     state.counters["of_copy_bandwidth"] = median(ratios);
     state.counters["of_copy_bandwidth_cpu"] = median(cpu_ratios);
     state.counters["of_balanced_bandwidth"] = median(balanced_ratios);
-    state.counters["read_GB_s"] = 1e-9 * static_cast<double>(bytes_read(model)) / median(our_times);
-    state.counters["per_vertex_ns"] = 1e9 * median(our_times) / model.moving().topology.num_vertices;
+    state.counters["read_GB_s"] = 1e-9 * static_cast<double>(bytes_read(mesh)) / median(our_times);
+    state.counters["per_vertex_ns"] = 1e9 * median(our_times) / mesh.topology.num_vertices;
 }
 
 // Positions and transfer of every vertex.
-void decode(benchmark::State& state, const Asset& model) {
-    const std::unique_ptr<Decoder> decoder = make_decoder(model);
+void decode(benchmark::State& state, const CodedMesh& mesh) {
+    MeshDecoder decoder(mesh);
     DecodedPose pose;
-    measure(state, model, bytes_written(model, model.moving().layout.num_planes()), [&](double time) {
-        decoder->decode(time, {}, pose);
+    measure(state, mesh, bytes_written(mesh, mesh.layout.num_planes()), [&](double time) {
+        decoder.decode(time, {}, pose);
         benchmark::DoNotOptimize(pose.transfer.data());
     });
 }
 
 void decode_svd(benchmark::State& state, uint32_t num_vertices, uint32_t num_components,
                 Precision precision) {
-    decode(state, svd_model(num_vertices, num_components, precision));
+    decode(state, svd_mesh(num_vertices, num_components, precision));
 }
 
 void decode_clusters(benchmark::State& state, uint32_t num_vertices, uint32_t num_components,
                      Precision precision) {
-    decode(state, clustered_model(num_vertices, num_components, precision));
+    decode(state, clustered_mesh(num_vertices, num_components, precision));
 }
 
 // A frame as clustered transfer is played: positions, and the light before the weights, so that what
 // is left of the transfer is each vertex's radiance.
 void light_clusters(benchmark::State& state, uint32_t num_vertices, uint32_t num_components,
                     Precision precision) {
-    const Asset model = clustered_model(num_vertices, num_components, precision);
-    const LightCoefficients light{kBands, std::vector<Vec3f>(kBands * kBands, Vec3f(1, 2, 3))};
-    ClusterLight cluster_light(model);
-    DecodedPose pose;
-    std::vector<Vec3f> products, radiance;
-    measure(state, model, bytes_written(model, 3), [&](double time) {
-        decode_positions(model, time, {}, pose);
-        cluster_light.basis_radiance(time, {}, light, products);
-        shade_clusters(model.clusters, products, model.clusters.num_components, model.moving().albedo,
-                       radiance);
-        benchmark::DoNotOptimize(pose.positions.data());
+    const CodedMesh mesh = clustered_mesh(num_vertices, num_components, precision);
+    const LightCoefficients light{
+        kBands, std::vector<Vec3f>(sh::num_coefficients(kBands), Vec3f(1, 2, 3))};
+    const std::unique_ptr<TransferPlayer> player = mesh.transfer->make_player(mesh.layout);
+    PositionDecoder decoder;
+    std::vector<float> positions;
+    std::vector<Vec3f> radiance;
+    measure(state, mesh, bytes_written(mesh, 3), [&](double time) {
+        decoder.decode(mesh.positions, time, num_components, positions);
+        player->light(time, {}, light, mesh.albedo, radiance);
+        benchmark::DoNotOptimize(positions.data());
         benchmark::DoNotOptimize(radiance.data());
     });
 }

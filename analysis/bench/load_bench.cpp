@@ -17,6 +17,8 @@
 #include "paim/format/container/container_reader.h"
 #include "paim/format/container/sections.h"
 #include "paim/format/pack/zstd_codec.h"
+#include "paim/codec/cpca/cpca_transfer.h"
+#include "paim/codec/svd/svd_transfer.h"
 #include "paim/format/paim/paim_read.h"
 #include "paim/format/paim/paim_write.h"
 #include "paim/mesh/cache_order.h"
@@ -96,35 +98,41 @@ LowRank wave_matrix(const CacheOrder& order, uint32_t num_sides, uint32_t num_pl
 template <typename Integer>
 Asset wave_model(uint32_t num_rings, uint32_t num_sides, uint32_t num_components) {
     const CacheOrder order = cache_order(torus(num_rings, num_sides));
-    Asset model;
-    model.moving().topology = order.topology;
-    model.vertex_order = VertexOrder::cache;
-    model.moving().layout = {TransferKind::diffuse, kBands, 1};
-    model.moving().positions = wave_matrix<Integer>(order, num_sides, 3, num_components);
-    model.moving().transfer->matrix =
-        wave_matrix<Integer>(order, num_sides, model.moving().layout.num_planes(), num_components);
-    model.name = "waves";
-    model.provenance_json = "{}";
-    return model;
+    Asset asset;
+    asset.moving().topology = order.topology;
+    asset.vertex_order = VertexOrder::cache;
+    asset.moving().layout = {TransferKind::diffuse, kBands, 1};
+    asset.moving().positions = wave_matrix<Integer>(order, num_sides, 3, num_components);
+    asset.moving().transfer = SvdTransfer(
+        wave_matrix<Integer>(order, num_sides, asset.moving().layout.num_planes(), num_components));
+    asset.name = "waves";
+    asset.provenance_json = "{}";
+    return asset;
 }
 
 // Means and components, as they lie in memory.
-size_t bytes_of_values(const Asset& model) {
+size_t bytes_of_values(const Asset& asset) {
     size_t bytes = 0;
-    for (const LowRank* matrix : {&model.moving().positions, &model.moving().transfer->matrix}) {
+    for (const LowRank* matrix : {&asset.moving().positions, &asset.moving().transfer->matrix}) {
         bytes += matrix->mean.size_bytes();
         for (const StoredValues& component : matrix->components) bytes += component.size_bytes();
     }
-    for (const StoredValues& values : model.clusters.coefficients) bytes += values.size_bytes();
+    if (const CpcaTransfer* clustered = asset.moving().transfer.as<CpcaTransfer>()) {
+        for (const StoredValues& values : clustered->clusters.coefficients) {
+            bytes += values.size_bytes();
+        }
+    }
     return bytes;
 }
 
-size_t num_values(const Asset& model) {
+size_t num_values(const Asset& asset) {
     size_t count = 0;
-    for (const LowRank* matrix : {&model.moving().positions, &model.moving().transfer->matrix}) {
+    for (const LowRank* matrix : {&asset.moving().positions, &asset.moving().transfer->matrix}) {
         count += matrix->num_rows() * (1 + size_t{matrix->num_components});
     }
-    for (const StoredValues& values : model.clusters.coefficients) count += values.size();
+    if (const CpcaTransfer* clustered = asset.moving().transfer.as<CpcaTransfer>()) {
+        for (const StoredValues& values : clustered->clusters.coefficients) count += values.size();
+    }
     return count;
 }
 
@@ -156,7 +164,7 @@ class BareFrames {
     size_t num_bytes_ = 0;
 };
 
-// Where the memory of a loaded model comes from: fresh pages cost time of their own.
+// Where the memory of a loaded asset comes from: fresh pages cost time of their own.
 enum class Memory { from_system, kept };
 
 void keep_memory(Memory memory) {
@@ -179,11 +187,11 @@ void keep_memory(Memory memory) {
 //   bits_per_value     of the file
 void load(benchmark::State& state, const fs::path& path) {
     const ThreadLimit limit(1);
-    const Asset model = read_paim(path);
-    const auto decoded_bytes = static_cast<double>(bytes_of_values(model));
-    const auto count = static_cast<double>(num_values(model));
+    const Asset asset = read_paim(path);
+    const auto decoded_bytes = static_cast<double>(bytes_of_values(asset));
+    const auto count = static_cast<double>(num_values(asset));
     BareFrames frames(path);
-    std::vector<char> from(bytes_of_values(model), 1), to(from.size(), 2);
+    std::vector<char> from(bytes_of_values(asset), 1), to(from.size(), 2);
     std::vector<double> our_times, fresh_times, zstd_times, zstd_ratios, copy_ratios;
     for (auto _ : state) {
         keep_memory(Memory::from_system);

@@ -5,6 +5,7 @@
 
 #include "paim/base/seed.h"
 #include "paim/codec/mesh_decoder.h"
+#include "paim/codec/svd/svd_transfer.h"
 #include "paim/sh/basis.h"
 #include "paim/shade/shade.h"
 
@@ -44,12 +45,13 @@ void per_item(benchmark::State& state, const char* name, double num_items) {
 }
 
 void decode(benchmark::State& state, uint32_t num_vertices, uint32_t num_components) {
-    Asset model;
-    model.moving().topology.num_vertices = num_vertices;
-    model.moving().layout = {TransferKind::diffuse, kBands, 1};
-    model.moving().positions = random_matrix(num_vertices, 3, num_components);
-    model.moving().transfer->matrix = random_matrix(num_vertices, model.moving().layout.num_planes(), num_components);
-    const SvdDecoder decoder(model);
+    CodedMesh mesh;
+    mesh.topology.num_vertices = num_vertices;
+    mesh.layout = {TransferKind::diffuse, kBands, 1};
+    mesh.positions = random_matrix(num_vertices, 3, num_components);
+    mesh.transfer =
+        SvdTransfer(random_matrix(num_vertices, mesh.layout.num_planes(), num_components));
+    MeshDecoder decoder(mesh);
     DecodedPose pose;
     double time = 0.0;
     for (auto _ : state) {
@@ -88,7 +90,7 @@ void basis(benchmark::State& state, int bands) {
         y[j] = static_cast<float>(direction.y());
         z[j] = static_cast<float>(direction.z());
     }
-    std::vector<float> values(static_cast<size_t>(bands * bands * kBatch));
+    std::vector<float> values(static_cast<size_t>(sh::num_coefficients(bands) * kBatch));
     for (auto _ : state) {
         batch.evaluate(x.data(), y.data(), z.data(), values.data());
         benchmark::DoNotOptimize(values.data());

@@ -35,7 +35,7 @@ struct SyntheticBake {
             BakedPose pose;
             pose.positions = values(static_cast<uint32_t>(p), 3, 0);
             pose.normals.assign(size_t{3} * num_vertices, 0.0f);
-            pose.transfer = values(static_cast<uint32_t>(p), bands * bands, 1);
+            pose.transfer = values(static_cast<uint32_t>(p), sh::num_coefficients(bands), 1);
             pose.noise.assign(pose.transfer.size(), noise);
             pose.statistics.transfer_rms.assign(bands, 1.0);
             pose.statistics.noise_rms.assign(bands, noise);

@@ -16,7 +16,7 @@ using nlohmann::ordered_json;
 
 namespace {
 
-ordered_json describe_part(const LowRank& matrix) {
+ordered_json describe_matrix(const LowRank& matrix) {
     ordered_json json;
     json["components"] = matrix.num_components;
     json["precision"] = precision_name(matrix.precision);
@@ -30,37 +30,35 @@ ordered_json describe_part(const LowRank& matrix) {
 }
 
 ordered_json describe_paim(const std::filesystem::path& path) {
-    const Asset model = read_paim(path);
+    const Asset asset = read_paim(path);
+    const CodedMesh& mesh = asset.moving();
     ordered_json json;
     json["file"] = path.string();
     json["kind"] = "paim";
-    json["name"] = model.name;
+    json["name"] = asset.name;
     json["size_bytes"] = std::filesystem::file_size(path);
-    json["num_vertices"] = model.moving().topology.num_vertices;
-    json["num_triangles"] = model.moving().topology.triangles.size();
-    json["num_poses"] = model.num_poses();
-    json["frames_per_second"] = model.frames_per_second;
-    json["bands"] = model.moving().layout.in_bands;
-    json["channels"] = model.moving().layout.channels;
-    json["origin"] = {model.origin.x(), model.origin.y(), model.origin.z()};
-    json["albedo"] = model.moving().albedo.values.size() == 1 ? "uniform" : "per vertex";
+    json["num_vertices"] = mesh.topology.num_vertices;
+    json["num_triangles"] = mesh.topology.triangles.size();
+    json["num_poses"] = asset.num_poses();
+    json["frames_per_second"] = asset.frames_per_second;
+    json["bands"] = mesh.layout.in_bands;
+    json["channels"] = mesh.layout.channels;
+    json["origin"] = {asset.origin.x(), asset.origin.y(), asset.origin.z()};
+    json["albedo"] = mesh.albedo.values.size() == 1 ? "uniform" : "per vertex";
     const double per_pose =
-        static_cast<double>(model.moving().topology.num_vertices) * static_cast<double>(model.num_poses());
+        static_cast<double>(mesh.topology.num_vertices) * static_cast<double>(asset.num_poses());
     json["bits_per_vertex_per_pose"] =
         per_pose > 0.0 ? 8.0 * json["size_bytes"].get<double>() / per_pose : 0.0;
-    if (!model.scenery.empty()) {
-        json["scenery_vertices"] = model.scenery.topology.num_vertices;
-        json["scenery_triangles"] = model.scenery.topology.triangles.size();
+    if (const CodedMesh* still = asset.still()) {
+        json["scenery_vertices"] = still->topology.num_vertices;
+        json["scenery_triangles"] = still->topology.triangles.size();
     }
-    json["vertex_order"] = model.vertex_order == VertexOrder::cache ? "local" : "baked";
-    json["transfer_codec"] = model.clusters.empty() ? "svd" : "cpca";
-    if (!model.clusters.empty()) {
-        json["clusters"] = model.clusters.num_clusters;
-        json["cluster_components"] = model.clusters.num_components;
-    }
-    json["geometry"] = describe_part(model.moving().positions);
-    json["transfer"] = describe_part(model.moving().transfer->matrix);
-    json["provenance"] = ordered_json::parse(model.provenance_json);
+    json["vertex_order"] = asset.vertex_order == VertexOrder::cache ? "local" : "baked";
+    json["transfer_codec"] = mesh.transfer->codec_name();
+    for (const NamedNumber& number : mesh.transfer->numbers()) json[number.name] = *number.value;
+    json["geometry"] = describe_matrix(mesh.positions);
+    json["transfer"] = describe_matrix(mesh.transfer->matrix);
+    json["provenance"] = ordered_json::parse(asset.provenance_json);
     return json;
 }
 

@@ -19,17 +19,17 @@ namespace {
 // Long lists are thinned out to so many rows, the first and the last among them.
 constexpr size_t kMaxRows = 20;
 
-std::optional<ErrorStatement> find_statement(const Asset& model,
+std::optional<ErrorStatement> find_statement(const Asset& asset,
                                              const std::filesystem::path& path) {
-    if (!ordered_json::parse(model.provenance_json).contains("measured")) return {};
-    return read_error_statement(model, path);
+    if (!ordered_json::parse(asset.provenance_json).contains("measured")) return {};
+    return read_error_statement(asset, path);
 }
 
 }  // namespace
 
 ordered_json describe_prefixes(const std::filesystem::path& path) {
-    const Asset model = read_paim(path);
-    const PrefixErrors errors = prefix_errors(model, find_statement(model, path));
+    const Asset asset = read_paim(path);
+    const PrefixErrors errors = prefix_errors(asset.moving(), find_statement(asset, path));
     const uint64_t size_bytes = std::filesystem::file_size(path);
     ordered_json json;
     json["file"] = path.string();
@@ -40,8 +40,8 @@ ordered_json describe_prefixes(const std::filesystem::path& path) {
     json["prefixes"] = ordered_json::array();
     for (const Prefix& prefix : read_prefixes(path)) {
         // A table may have sections that META does not count.
-        const auto kg = std::min(prefix.geometry_components, model.moving().positions.num_components);
-        const auto kt = std::min(prefix.transfer_components, model.moving().transfer->matrix.num_components);
+        const auto kg = std::min(prefix.geometry_components, asset.moving().positions.num_components);
+        const auto kt = std::min(prefix.transfer_components, asset.moving().transfer->matrix.num_components);
         json["prefixes"].push_back({{"size_bytes", prefix.size_bytes},
                                     {"share_of_file", static_cast<double>(prefix.size_bytes) /
                                                           static_cast<double>(size_bytes)},
