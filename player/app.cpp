@@ -56,12 +56,12 @@ class App {
           renderer_(upload_within(options.wanted_limits,
                                   [&](const DecodeLimits& limits) {
                                       return std::make_unique<SceneRenderer>(
-                                          scene_->model, scene_->environment, limits);
+                                          *scene_->asset, scene_->environment, limits);
                                   })),
           range_(range()),
           environment_name_(options.environment_path ? options.environment_path->filename().string()
                                                      : "built-in sky") {
-        bounds_.emplace(scene_->model);
+        bounds_.emplace(*scene_->asset);
         view_.time = options.pose;
         view_.limits = options.limits;
         view_.tone_curve = options.tone_curve;
@@ -81,7 +81,7 @@ class App {
             const double elapsed_s = std::chrono::duration<double>(now - last).count();
             last = now;
             if (loader_ != nullptr) show_more();
-            advance(view_, range_, scene_->model.frames_per_second, elapsed_s);
+            advance(view_, range_, scene_->asset->frames_per_second, elapsed_s);
             draw();
         }
     }
@@ -89,30 +89,30 @@ class App {
   private:
     ViewRange range() const {
         const UploadPlan& plan = renderer_->plan();
-        return {scene_->model.num_poses(), plan.geometry_components, plan.transfer_components,
+        return {scene_->asset->num_poses(), plan.geometry_components, plan.transfer_components,
                 plan.layout.in_bands, plan.cluster_components};
     }
 
     // Takes what has been read since the last frame; all else of the view stays.
     void show_more() {
         if (const std::string error = loader_->take_error(); !error.empty()) say(error);
-        std::optional<LoadedModel> loaded = loader_->take();
+        std::optional<LoadedAsset> loaded = loader_->take();
         if (!loaded) return;
         auto scene = std::make_unique<Scene>();
-        scene->model = std::move(loaded->model);
+        scene->asset = std::move(loaded->asset);
         scene->bounds = loaded->bounds;
         scene->size_bytes = loaded->progress.size_bytes;
         scene->progress = loaded->progress;
         try {
             upload_within(options_.wanted_limits, [&](const DecodeLimits& limits) {
-                renderer_->set_model(scene->model, limits);
+                renderer_->set_asset(*scene->asset, limits);
             });
         } catch (const Error& error) {
             say(error.what());
             return;
         }
         scene->environment = std::move(scene_->environment);
-        bounds_.emplace(scene->model);
+        bounds_.emplace(*scene->asset);
         scene_ = std::move(scene);
         const ViewRange before = std::exchange(range_, range());
         follow(view_, before, range_, options_.wanted_limits);
@@ -207,13 +207,13 @@ class App {
         info.renderer = renderer_name_;
         if (Clock::now() < message_end_) info.message = message_;
         info.file_bytes = scene_->size_bytes;
-        if (loader_ != nullptr && !scene_->model.complete) {
+        if (loader_ != nullptr && !scene_->asset->complete) {
             info.loading = progress_text(loader_->progress());
         }
-        info.num_vertices = scene_->model.topology.num_vertices;
-        info.num_triangles = static_cast<uint32_t>(scene_->model.topology.triangles.size());
+        info.num_vertices = scene_->asset->moving().topology.num_vertices;
+        info.num_triangles = static_cast<uint32_t>(scene_->asset->moving().topology.triangles.size());
         info.frame_ms = frame_ms_;
-        info.cost = frame_cost(scene_->model, view_.limits);
+        info.cost = frame_cost(scene_->asset->moving(), view_.limits);
         return info;
     }
 
@@ -283,7 +283,7 @@ void run_app(const Options& options, Scene scene) {
 
 void run_growing(Options& options) {
     ProgressiveLoader loader(options.model_path);
-    LoadedModel first = loader.wait_for_first([&] {
+    LoadedAsset first = loader.wait_for_first([&] {
         fmt::print(stderr, "paim-play: note: {}: waiting for the beginning that can be played\n",
                    options.model_path.string());
     });

@@ -7,16 +7,11 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
-#include <memory>
-#include <optional>
 #include <vector>
 
 #include "paim/base/parallel.h"
-#include "paim/codec/mesh_decoder.h"
-#include "paim/codec/rebuild_planes.h"
+#include "paim/codec/playback.h"
 #include "paim/light/environment.h"
-#include "paim/codec/cpca/cpca_player.h"
-#include "paim/shade/shade.h"
 #include "player/gl/check.h"
 #include "player/gl/headless_context.h"
 #include "player/render/cost.h"
@@ -65,44 +60,17 @@ Times measure_gpu(SceneRenderer& renderer, Frame frame, const gl::Target& target
     return times;
 }
 
-// Positions and radiance of one frame on the CPU.
-class CpuFrame {
-  public:
-    explicit CpuFrame(const Asset& model) : model_(model), decoder_(make_decoder(model)) {
-        if (!model.clusters.empty()) cluster_light_.emplace(model);
-    }
-
-    void compute(const Frame& frame, const LightCoefficients& light) {
-        if (!cluster_light_) {
-            decoder_->decode(frame.time, frame.limits, pose_);
-            shade(pose_.layout, pose_.transfer, model_.moving().albedo, light, radiance_);
-            return;
-        }
-        decode_positions(model_, frame.time, frame.limits, pose_);
-        cluster_light_->basis_radiance(frame.time, frame.limits, light, products_);
-        shade_clusters(model_.clusters, products_, frame.limits.cluster_components, model_.moving().albedo,
-                       radiance_);
-    }
-
-  private:
-    const Asset& model_;
-    std::unique_ptr<Decoder> decoder_;
-    std::optional<ClusterLight> cluster_light_;
-    DecodedPose pose_;
-    std::vector<Vec3f> products_;
-    std::vector<Vec3f> radiance_;
-};
-
 // The same weights, decoding, turned light and shading; no picture.
 Times measure_cpu(const Options& options, const Scene& scene, Frame frame) {
     const uint32_t bands = options.limits.bands;
     const LightCoefficients light =
         EnvironmentLight(scene.environment).coefficients(static_cast<int>(bands));
-    CpuFrame cpu(scene.model);
+    Playback playback(scene.asset);
     const int num_frames = *options.bench_frames;
     return measure(num_frames, [&](int i) {
-        set_frame(frame, i, num_frames, scene.model.num_poses());
-        cpu.compute(frame, turn_about_y(light, frame.env_rotation_rad));
+        set_frame(frame, i, num_frames, scene.asset->num_poses());
+        playback.set_light(DistantLight(turn_about_y(light, frame.env_rotation_rad)));
+        playback.update(frame.time, frame.limits);
     });
 }
 
@@ -114,11 +82,11 @@ void run_bench(const Options& options, const Scene& scene) {
     Frame frame = first_frame(options, scene);
     frame.bounds.extend(scene.bounds.lower);  // of every pose
     frame.bounds.extend(scene.bounds.upper);
-    SceneRenderer renderer(scene.model, scene.environment, options.limits);
+    SceneRenderer renderer(*scene.asset, scene.environment, options.limits);
     const gl::Target target(options.size.first * samples, options.size.second * samples);
     const gl::Target pixel(1, 1);  // leaves hardly anything to do but the vertices
     const int num_frames = *options.bench_frames;
-    const uint32_t num_poses = scene.model.num_poses();
+    const uint32_t num_poses = scene.asset->num_poses();
     const Times whole = measure_gpu(renderer, frame, target, num_frames, num_poses);
     const Times vertices = measure_gpu(renderer, frame, pixel, num_frames, num_poses);
     const Times cpu = measure_cpu(options, scene, frame);
@@ -145,12 +113,12 @@ void run_bench(const Options& options, const Scene& scene) {
                    times.min_ms);
     };
     fmt::print("{}\n{} frames of {} x {} samples, {} vertices\n", context->description(),
-               num_frames, target.width(), target.height(), scene.model.moving().topology.num_vertices);
-    const Cost cost = frame_cost(scene.model, options.limits);
+               num_frames, target.width(), target.height(), scene.asset->moving().topology.num_vertices);
+    const Cost cost = frame_cost(scene.asset->moving(), options.limits);
     fmt::print("{:.3f} MB of textures, {} multiply-adds a vertex, positions included",
                1e-6 * static_cast<double>(renderer.texture_bytes()), cost.multiply_adds);
-    if (cost.cluster_multiply_adds > 0) {
-        fmt::print(", {} a frame for the bases of clusters", cost.cluster_multiply_adds);
+    if (cost.cpu_multiply_adds > 0) {
+        fmt::print(", {} a frame for the bases of clusters", cost.cpu_multiply_adds);
     }
     fmt::print("\n");
     print("whole frame", whole);

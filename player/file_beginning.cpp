@@ -40,8 +40,8 @@ uint64_t table_end(const std::filesystem::path& path) {
     return end <= header.file_size_bytes ? end : 0;
 }
 
-uint32_t num_components(const Asset& model) {
-    return model.moving().positions.num_components + model.moving().transfer->matrix.num_components;
+uint32_t num_components(const CodedMesh& mesh) {
+    return mesh.positions.num_components + mesh.transfer->matrix.num_components;
 }
 
 std::string size_text(uint64_t size_bytes) {
@@ -96,19 +96,19 @@ Beginning inspect_beginning(const std::filesystem::path& path) {
     return beginning;
 }
 
-LoadedModel read_beginning(const std::filesystem::path& path, const Beginning& beginning) {
-    LoadedModel loaded;
-    loaded.model = read_paim(path, {.progressive = true});
+LoadedAsset read_beginning(const std::filesystem::path& path, const Beginning& beginning) {
+    LoadedAsset loaded;
+    loaded.asset = std::make_shared<const Asset>(read_paim(path, {.prefix = true}));
     loaded.progress = beginning.progress();
-    loaded.progress.components = num_components(loaded.model);
+    loaded.progress.components = num_components(loaded.asset->moving());
     // More may have come since the look.
-    if (loaded.model.complete) loaded.progress.size_bytes = loaded.progress.whole_size_bytes;
+    if (loaded.asset->complete) loaded.progress.size_bytes = loaded.progress.whole_size_bytes;
     return loaded;
 }
 
-LoadedModel load_beginning(const std::filesystem::path& path) {
-    LoadedModel loaded = read_beginning(path, inspect_beginning(path));
-    loaded.bounds = sequence_bounds(loaded.model);
+LoadedAsset load_beginning(const std::filesystem::path& path) {
+    LoadedAsset loaded = read_beginning(path, inspect_beginning(path));
+    loaded.bounds = sequence_bounds(*loaded.asset);
     return loaded;
 }
 

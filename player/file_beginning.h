@@ -39,17 +39,17 @@ struct Beginning {
 // A file that is not there has no bytes. Errors as read_paim()'s, if header or table are damaged.
 Beginning inspect_beginning(const std::filesystem::path& path);
 
-struct LoadedModel {
-    Asset model;
+struct LoadedAsset {
+    std::shared_ptr<const Asset> asset;
     Bounds bounds;  // of the whole animation, with the components that are there
     LoadProgress progress;
     bool replaced = false;  // comes from another file than the model before
 };
 
 // What of the file can be played now, without its bounds. Errors as read_paim()'s.
-LoadedModel read_beginning(const std::filesystem::path& path, const Beginning& beginning);
+LoadedAsset read_beginning(const std::filesystem::path& path, const Beginning& beginning);
 
 // The same of what is there at this moment, with bounds.
-LoadedModel load_beginning(const std::filesystem::path& path);
+LoadedAsset load_beginning(const std::filesystem::path& path);
 
 }  // namespace paim::player

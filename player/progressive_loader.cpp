@@ -14,7 +14,7 @@ ProgressiveLoader::ProgressiveLoader(std::filesystem::path path, const LoaderPac
       waiting_since_(Clock::now()),
       thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
-LoadedModel ProgressiveLoader::wait_for_first(const std::function<void()>& on_wait) {
+LoadedAsset ProgressiveLoader::wait_for_first(const std::function<void()>& on_wait) {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return newest_ || failure_ || waiting_; });
     if (!newest_ && !failure_) {
@@ -27,7 +27,7 @@ LoadedModel ProgressiveLoader::wait_for_first(const std::function<void()>& on_wa
     return *std::exchange(newest_, std::nullopt);
 }
 
-std::optional<LoadedModel> ProgressiveLoader::take() {
+std::optional<LoadedAsset> ProgressiveLoader::take() {
     const std::scoped_lock lock(mutex_);
     return std::exchange(newest_, std::nullopt);
 }
@@ -98,14 +98,14 @@ bool ProgressiveLoader::read_more(const Beginning& beginning) {
     tried_bytes_ = playable_bytes;
     tried_inode_ = beginning.inode;
     tried_in_vain_ = true;
-    LoadedModel loaded = read_beginning(path_, beginning);
-    const uint32_t geometry_components = loaded.model.geometry.num_components;
+    LoadedAsset loaded = read_beginning(path_, beginning);
+    const uint32_t geometry_components = loaded.asset->moving().positions.num_components;
     if (!bounds_ || bounds_components_ != geometry_components) {
-        bounds_ = sequence_bounds(loaded.model);
+        bounds_ = sequence_bounds(*loaded.asset);
         bounds_components_ = geometry_components;
     }
     loaded.bounds = *bounds_;
-    const bool complete = loaded.model.complete;
+    const bool complete = loaded.asset->complete;
     tried_in_vain_ = false;
     {
         const std::scoped_lock lock(mutex_);

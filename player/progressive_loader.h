@@ -34,10 +34,10 @@ class ProgressiveLoader {
 
     // The first model that can be played. Calls on_wait once if there are not enough bytes for it.
     // Errors as read_paim()'s; bad input if no byte comes for as long as `patience`.
-    LoadedModel wait_for_first(const std::function<void()>& on_wait);
+    LoadedAsset wait_for_first(const std::function<void()>& on_wait);
 
     // The newest model since the last call, if there is one; never waits.
-    std::optional<LoadedModel> take();
+    std::optional<LoadedAsset> take();
 
     // What went wrong since the last call, or empty. What was read before stays good, and what
     // comes later is read all the same.
@@ -74,7 +74,7 @@ class ProgressiveLoader {
     // Of both threads.
     mutable std::mutex mutex_;
     std::condition_variable_any changed_;
-    std::optional<LoadedModel> newest_;
+    std::optional<LoadedAsset> newest_;
     bool started_ = false;          // there has been a model
     bool waiting_ = false;          // there are not enough bytes for one
     std::optional<Error> failure_;  // there will be none

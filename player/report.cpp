@@ -1,6 +1,8 @@
 // Describing frames.
 #include "player/report.h"
 
+#include <algorithm>
+
 #include "paim/codec/sequence_bounds.h"
 #include "player/render/cost.h"
 #include "player/ui/orbit_camera.h"
@@ -10,26 +12,28 @@ namespace paim::player {
 nlohmann::ordered_json describe_frame(const Options& options, const Scene& scene,
                                       const SceneRenderer& renderer, const std::string& driver,
                                       int samples) {
-    const Cost cost = frame_cost(scene.model, options.limits);
+    const CodedMesh& mesh = scene.asset->moving();
+    const Cost cost = frame_cost(mesh, options.limits);
     nlohmann::ordered_json json;
     json["file"] = options.model_path.string();
     json["environment"] =
         options.environment_path ? options.environment_path->string() : "built-in sky";
-    json["vertices"] = scene.model.topology.num_vertices;
-    json["triangles"] = scene.model.topology.triangles.size();
-    json["poses"] = scene.model.num_poses();
-    json["codec"] = scene.model.clusters.empty() ? "svd" : "cpca";
+    json["vertices"] = mesh.topology.num_vertices;
+    json["triangles"] = mesh.topology.triangles.size();
+    json["poses"] = scene.asset->num_poses();
+    json["codec"] = mesh.transfer->codec_name();
     json["geometry_components"] = cost.geometry_components;
     json["transfer_components"] = cost.transfer_components;
-    if (!scene.model.clusters.empty()) {
-        json["clusters"] = scene.model.clusters.num_clusters;
-        json["cluster_components"] = cost.cluster_components;
+    for (const NamedNumber& number : mesh.transfer->numbers()) {
+        const bool limited = number.limit != nullptr;
+        json[number.name] = limited ? std::min(*number.value, options.limits.*number.limit)
+                                    : *number.value;
     }
     json["bands"] = cost.bands;
-    json["channels"] = scene.model.layout.channels;
+    json["channels"] = mesh.layout.channels;
     json["file_bytes"] = scene.size_bytes;
     if (scene.progress) {
-        json["complete"] = scene.model.complete;
+        json["complete"] = scene.asset->complete;
         json["bytes"] = scene.progress->size_bytes;
         json["whole_bytes"] = scene.progress->whole_size_bytes;
         json["components"] = scene.progress->components;
@@ -38,7 +42,7 @@ nlohmann::ordered_json describe_frame(const Options& options, const Scene& scene
     json["bytes_in_use"] = cost.bytes;
     json["texture_bytes"] = renderer.texture_bytes();
     json["multiply_adds_per_vertex"] = cost.multiply_adds;
-    json["cluster_multiply_adds"] = cost.cluster_multiply_adds;
+    json["cluster_multiply_adds"] = cost.cpu_multiply_adds;
     json["size"] = {options.size.first, options.size.second};
     json["supersample"] = samples;
     json["renderer"] = driver;
@@ -53,7 +57,7 @@ Frame first_frame(const Options& options, const Scene& scene) {
     const float aspect =
         static_cast<float>(options.size.first) / static_cast<float>(options.size.second);
     frame.camera = start_camera(options.camera, scene.bounds, aspect);
-    frame.bounds = pose_bounds(scene.model, options.pose, options.limits.geometry_components);
+    frame.bounds = pose_bounds(*scene.asset, options.pose, options.limits.geometry_components);
     frame.background = options.background;
     return frame;
 }

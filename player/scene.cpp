@@ -34,35 +34,36 @@ void lower_limit(const char* option, const char* what, uint32_t& limit, uint32_t
 
 Scene load_scene(Options& options) {
     if (options.progressive) return make_scene(options, load_beginning(options.model_path));
-    LoadedModel loaded;
-    loaded.model = read_paim(options.model_path);
-    loaded.bounds = sequence_bounds(loaded.model);
+    LoadedAsset loaded;
+    loaded.asset = std::make_shared<const Asset>(read_paim(options.model_path));
+    loaded.bounds = sequence_bounds(*loaded.asset);
     std::error_code ignored;
     loaded.progress.size_bytes = std::filesystem::file_size(options.model_path, ignored);
     return make_scene(options, std::move(loaded));
 }
 
-Scene make_scene(Options& options, LoadedModel loaded) {
+Scene make_scene(Options& options, LoadedAsset loaded) {
     Scene scene;
-    scene.model = std::move(loaded.model);
+    scene.asset = std::move(loaded.asset);
     scene.bounds = loaded.bounds;
     scene.size_bytes = loaded.progress.size_bytes;
     if (options.progressive) scene.progress = loaded.progress;
-    const Asset& model = scene.model;
+    const Asset& asset = *scene.asset;
+    const CodedMesh& mesh = asset.moving();
 
-    const double last_pose = static_cast<double>(model.num_poses()) - 1.0;
+    const double last_pose = static_cast<double>(asset.num_poses()) - 1.0;
     if (options.pose > last_pose) {
         throw_usage("--pose: expected 0 to {} ({} has {} poses), got {}", last_pose,
-                    options.model_path.string(), model.num_poses(), options.pose);
+                    options.model_path.string(), asset.num_poses(), options.pose);
     }
     DecodeLimits& limits = options.limits;
     lower_limit("--geometry-components", "geometry components", limits.geometry_components,
-                model.moving().positions.num_components, model.complete);
+                mesh.positions.num_components, asset.complete);
     lower_limit("--transfer-components", "transfer components", limits.transfer_components,
-                model.moving().transfer->matrix.num_components, model.complete);
+                mesh.transfer->matrix.num_components, asset.complete);
     lower_limit("--cluster-components", "cluster components", limits.cluster_components,
-                model.clusters.num_components, true);
-    lower_limit("--bands", "bands", limits.bands, model.moving().layout.in_bands, true);
+                mesh.transfer->num_vertex_components(), true);
+    lower_limit("--bands", "bands", limits.bands, mesh.layout.in_bands, true);
 
     scene.environment =
         options.environment_path ? load_environment(*options.environment_path) : make_sky();

@@ -1,6 +1,7 @@
 // What a command line names, loaded and checked: the animation and its light.
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "paim/codec/asset.h"
@@ -12,19 +13,19 @@
 namespace paim::player {
 
 struct Scene {
-    Asset model;
+    std::shared_ptr<const Asset> asset;
     Image environment;                     // lat-long, linear radiance, finite and not negative
     Bounds bounds;                         // of the whole animation
     uint64_t size_bytes = 0;               // of the .paim file, as far as it is there
-    std::optional<LoadProgress> progress;  // of a file that is read progressively
+    std::optional<LoadProgress> progress;  // of a file of which a prefix is there
 };
 
 // Reads the animation and the environment. Lowers the options' limits to what the file has, with a
 // note on stderr. Errors name the file; Error(usage) if the pose is beyond the last.
 Scene load_scene(Options& options);
 
-// The same, of an animation that has been read progressively.
-Scene make_scene(Options& options, LoadedModel loaded);
+// The same, of an animation whose prefix has been read.
+Scene make_scene(Options& options, LoadedAsset loaded);
 
 // Reads a lat-long map that can light a scene. Errors (bad input) name the file.
 Image load_environment(const std::filesystem::path& path);

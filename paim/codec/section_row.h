@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "paim/codec/decode_limits.h"
 #include "paim/codec/low_rank.h"
 #include "paim/mesh/topology.h"
 
@@ -34,6 +35,8 @@ struct NamedNumber {
     const char* name;
     uint32_t* value;
     uint32_t lowest, highest;  // anything else is an error when reading
+    // The limit of playing that may make it smaller, or none.
+    uint32_t DecodeLimits::*limit = nullptr;
 };
 
 }  // namespace paim

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "paim/metrics/rates.h"
-
 namespace paim::player {
 
 namespace {
@@ -15,7 +13,7 @@ uint64_t value_bytes(const StoredValues& values, Precision precision) {
     return precision == Precision::f16 ? 2 : 4;
 }
 
-uint64_t part_bytes(const LowRank& matrix, uint64_t planes, uint32_t num_components) {
+uint64_t matrix_bytes(const LowRank& matrix, uint64_t planes, uint32_t num_components) {
     uint64_t row_bytes = value_bytes(matrix.mean, Precision::f32);  // halves have means of floats
     for (uint32_t k = 0; k < num_components; ++k) {
         row_bytes += value_bytes(matrix.components[k], matrix.precision);
@@ -25,41 +23,23 @@ uint64_t part_bytes(const LowRank& matrix, uint64_t planes, uint32_t num_compone
            sizeof(float) * uint64_t{num_components} * matrix.num_poses;
 }
 
-uint64_t cluster_bytes(const VertexClusters& clusters, uint32_t num_components) {
-    uint64_t vertex_bytes = sizeof(uint16_t);  // of the index
-    for (uint32_t j = 0; j < num_components; ++j) {
-        vertex_bytes += value_bytes(clusters.coefficients[j], Precision::f32);
-    }
-    return vertex_bytes * clusters.cluster.size() +
-           sizeof(float) * uint64_t{clusters.num_clusters} * (num_components + 1);
-}
-
 }  // namespace
 
-Cost frame_cost(const Asset& model, const DecodeLimits& limits) {
+Cost frame_cost(const CodedMesh& mesh, const DecodeLimits& limits) {
+    const TransferModel& transfer = *mesh.transfer;
+    const TransferLayout layout = mesh.layout.with_bands(limits.bands);
     Cost cost{};
-    cost.geometry_components = std::min(limits.geometry_components, model.moving().positions.num_components);
-    cost.transfer_components = std::min(limits.transfer_components, model.moving().transfer->matrix.num_components);
-    cost.cluster_components = std::min(limits.cluster_components, model.clusters.num_components);
-    cost.bands = std::min(limits.bands, model.moving().layout.in_bands);
-    TransferLayout layout = model.moving().layout;
-    layout.in_bands = cost.bands;
-    cost.bytes = part_bytes(model.moving().positions, 3, cost.geometry_components) +
-                 part_bytes(model.moving().transfer->matrix, layout.num_planes(), cost.transfer_components);
-    cost.multiply_adds = svd_geometry_cost(cost.geometry_components).per_vertex();
-    if (model.clusters.empty()) {
-        cost.multiply_adds +=
-            svd_transfer_cost(layout, cost.transfer_components, true).per_vertex();
-        return cost;
-    }
-    const auto of_clusters = [&](uint32_t num_components) {
-        return clustered_transfer_cost(layout, model.clusters.num_clusters, num_components,
-                                       cost.transfer_components, true);
-    };
-    cost.bytes += cluster_bytes(model.clusters, cost.cluster_components);
-    cost.multiply_adds += of_clusters(cost.cluster_components).per_vertex();
-    // Whole bases are lit, whatever vertices use of them.
-    cost.cluster_multiply_adds = of_clusters(model.clusters.num_components).cpu_per_frame;
+    cost.geometry_components = std::min(limits.geometry_components, mesh.positions.num_components);
+    cost.transfer_components = std::min(limits.transfer_components, transfer.matrix.num_components);
+    cost.cluster_components = std::min(limits.cluster_components, transfer.num_vertex_components());
+    cost.bands = layout.in_bands;
+    cost.bytes = matrix_bytes(mesh.positions, 3, cost.geometry_components) +
+                 matrix_bytes(transfer.matrix, layout.num_planes(), cost.transfer_components) +
+                 transfer.vertex_bytes(cost.cluster_components);
+    const FrameCost of_transfer = transfer.cost(mesh.layout, limits, true);
+    cost.multiply_adds =
+        positions_cost(cost.geometry_components).per_vertex() + of_transfer.per_vertex();
+    cost.cpu_multiply_adds = of_transfer.cpu_per_frame;
     return cost;
 }
 

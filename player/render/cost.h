@@ -1,27 +1,26 @@
-// What a frame needs of a model: bytes and arithmetic, for the overlay and --json.
+// Bytes and arithmetic that a frame needs, for the overlay and --json.
 #pragma once
 
 #include <cstdint>
 
-#include "paim/codec/mesh_decoder.h"
+#include "paim/codec/decode_limits.h"
 #include "paim/codec/asset.h"
 
 namespace paim::player {
 
 struct Cost {
-    // Of means, components, weights, clusters and coefficients in use, as their precision is, before
-    // the file packs them.
+    // Of everything in use, in its stored precision, before the file packs it.
     uint64_t bytes;
-    // Per vertex and frame, positions and transfer under coloured light (metrics/rates.h).
+    // Per vertex and frame, positions and transfer under coloured light (codec/frame_cost.h).
     uint64_t multiply_adds;
-    // Per frame beside these: rebuilding and lighting the bases of clusters, on the CPU.
-    uint64_t cluster_multiply_adds;
+    // Per frame in addition to these, on the CPU: rebuilding and lighting bases that vertices share.
+    uint64_t cpu_multiply_adds;
     uint32_t geometry_components;  // in use
     uint32_t transfer_components;
     uint32_t cluster_components;
     uint32_t bands;
 };
 
-Cost frame_cost(const Asset& model, const DecodeLimits& limits);
+Cost frame_cost(const CodedMesh& mesh, const DecodeLimits& limits);
 
 }  // namespace paim::player

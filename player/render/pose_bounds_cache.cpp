@@ -11,7 +11,7 @@ namespace paim::player {
 Bounds PoseBoundsCache::at(double time, uint32_t num_geometry_components) {
     if (num_geometry_components != num_components_ || bounds_.empty()) {
         num_components_ = num_geometry_components;
-        bounds_.assign(model_.num_poses(), std::nullopt);
+        bounds_.assign(asset_.num_poses(), std::nullopt);
     }
     const double clamped = std::clamp(time, 0.0, static_cast<double>(bounds_.size()) - 1.0);
     Bounds bounds = of_pose(static_cast<size_t>(std::floor(clamped)));
@@ -22,7 +22,7 @@ Bounds PoseBoundsCache::at(double time, uint32_t num_geometry_components) {
 }
 
 const Bounds& PoseBoundsCache::of_pose(size_t p) {
-    if (!bounds_[p]) bounds_[p] = pose_bounds(model_, static_cast<double>(p), num_components_);
+    if (!bounds_[p]) bounds_[p] = pose_bounds(asset_, static_cast<double>(p), num_components_);
     return *bounds_[p];
 }
 

@@ -11,8 +11,8 @@ namespace paim::player {
 
 class PoseBoundsCache {
   public:
-    // Keeps a reference to the model.
-    explicit PoseBoundsCache(const Asset& model) : model_(model) {}
+    // Keeps a reference to the asset.
+    explicit PoseBoundsCache(const Asset& asset) : asset_(asset) {}
 
     // Bounds that hold the mesh at `time` (in poses, clamped): those of the poses before and after,
     // between which every vertex moves on a straight line.
@@ -21,7 +21,7 @@ class PoseBoundsCache {
   private:
     const Bounds& of_pose(size_t p);
 
-    const Asset& model_;
+    const Asset& asset_;
     uint32_t num_components_ = 0;
     std::vector<std::optional<Bounds>> bounds_;  // [P] with num_components_, as far as known
 };

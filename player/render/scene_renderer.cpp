@@ -1,4 +1,4 @@
-// The model, then the background where there is none.
+// All parts, then the background where there is none.
 #include "player/render/scene_renderer.h"
 
 #include <utility>
@@ -7,52 +7,25 @@
 
 namespace paim::player {
 
-namespace {
-
-// The scenery as means without components.
-Asset scenery_model(const Asset& model) {
-    const Scenery& scenery = model.scenery;
-    Asset still;
-    still.topology = scenery.topology;
-    still.albedo = scenery.albedo;
-    still.layout = model.moving().layout;
-    const auto matrix = [&](uint32_t num_planes, const StillPlanes& planes) {
-        LowRank part;
-        part.num_points = scenery.topology.num_vertices;
-        part.num_planes = num_planes;
-        part.num_poses = model.num_poses();
-        part.mean = planes.values;
-        part.steps = planes.steps;
-        if (!part.mean.holds_floats()) {
-            part.precision = part.mean.holds_i8() ? Precision::i8 : Precision::i16;
-        }
-        return part;
-    };
-    still.geometry = matrix(3, scenery.positions);
-    still.transfer = matrix(model.moving().layout.num_planes(), scenery.transfer);
-    return still;
-}
-
-}  // namespace
-
-SceneRenderer::SceneRenderer(const Asset& model, const Image& environment,
+SceneRenderer::SceneRenderer(const Asset& asset, const Image& environment,
                              const DecodeLimits& limits) {
-    set_model(model, limits);
+    set_asset(asset, limits);
     set_environment(environment);
 }
 
-void SceneRenderer::set_model(const Asset& model, const DecodeLimits& limits) {
-    auto model_renderer = std::make_unique<ModelRenderer>(model, limits);
-    std::unique_ptr<Asset> scenery;
-    std::unique_ptr<ModelRenderer> scenery_renderer;
-    if (!model.scenery.empty()) {
-        scenery = std::make_unique<Asset>(scenery_model(model));
-        scenery_renderer = std::make_unique<ModelRenderer>(*scenery, limits);
+void SceneRenderer::set_asset(const Asset& asset, const DecodeLimits& limits) {
+    std::vector<std::unique_ptr<MeshRenderer>> parts;
+    for (const CodedMesh& mesh : asset.parts) {
+        parts.push_back(std::make_unique<MeshRenderer>(mesh, limits));
     }
-    model_renderer_ = std::move(model_renderer);
-    scenery_renderer_ = std::move(scenery_renderer);
-    scenery_ = std::move(scenery);
+    parts_ = std::move(parts);
     if (environment_ && light_.bands != static_cast<int>(plan().layout.in_bands)) project_light();
+}
+
+uint64_t SceneRenderer::texture_bytes() const {
+    uint64_t bytes = 0;
+    for (const auto& part : parts_) bytes += part->texture_bytes();
+    return bytes;
 }
 
 void SceneRenderer::set_environment(const Image& environment) {
@@ -75,8 +48,7 @@ void SceneRenderer::draw(const Frame& frame, const gl::Target& target) {
     const float aspect = static_cast<float>(target.width()) / static_cast<float>(target.height());
     target.bind();
     background_renderer_.clear(frame);
-    model_renderer_->draw(frame, turned_light_, aspect);
-    if (scenery_renderer_) scenery_renderer_->draw(frame, turned_light_, aspect);
+    for (const auto& part : parts_) part->draw(frame, turned_light_, aspect);
     background_renderer_.draw(frame, aspect);
 }
 

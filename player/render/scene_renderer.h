@@ -1,8 +1,9 @@
-// A model and its scenery under a light before their background: all that one frame needs.
+// All parts of an asset under a light before their background: all that one frame needs.
 #pragma once
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "paim/codec/asset.h"
 #include "paim/image/image.h"
@@ -11,32 +12,30 @@
 #include "player/gl/target.h"
 #include "player/render/background_renderer.h"
 #include "player/render/frame.h"
-#include "player/render/model_renderer.h"
+#include "player/render/mesh_renderer.h"
 
 namespace paim::player {
 
 class SceneRenderer {
   public:
-    // Keeps a reference to the model; the environment is copied. Nothing beyond the limits is
-    // uploaded. Errors (unsupported): the model does not fit into this driver's textures.
+    // Keeps a reference to the asset; the environment is copied. Nothing beyond the limits is
+    // uploaded. Errors (unsupported): the asset does not fit into this driver's textures, or this player
+    // does not draw its codec.
     // environment  lat-long, linear radiance; Error(bad input) if a value is negative or not finite
-    SceneRenderer(const Asset& model, const Image& environment, const DecodeLimits& limits);
+    SceneRenderer(const Asset& asset, const Image& environment, const DecodeLimits& limits);
 
-    // Shows this model from now on, under the same light, and keeps a reference to it. On an error
+    // Shows this asset from now on, under the same light, and keeps a reference to it. On an error
     // the old one stays.
-    void set_model(const Asset& model, const DecodeLimits& limits);
+    void set_asset(const Asset& asset, const DecodeLimits& limits);
 
     // Replaces light and background. On an error the old ones stay.
     void set_environment(const Image& environment);
 
-    // What of the model can be shown.
-    const UploadPlan& plan() const { return model_renderer_->plan(); }
+    // What can be shown of the part that moves.
+    const UploadPlan& plan() const { return parts_.front()->plan(); }
 
-    // Of the model and its scenery.
-    uint64_t texture_bytes() const {
-        return model_renderer_->texture_bytes() +
-               (scenery_renderer_ ? scenery_renderer_->texture_bytes() : 0);
-    }
+    // Of all parts.
+    uint64_t texture_bytes() const;
 
     // Draws into the target.
     void draw(const Frame& frame, const gl::Target& target);
@@ -47,9 +46,7 @@ class SceneRenderer {
   private:
     void project_light();
 
-    std::unique_ptr<ModelRenderer> model_renderer_;
-    std::unique_ptr<Asset> scenery_;  // as an animation that does not move, if the model has any
-    std::unique_ptr<ModelRenderer> scenery_renderer_;
+    std::vector<std::unique_ptr<MeshRenderer>> parts_;
     BackgroundRenderer background_renderer_;
     std::optional<EnvironmentLight> environment_;
     LightCoefficients light_;         // not turned

@@ -1,8 +1,10 @@
-// Transfer in textures, of either codec, and the light that it meets.
+// Transfer in textures, of any codec that the player draws, and the light that it meets.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "paim/codec/asset.h"
 #include "paim/light/light.h"
@@ -16,18 +18,27 @@ class TransferTextures {
   public:
     virtual ~TransferTextures() = default;
 
-    // What chooses the part of shaders/model.vert that reads these textures.
+    // Chooses the part of shaders/model.vert that reads these textures.
     virtual std::string defines() const = 0;
     virtual uint64_t size_bytes() const = 0;
 
-    // Uploads what changes with time and light, hands textures and counts to the program, which is
-    // in use, and returns the first texture unit that is free after those from `unit`.
+    // Uploads everything that changes with time and light, hands textures and counts to the program,
+    // which is in use, and returns the first texture unit that is free after those from `unit`.
     virtual int bind(const gl::Program& program, int unit, const Frame& frame,
                      const LightCoefficients& light) = 0;
 };
 
-// Uploads the model's transfer as planned. Keeps a reference to the model for what changes.
-std::unique_ptr<TransferTextures> make_transfer_textures(const Asset& model,
-                                                         const UploadPlan& plan);
+// How a codec's transfer gets into textures.
+struct TransferUploader {
+    std::string_view codec;
+    // Texels of the largest texture. Throws Error(unsupported) if the driver's cannot hold that many.
+    int64_t (*largest_texture)(const CodedMesh& mesh, const UploadPlan& plan, int max_texture_size);
+    // Uploads the transfer as planned. Keeps a reference to the mesh for everything that changes.
+    std::unique_ptr<TransferTextures> (*upload)(const CodedMesh& mesh, const UploadPlan& plan);
+};
+
+// Of the mesh's codec. Error (unsupported) if this player does not draw it. transfer_textures.cpp is
+// the one place that names codecs.
+const TransferUploader& find_uploader(const CodedMesh& mesh);
 
 }  // namespace paim::player

@@ -1,39 +1,40 @@
-// How a model is laid out in textures, and whether they hold it.
+// How a coded mesh is laid out in textures, and whether they hold it.
 #pragma once
 
 #include <cstdint>
 
-#include "paim/codec/mesh_decoder.h"
 #include "paim/codec/asset.h"
+#include "paim/codec/decode_limits.h"
 
 namespace paim::player {
 
-// Coefficients of one vertex in a texel.
+// Values of one vertex in a texel.
 constexpr uint32_t kGroupSize = 4;
 
-struct UploadPlan {
-    TransferLayout layout;         // of what can be shown: bands as limited
-    uint32_t geometry_components;  // that are uploaded
-    uint32_t transfer_components;  // likewise, or, of clusters, that their bases are rebuilt from
-    uint32_t cluster_components;   // that are uploaded; 0 without clusters
-    uint32_t groups_per_channel;   // texels of one vertex and channel, without clusters
-    int width_log2;                // of all textures
+// Texels that the coefficients of one vertex and channel take.
+inline uint32_t groups_of(const TransferLayout& layout) {
+    return (layout.num_coefficients() + kGroupSize - 1) / kGroupSize;
+}
 
-    uint32_t num_groups() const { return layout.channels * groups_per_channel; }
-    uint32_t cluster_groups() const { return (cluster_components + kGroupSize - 1) / kGroupSize; }
-    // Texels of the light products of a cluster: its mean, then the red, green and blue of every
-    // four components.
-    uint32_t product_texels() const { return 1 + 3 * cluster_groups(); }
+struct UploadPlan {
+    TransferLayout layout;             // of what can be shown: bands as limited
+    uint32_t geometry_components = 0;  // that are uploaded
+    uint32_t transfer_components = 0;  // likewise, over the poses
+    uint32_t cluster_components = 0;   // likewise, of every vertex
+    int width_log2 = 0;                // of all textures
+
+    uint32_t groups_per_channel() const { return groups_of(layout); }
+    uint32_t num_groups() const { return layout.channels * groups_per_channel(); }
 };
 
-// Texels of all components of the part, as if they were in one texture.
-int64_t geometry_texels(const Asset& model, uint32_t num_components);
-int64_t transfer_texels(const Asset& model, uint32_t num_components,
-                        uint32_t bands);  // no clusters
+// Texels of all components of the positions, as if they were in one texture.
+int64_t geometry_texels(const CodedMesh& mesh, uint32_t num_components);
 
-// Plans the upload of what of the model is within the limits. Throws Error(unsupported) that names
-// the texture limit, and the components that would fit, where a texture of at most max_texture_size
-// by max_texture_size cannot hold a part.
-UploadPlan plan_upload(const Asset& model, const DecodeLimits& limits, int max_texture_size);
+// Texels that a texture of at most max_texture_size by max_texture_size holds.
+int64_t texel_capacity(int max_texture_size);
+
+// Error (unsupported) that names the limit, and the components that would fit, if it holds fewer.
+void require_fit(const char* attribute, uint32_t num_components, int64_t num_texels,
+                 int max_texture_size);
 
 }  // namespace paim::player

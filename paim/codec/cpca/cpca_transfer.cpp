@@ -89,8 +89,9 @@ std::vector<Eigen::MatrixXd> CpcaTransfer::point_metrics() const {
 }
 
 std::vector<NamedNumber> CpcaTransfer::numbers() {
-    return {{"clusters", &clusters.num_clusters, 1, kMaxClusters},
-            {"cluster_components", &clusters.num_components, 0, kMaxClusterComponents}};
+    return {{"clusters", &clusters.num_clusters, 1, kMaxClusters, nullptr},
+            {"cluster_components", &clusters.num_components, 0, kMaxClusterComponents,
+             &DecodeLimits::cluster_components}};
 }
 
 uint32_t CpcaTransfer::start(uint32_t num_vertices) {

@@ -1,5 +1,5 @@
-// Uploading a model and drawing it.
-#include "player/render/model_renderer.h"
+// Uploading a mesh and drawing it.
+#include "player/render/mesh_renderer.h"
 
 #include <algorithm>
 #include <limits>
@@ -8,40 +8,41 @@
 #include "player/gl/check.h"
 #include "player/render/clip_from_world.h"
 #include "player/render/depth_range.h"
+#include "player/render/plan_upload.h"
 #include "player/render/value_textures.h"
 #include "player/shaders/sources.h"
 
 namespace paim::player {
 
-ModelRenderer::ModelRenderer(const Asset& model, const DecodeLimits& limits)
-    : model_(model),
-      plan_(plan_upload(model, limits, gl::max_texture_size())),
-      geometry_("geometry", model.moving().positions, {model.moving().topology.num_vertices, 1, 3, 3, 1},
+MeshRenderer::MeshRenderer(const CodedMesh& mesh, const DecodeLimits& limits)
+    : mesh_(mesh),
+      plan_(plan_upload(mesh, limits, gl::max_texture_size())),
+      geometry_("geometry", mesh.positions, {mesh.topology.num_vertices, 1, 3, 3, 1},
                 plan_.geometry_components, plan_.width_log2),
-      transfer_(make_transfer_textures(model, plan_)),
+      transfer_(find_uploader(mesh).upload(mesh, plan_)),
       program_("model", shaders::model_vert, shaders::model_frag,
                geometry_.defines() + transfer_->defines()),
       albedo_("the albedo", gl::TexelFormat::rgba32f, plan_.width_log2,
-              at_least_one(static_cast<int64_t>(model.moving().albedo.values.size()))) {
+              at_least_one(static_cast<int64_t>(mesh.albedo.values.size()))) {
     upload_albedo();
     upload_triangles();
 }
 
-uint64_t ModelRenderer::texture_bytes() const {
+uint64_t MeshRenderer::texture_bytes() const {
     return geometry_.size_bytes() + transfer_->size_bytes() + albedo_.size_bytes();
 }
 
-void ModelRenderer::upload_albedo() const {
+void MeshRenderer::upload_albedo() const {
     albedo_.upload([&](int64_t first, std::span<float> out) {
         for (size_t i = 0; i < out.size(); i += 4) {
-            const Vec3f& value = model_.moving().albedo.values[static_cast<size_t>(first) + i / 4];
+            const Vec3f& value = mesh_.albedo.values[static_cast<size_t>(first) + i / 4];
             std::copy_n(value.data(), 3, out.data() + i);
         }
     });
 }
 
-void ModelRenderer::upload_triangles() {
-    const auto& triangles = model_.moving().topology.triangles;
+void MeshRenderer::upload_triangles() {
+    const auto& triangles = mesh_.topology.triangles;
     if (triangles.size() > std::numeric_limits<GLsizei>::max() / 3) {
         throw_unsupported("{} triangles, OpenGL draws at most {} at once", triangles.size(),
                           std::numeric_limits<GLsizei>::max() / 3);
@@ -54,15 +55,15 @@ void ModelRenderer::upload_triangles() {
     gl::check_errors("uploading the triangles");
 }
 
-void ModelRenderer::draw(const Frame& frame, const LightCoefficients& light, float aspect) {
+void MeshRenderer::draw(const Frame& frame, const LightCoefficients& light, float aspect) {
     program_.use();
     int unit = geometry_.bind(program_, 0, frame.time, frame.limits.geometry_components);
     unit = transfer_->bind(program_, unit, frame, light);
     program_.set_texture("albedo", unit, albedo_.handle());
     program_.set("width_log2", plan_.width_log2);
-    program_.set("num_vertices", static_cast<int>(model_.moving().topology.num_vertices));
-    program_.set("albedo_stride", model_.moving().albedo.values.size() == 1 ? 0 : 1);
-    const LowRank& geometry = model_.moving().positions;
+    program_.set("num_vertices", static_cast<int>(mesh_.topology.num_vertices));
+    program_.set("albedo_stride", mesh_.albedo.values.size() == 1 ? 0 : 1);
+    const LowRank& geometry = mesh_.positions;
     program_.set("geometry_step", Vec3f(geometry.step(0), geometry.step(1), geometry.step(2)));
     const DepthRange depth = depth_range(frame.camera, frame.bounds);
     program_.set("clip_from_world", clip_from_world(frame.camera, aspect, depth));
@@ -71,7 +72,7 @@ void ModelRenderer::draw(const Frame& frame, const LightCoefficients& light, flo
     glDepthFunc(GL_LESS);
     glDisable(GL_CULL_FACE);
     glBindVertexArray(vertex_array_.id());
-    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(model_.moving().topology.triangles.size() * 3),
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(mesh_.topology.triangles.size() * 3),
                    GL_UNSIGNED_INT, nullptr);
 }
 

@@ -1,11 +1,14 @@
-// Clusters, coefficients, light products.
+// Codec cpca in textures: clusters, coefficients, radiance of bases.
 // Based on: Sloan, Hall, Hart and Snyder, Clustered Principal Components for Precomputed Radiance
 //           Transfer, 2003
-#include "player/render/cluster_transfer.h"
+#include "player/render/cpca/cpca_textures.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+
+#include "paim/base/check.h"
+#include "paim/base/error.h"
 
 #include "player/render/value_textures.h"
 
@@ -15,6 +18,41 @@ namespace {
 
 using gl::DataTexture;
 using gl::TexelFormat;
+
+// The mesh's transfer is clustered (checked).
+const VertexClusters& clusters_of(const CodedMesh& mesh) {
+    const auto* const transfer = mesh.transfer.as<CpcaTransfer>();
+    PAIM_CHECK(transfer != nullptr);
+    return transfer->clusters;
+}
+
+uint32_t cluster_groups(const UploadPlan& plan) {
+    return (plan.cluster_components + kGroupSize - 1) / kGroupSize;
+}
+
+// Texels of the radiance of a cluster's basis: its mean, then the red, green and blue of every four
+// components.
+uint32_t basis_texels(const UploadPlan& plan) {
+    return 1 + 3 * cluster_groups(plan);
+}
+
+// Of the largest texture that transfer takes.
+int64_t largest_texture(const CodedMesh& mesh, const UploadPlan& plan, int max_texture_size) {
+    // Textures hold clusters' numbers in 16 bits.
+    const uint32_t num_clusters = clusters_of(mesh).num_clusters;
+    PAIM_CHECK_LE(num_clusters, kMaxClusters);
+    const int64_t num_vertices = mesh.topology.num_vertices;
+    const int64_t largest = std::max({int64_t{cluster_groups(plan)} * num_vertices,
+                                      int64_t{basis_texels(plan)} * num_clusters, num_vertices});
+    if (largest > texel_capacity(max_texture_size)) {
+        throw_unsupported(
+            "{} components of {} clusters and {} vertices need {} texels, this driver's largest "
+            "texture (GL_MAX_TEXTURE_SIZE {}) holds {}: lower --cluster-components",
+            plan.cluster_components, num_clusters, num_vertices, largest, max_texture_size,
+            texel_capacity(max_texture_size));
+    }
+    return largest;
+}
 
 std::span<const StoredValues> arrays_of(const VertexClusters& clusters, const UploadPlan& plan) {
     return std::span(clusters.coefficients).first(plan.cluster_components);
@@ -51,40 +89,47 @@ DataTexture upload_coefficients(const VertexClusters& clusters, const UploadPlan
 
 }  // namespace
 
-ClusterTransfer::ClusterTransfer(const Asset& model, const UploadPlan& plan)
-    : clusters_(model.clusters),
+TransferUploader cpca_uploader() {
+    return {CpcaTransfer::kName, largest_texture,
+            [](const CodedMesh& mesh, const UploadPlan& plan) -> std::unique_ptr<TransferTextures> {
+                return std::make_unique<CpcaTextures>(mesh, plan);
+            }};
+}
+
+CpcaTextures::CpcaTextures(const CodedMesh& mesh, const UploadPlan& plan)
+    : clusters_(clusters_of(mesh)),
       plan_(plan),
-      light_(model),
+      player_(*mesh.transfer.as<CpcaTransfer>(), mesh.layout),
       num_wide_groups_((split_of(clusters_, plan).num_wide + kGroupSize - 1) / kGroupSize),
       cluster_(upload_indices(clusters_, plan)),
       wide_(upload_coefficients(clusters_, plan, 0, num_wide_groups_,
                                 split_of(clusters_, plan).wide)),
-      narrow_(upload_coefficients(clusters_, plan, num_wide_groups_, plan.cluster_groups(),
+      narrow_(upload_coefficients(clusters_, plan, num_wide_groups_, cluster_groups(plan),
                                   TexelFormat::rgba8i)),
-      products_("the light products of clusters", TexelFormat::rgba32f, plan.width_log2,
-                int64_t{clusters_.num_clusters} * plan.product_texels()) {
-    scratch_.resize(size_t{clusters_.num_clusters} * plan.product_texels() * kGroupSize);
+      basis_radiance_("the radiance of bases", TexelFormat::rgba32f, plan.width_log2,
+                int64_t{clusters_.num_clusters} * basis_texels(plan)) {
+    scratch_.resize(size_t{clusters_.num_clusters} * basis_texels(plan) * kGroupSize);
 }
 
-std::string ClusterTransfer::defines() const {
+std::string CpcaTextures::defines() const {
     return fmt::format("#define CLUSTERED\n#define coefficients_wide_sampler {}\n",
                        gl::sampler_type(wide_.format()));
 }
 
-uint64_t ClusterTransfer::size_bytes() const {
+uint64_t CpcaTextures::size_bytes() const {
     return cluster_.size_bytes() + wide_.size_bytes() + narrow_.size_bytes() +
-           products_.size_bytes();
+           basis_radiance_.size_bytes();
 }
 
-void ClusterTransfer::update_products(const Frame& frame, const LightCoefficients& light) {
+void CpcaTextures::update_basis_radiance(const Frame& frame, const LightCoefficients& light) {
     DecodeLimits limits = frame.limits;
     limits.bands = std::min(limits.bands, plan_.layout.in_bands);
     limits.transfer_components = std::min(limits.transfer_components, plan_.transfer_components);
-    light_.basis_radiance(frame.time, limits, light, row_products_);
+    player_.basis_radiance(frame.time, limits, light, row_radiance_);
     const uint32_t stride = clusters_.rows_per_cluster();
     for (size_t c = 0; c < clusters_.num_clusters; ++c) {
-        const Vec3f* rows = row_products_.data() + c * stride;
-        float* to = scratch_.data() + c * plan_.product_texels() * kGroupSize;
+        const Vec3f* rows = row_radiance_.data() + c * stride;
+        float* to = scratch_.data() + c * basis_texels(plan_) * kGroupSize;
         std::copy_n(rows[0].data(), 3, to);
         for (uint32_t j = 0; j < plan_.cluster_components; ++j) {
             float* group = to + (1 + 3 * (j / kGroupSize)) * kGroupSize + j % kGroupSize;
@@ -93,20 +138,20 @@ void ClusterTransfer::update_products(const Frame& frame, const LightCoefficient
             }
         }
     }
-    products_.update(scratch_);
+    basis_radiance_.update(scratch_);
 }
 
-int ClusterTransfer::bind(const gl::Program& program, int unit, const Frame& frame,
+int CpcaTextures::bind(const gl::Program& program, int unit, const Frame& frame,
                           const LightCoefficients& light) {
-    update_products(frame, light);
+    update_basis_radiance(frame, light);
     program.set_texture("cluster", unit++, cluster_.handle());
     program.set_texture("coefficients_wide", unit++, wide_.handle());
     program.set_texture("coefficients_narrow", unit++, narrow_.handle());
-    program.set_texture("basis_radiance", unit++, products_.handle());
+    program.set_texture("basis_radiance", unit++, basis_radiance_.handle());
     const uint32_t components = std::min(frame.limits.cluster_components, plan_.cluster_components);
     const uint32_t groups = (components + kGroupSize - 1) / kGroupSize;
     const uint32_t wide_groups = std::min(groups, num_wide_groups_);
-    program.set("product_texels", static_cast<int>(plan_.product_texels()));
+    program.set("product_texels", static_cast<int>(basis_texels(plan_)));
     program.set("num_wide_groups", static_cast<int>(wide_groups));
     program.set("num_narrow_groups", static_cast<int>(groups - wide_groups));
     return unit;

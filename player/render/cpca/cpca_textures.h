@@ -1,5 +1,5 @@
-// Clustered transfer: the light products of all bases in a small texture, and of every vertex the
-// cluster and the coefficients, so that no triangle cares where clusters meet.
+// Codec cpca in textures: the radiance of all bases in a small one, and of every vertex the cluster and
+// the coefficients, so that triangles may cross from one cluster to another.
 // Based on: Sloan, Hall, Hart and Snyder, Clustered Principal Components for Precomputed Radiance
 //           Transfer, 2003
 #pragma once
@@ -12,9 +12,9 @@
 
 namespace paim::player {
 
-class ClusterTransfer : public TransferTextures {
+class CpcaTextures : public TransferTextures {
   public:
-    ClusterTransfer(const Asset& model, const UploadPlan& plan);
+    CpcaTextures(const CodedMesh& mesh, const UploadPlan& plan);
 
     std::string defines() const override;
     uint64_t size_bytes() const override;
@@ -22,18 +22,20 @@ class ClusterTransfer : public TransferTextures {
              const LightCoefficients& light) override;
 
   private:
-    void update_products(const Frame& frame, const LightCoefficients& light);
+    void update_basis_radiance(const Frame& frame, const LightCoefficients& light);
 
     const VertexClusters& clusters_;
     UploadPlan plan_;
-    ClusterLight light_;
+    CpcaPlayer player_;
     uint32_t num_wide_groups_;  // of four components that are not all 8-bit integers
     gl::DataTexture cluster_;
     gl::DataTexture wide_;    // coefficients of the first groups
     gl::DataTexture narrow_;  // of the others
-    gl::DataTexture products_;
-    std::vector<Vec3f> row_products_;
-    std::vector<float> scratch_;  // products as the texture holds them
+    gl::DataTexture basis_radiance_;
+    std::vector<Vec3f> row_radiance_;
+    std::vector<float> scratch_;  // as the texture holds them
 };
+
+TransferUploader cpca_uploader();
 
 }  // namespace paim::player

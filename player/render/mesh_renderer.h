@@ -1,4 +1,4 @@
-// Draws poses of a compressed animation: the vertex shader rebuilds and shades them.
+// Draws poses of one coded mesh: the vertex shader rebuilds and shades them.
 #pragma once
 
 #include <memory>
@@ -14,12 +14,12 @@
 
 namespace paim::player {
 
-class ModelRenderer {
+class MeshRenderer {
   public:
-    // Uploads what of the model is within the limits; frames cannot show more. Keeps a reference to
-    // the model for what changes with time and light. Throws Error(unsupported) if it does not fit
+    // Uploads the mesh within the limits; frames cannot show more. Keeps a reference to the mesh for
+    // everything that changes with time and light. Throws Error(unsupported) if it does not fit
     // (render/upload_plan.h).
-    ModelRenderer(const Asset& model, const DecodeLimits& limits);
+    MeshRenderer(const CodedMesh& mesh, const DecodeLimits& limits);
 
     const UploadPlan& plan() const { return plan_; }
 
@@ -34,7 +34,7 @@ class ModelRenderer {
     void upload_albedo() const;
     void upload_triangles();
 
-    const Asset& model_;
+    const CodedMesh& mesh_;
     UploadPlan plan_;
     LowRankTextures geometry_;
     std::unique_ptr<TransferTextures> transfer_;

@@ -1,4 +1,4 @@
-// Transfer of every vertex, as mean + components · weights.
+// Codec svd in textures: transfer of every vertex, as mean + components · weights.
 #pragma once
 
 #include <vector>
@@ -8,9 +8,9 @@
 
 namespace paim::player {
 
-class VertexTransfer : public TransferTextures {
+class SvdTextures : public TransferTextures {
   public:
-    VertexTransfer(const Asset& model, const UploadPlan& plan);
+    SvdTextures(const CodedMesh& mesh, const UploadPlan& plan);
 
     std::string defines() const override { return matrix_.defines(); }
     uint64_t size_bytes() const override { return matrix_.size_bytes() + light_.size_bytes(); }
@@ -20,11 +20,16 @@ class VertexTransfer : public TransferTextures {
   private:
     void update_light(const LightCoefficients& light, uint32_t bands);
 
-    const Asset& model_;
+    const CodedMesh& mesh_;
     UploadPlan plan_;
     LowRankTextures matrix_;
     gl::DataTexture light_;
     std::vector<float> scratch_;
 };
+
+TransferUploader svd_uploader();
+
+// Texels of all components, as if they were in one texture.
+int64_t svd_transfer_texels(const CodedMesh& mesh, uint32_t num_components, uint32_t bands);
 
 }  // namespace paim::player
