@@ -77,6 +77,7 @@ struct Lanes {
                                     _mm_broadcast_ss(values + 1), 1);
     }
 };
+#include "paim/codec/vector_kernels.inc"
 #undef PAIM_TARGET
 #undef PAIM_TARGET_INLINE
 
@@ -118,6 +119,7 @@ struct Lanes {
             kAll, _mm512_maskz_broadcast_f32x4(kAll, _mm_loadu_ps(values)), each_four);
     }
 };
+#include "paim/codec/vector_kernels.inc"
 #undef PAIM_TARGET
 #undef PAIM_TARGET_INLINE
 

@@ -70,19 +70,19 @@ void expect_back_to_rounding(const LowRank& matrix, uint32_t p,
 }
 
 TEST_F(Encode, AllComponentsGiveTheBakeBack) {
-    const Asset model = encode_with(kAll, kAll);
-    EXPECT_EQ(model.moving().positions.num_components, kNumPoses - 1);
-    EXPECT_EQ(model.moving().transfer->matrix.num_components, kNumPoses - 1);
+    const Asset asset = encode_with(kAll, kAll);
+    EXPECT_EQ(asset.moving().positions.num_components, kNumPoses - 1);
+    EXPECT_EQ(asset.moving().transfer->matrix.num_components, kNumPoses - 1);
     const BakeReader bake(directory_ / "x.bake");
-    EXPECT_EQ(model.moving().topology, bake.topology());
-    EXPECT_EQ(model.moving().albedo.values, bake.albedo().values);
-    const SvdDecoder decoder(model);
+    EXPECT_EQ(asset.moving().topology, bake.topology());
+    EXPECT_EQ(asset.moving().albedo.values, bake.albedo().values);
+    const SvdDecoder decoder(asset);
     DecodedPose pose;
     for (uint32_t p = 0; p < kNumPoses; ++p) {
         decoder.decode(p, {}, pose);
         const BakedPose baked = bake.read_pose(p);
-        expect_back_to_rounding(model.moving().positions, p, pose.positions, baked.positions);
-        expect_back_to_rounding(model.moving().transfer->matrix, p, pose.transfer, baked.transfer);
+        expect_back_to_rounding(asset.moving().positions, p, pose.positions, baked.positions);
+        expect_back_to_rounding(asset.moving().transfer->matrix, p, pose.transfer, baked.transfer);
     }
 }
 
@@ -117,8 +117,8 @@ TEST_F(Encode, TruncationErrorIsWhatTheDroppedSingularValuesSay) {
         positions.push_back(std::move(pose.positions));
         transfer.push_back(std::move(pose.transfer));
     }
-    const auto check = [&](const Asset& model, const DecodeLimits& limits) {
-        const SvdDecoder decoder(model);
+    const auto check = [&](const Asset& asset, const DecodeLimits& limits) {
+        const SvdDecoder decoder(asset);
         std::vector<std::vector<float>> decoded_positions, decoded_transfer;
         DecodedPose pose;
         for (uint32_t p = 0; p < kNumPoses; ++p) {
@@ -129,8 +129,8 @@ TEST_F(Encode, TruncationErrorIsWhatTheDroppedSingularValuesSay) {
         const auto kept = [](const LowRank& matrix, uint32_t limit) {
             return energy_error(matrix.singular_values, std::min(matrix.num_components, limit));
         };
-        const double geometry = kept(model.moving().positions, limits.geometry_components);
-        const double light = kept(model.moving().transfer->matrix, limits.transfer_components);
+        const double geometry = kept(asset.moving().positions, limits.geometry_components);
+        const double light = kept(asset.moving().transfer->matrix, limits.transfer_components);
         ASSERT_GT(geometry, 0.05);
         ASSERT_GT(light, 0.05);
         EXPECT_NEAR(relative_error(decoded_positions, positions) / geometry, 1.0, 1e-6);
@@ -168,9 +168,9 @@ TEST_F(Encode, StillAnimationsNeedNoComponents) {
         const EncodeSummary summary = encode(bake, options, directory_ / "still.paim");
         EXPECT_EQ(summary.geometry_components + summary.transfer_components, 0u);
         EXPECT_EQ(summary.transfer_energy_error, 0.0);
-        const Asset model = read_paim(directory_ / "still.paim");
-        EXPECT_EQ(model.moving().positions.mean.floats(), bake.read_pose(0).positions);
-        EXPECT_EQ(model.moving().transfer->matrix.mean.floats(), bake.read_pose(0).transfer);
+        const Asset asset = read_paim(directory_ / "still.paim");
+        EXPECT_EQ(asset.moving().positions.mean.floats(), bake.read_pose(0).positions);
+        EXPECT_EQ(asset.moving().transfer->matrix.mean.floats(), bake.read_pose(0).transfer);
     }
 }
 
@@ -193,11 +193,11 @@ TEST_F(Encode, PosesThatAreAllTheSameNeedNoneAndLoseNothing) {
                                    summary.geometry_energy_error, summary.transfer_energy_error}) {
             EXPECT_EQ(error, 0.0);
         }
-        const Asset model = read_paim(directory_ / "same.paim");
-        EXPECT_EQ(model.moving().positions.mean.floats(), pose.positions);
-        EXPECT_EQ(model.moving().transfer->matrix.mean.floats(), pose.transfer);
-        EXPECT_EQ(theory_error(model.moving().transfer->matrix.singular_values, 0), 0.0);
-        EXPECT_EQ(energy_error(model.moving().positions.singular_values, 0), 0.0);
+        const Asset asset = read_paim(directory_ / "same.paim");
+        EXPECT_EQ(asset.moving().positions.mean.floats(), pose.positions);
+        EXPECT_EQ(asset.moving().transfer->matrix.mean.floats(), pose.transfer);
+        EXPECT_EQ(theory_error(asset.moving().transfer->matrix.singular_values, 0), 0.0);
+        EXPECT_EQ(energy_error(asset.moving().positions.singular_values, 0), 0.0);
     }
 }
 

@@ -127,9 +127,9 @@ TEST_F(Options, FewerBandsAreTheFirstPlanes) {
 
     expect_success(compress({"encode", path("x.bake"), "-o", path("3.paim"), "--bands", "3",
                              "--transfer-components", "all"}));
-    const Asset model = read_paim(path("3.paim"));
+    const Asset asset = read_paim(path("3.paim"));
     const BakeReader bake(path("x.bake"));
-    const SvdDecoder decoder(model);
+    const SvdDecoder decoder(asset);
     DecodedPose pose;
     for (uint32_t p = 0; p < 4; ++p) {
         decoder.decode(p, {}, pose);

@@ -19,23 +19,23 @@ class Prefixes : public ToolTest {
         make_bake("x.bake");
         expect_success(compress({"encode", path("x.bake"), "-o", path("x.paim"),
                                  "--transfer-components", "3", "--geometry-components", "1"}));
-        model_ = read_paim(path("x.paim"));
-        error_ = measure_asset(model_, BakeReader(path("x.bake")), BandPower::natural());
+        asset_ = read_paim(path("x.paim"));
+        error_ = measure_asset(asset_, BakeReader(path("x.bake")), BandPower::natural());
     }
 
     std::string state(bool stated) {
-        json provenance = json::parse(model_.provenance_json);
+        json provenance = json::parse(asset_.provenance_json);
         provenance.erase("measured");
         if (stated) {
             provenance["measured"] =
                 json::parse(error_statement_json(error_, BandPower::natural()));
         }
-        model_.provenance_json = provenance.dump();
-        write_paim(path("x.paim"), model_);
+        asset_.provenance_json = provenance.dump();
+        write_paim(path("x.paim"), asset_);
         return path("x.paim");
     }
 
-    Asset model_;
+    Asset asset_;
     AssetError error_;
 };
 
@@ -76,8 +76,8 @@ TEST_F(Prefixes, HaveTheErrorsThatAreListed) {
     for (size_t j = report["prefixes"].size(); j-- > 0;) {
         const json& entry = report["prefixes"][j];
         std::filesystem::resize_file(file, entry["size_bytes"].get<uint64_t>());
-        const Asset model = read_paim(file, {.progressive = true});
-        const AssetError error = measure_asset(model, bake, BandPower::natural());
+        const Asset asset = read_paim(file, {.progressive = true});
+        const AssetError error = measure_asset(asset, bake, BandPower::natural());
         // Geometry has no noise: what is missing is orthogonal but for f32.
         const double rms = error.geometry.rms();
         EXPECT_NEAR(entry["position_rms"], rms, 1e-4 * rms + 1e-6);
@@ -115,7 +115,7 @@ TEST_F(Prefixes, OfFilesThatStateNothingSaySo) {
 }
 
 TEST_F(Prefixes, OfLongListsAreThinnedOutForPeopleOnly) {
-    for (LowRank* matrix : {&model_.moving().positions, &model_.moving().transfer->matrix}) {
+    for (LowRank* matrix : {&asset_.moving().positions, &asset_.moving().transfer->matrix}) {
         const StoredValues component = matrix->components[0];
         matrix->num_poses = matrix->num_components = 40;
         matrix->components.assign(40, component);

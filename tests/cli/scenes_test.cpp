@@ -172,8 +172,8 @@ TEST_F(Scenes, StaticFilesAreWithinATargetToo) {
         compress({"encode", path("x.bake"), "-o", path("x.paim"), "--max-error", "10%"});
     expect_success(said);
     EXPECT_TRUE(contains(said.out, "scenery: transfer ")) << said.out;
-    const Asset model = read_paim(path("x.paim"));
-    EXPECT_FALSE(model.scenery.transfer.values.holds_floats());
+    const Asset asset = read_paim(path("x.paim"));
+    EXPECT_FALSE(asset.scenery.transfer.values.holds_floats());
     const auto json =
         parse_object(analyze({path("x.bake"), "--verify", path("x.paim"), "--json"}))["errors"];
     for (const char* name : {"scenery_transfer_total_error", "scenery_position_worst"}) {
@@ -183,7 +183,7 @@ TEST_F(Scenes, StaticFilesAreWithinATargetToo) {
     EXPECT_LE(json["scenery_transfer_total_error"]["measured"], 0.1);
 
     // One that was changed is found out.
-    Asset worse = model;
+    Asset worse = asset;
     worse.scenery.transfer.steps[0] *= 1.5f;
     write_paim(path("worse.paim"), worse);
     const ToolResult found = analyze({path("x.bake"), "--verify", path("worse.paim")});
@@ -208,12 +208,12 @@ TEST_F(Scenes, StaticFilesAreStoredOnceAndNamed) {
                    {path("none.obj") + ": cannot open"});
 
     expect_success(compress({"encode", path("x.bake"), "-o", path("x.paim"), "--bands", "1"}));
-    const Asset model = read_paim(path("x.paim"));
+    const Asset asset = read_paim(path("x.paim"));
     const BakeReader reader(path("x.bake"));
-    ASSERT_EQ(model.scenery.topology.num_vertices, 59u);
-    EXPECT_EQ(model.scenery.positions.floats(), reader.scenery()->pose.positions);
+    ASSERT_EQ(asset.scenery.topology.num_vertices, 59u);
+    EXPECT_EQ(asset.scenery.positions.floats(), reader.scenery()->pose.positions);
     const auto& baked = reader.scenery()->pose.transfer;  // of two bands, the first is kept
-    EXPECT_EQ(model.scenery.transfer.floats(),
+    EXPECT_EQ(asset.scenery.transfer.floats(),
               std::vector<float>(baked.begin(), baked.begin() + 59));
     for (const std::string file : {"x.bake", "x.paim"}) {
         EXPECT_EQ(parse_object(info({path(file), "--json"}))["scenery_triangles"], 109);

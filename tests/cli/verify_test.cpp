@@ -23,13 +23,13 @@ class Verify : public ToolTest {
 
     // The encoded file, which states what is measured of it, changed by `change`.
     std::string state(const BandPower& spectrum, const std::function<void(json&)>& change) {
-        Asset model = read_paim(path("encoded.paim"));
-        const AssetError error = measure_asset(model, BakeReader(path("x.bake")), spectrum);
-        json provenance = json::parse(model.provenance_json);
+        Asset asset = read_paim(path("encoded.paim"));
+        const AssetError error = measure_asset(asset, BakeReader(path("x.bake")), spectrum);
+        json provenance = json::parse(asset.provenance_json);
         provenance["measured"] = json::parse(error_statement_json(error, spectrum));
         change(provenance);
-        model.provenance_json = provenance.dump();
-        write_paim(path("x.paim"), model);
+        asset.provenance_json = provenance.dump();
+        write_paim(path("x.paim"), asset);
         return path("x.paim");
     }
     std::string state(const std::function<void(json&)>& change = [](json&) {}) {

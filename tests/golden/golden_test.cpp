@@ -11,7 +11,7 @@
 #include "paim/codec/mesh_decoder.h"
 #include "paim/format/paim/paim_read.h"
 #include "paim/format/paim/paim_write.h"
-#include "tests/example_model.h"
+#include "tests/example_asset.h"
 #include "tests/temporary_directory.h"
 
 namespace paim {
@@ -19,78 +19,82 @@ namespace {
 
 const std::filesystem::path kNewest = std::filesystem::path(PAIM_GOLDEN_DIR) / "example_v1.paim";
 
-Asset golden_model() {
-    Asset model = make_example_model(2, 1, 3, 2);
-    model.moving().transfer->matrix.precision = Precision::f16;
-    return model;
+Asset golden_asset() {
+    Asset asset = make_example_asset(2, 1, 3, 2);
+    asset.moving().transfer->matrix.precision = Precision::f16;
+    return asset;
 }
 
 TEST(Golden, WritesTheNewestFileByteForByte) {
-    if (std::getenv("PAIM_UPDATE_GOLDEN") != nullptr) write_paim(kNewest, golden_model());
+    if (std::getenv("PAIM_UPDATE_GOLDEN") != nullptr) write_paim(kNewest, golden_asset());
     const TemporaryDirectory directory;
-    write_paim(directory / "x.paim", golden_model());
+    write_paim(directory / "x.paim", golden_asset());
     EXPECT_EQ(read_file(directory / "x.paim", 1 << 20), read_file(kNewest, 1 << 20));
 }
 
-// Scenery came later, as sections that earlier readers pass over.
-const std::filesystem::path kScenery =
+// What stands still came later, as sections that earlier readers pass over.
+const std::filesystem::path kStill =
     std::filesystem::path(PAIM_GOLDEN_DIR) / "example_v1_scenery.paim";
 
-Asset golden_model_with_scenery() {
-    Asset model = golden_model();
-    model.scenery = make_example_scenery(model.moving().layout);
-    return model;
+Asset golden_asset_with_still() {
+    const Asset asset = golden_asset();
+    return with_still(asset, make_example_still(asset.moving().layout));
 }
 
-TEST(Golden, WritesSceneryByteForByte) {
+TEST(Golden, WritesWhatStandsStillByteForByte) {
     if (std::getenv("PAIM_UPDATE_GOLDEN") != nullptr) {
-        write_paim(kScenery, golden_model_with_scenery());
+        write_paim(kStill, golden_asset_with_still());
     }
     const TemporaryDirectory directory;
-    write_paim(directory / "x.paim", golden_model_with_scenery());
-    EXPECT_EQ(read_file(directory / "x.paim", 1 << 20), read_file(kScenery, 1 << 20));
+    write_paim(directory / "x.paim", golden_asset_with_still());
+    EXPECT_EQ(read_file(directory / "x.paim", 1 << 20), read_file(kStill, 1 << 20));
 }
 
-TEST(Golden, ReadsScenery) {
-    const Scenery scenery = read_paim(kScenery).scenery;
-    const Scenery expected = golden_model_with_scenery().scenery;
-    EXPECT_EQ(scenery.topology, expected.moving().topology);
-    EXPECT_EQ(scenery.albedo.values, expected.moving().albedo.values);
-    EXPECT_EQ(scenery.positions, expected.positions);
-    EXPECT_EQ(scenery.transfer, expected.moving().transfer->matrix);
+TEST(Golden, ReadsWhatStandsStill) {
+    const Asset asset = read_paim(kStill), expected = golden_asset_with_still();
+    ASSERT_NE(asset.still(), nullptr);
+    EXPECT_EQ(asset.still()->topology, expected.still()->topology);
+    EXPECT_EQ(asset.still()->albedo.values, expected.still()->albedo.values);
+    EXPECT_EQ(asset.still()->positions, expected.still()->positions);
+    EXPECT_EQ(asset.still()->transfer->matrix, expected.still()->transfer->matrix);
 }
 
 // Integers of every kind. Read, not written: bytes depend on the version of Zstandard.
-Asset golden_model_of_integers() {
-    Asset model = make_clustered_example(3, 3, 2, true);
-    model.vertex_order = VertexOrder::cache;
-    model.scenery = make_quantised_scenery(model.moving().layout);
-    return model;
+Asset golden_asset_of_integers() {
+    Asset asset = make_clustered_example(3, 3, 2, true);
+    asset.vertex_order = VertexOrder::cache;
+    return with_still(asset, make_quantised_still(asset.moving().layout));
 }
 
 TEST(Golden, ReadsIntegers) {
     const std::filesystem::path file =
         std::filesystem::path(PAIM_GOLDEN_DIR) / "example_v1_integers.paim";
-    if (std::getenv("PAIM_UPDATE_GOLDEN") != nullptr) write_paim(file, golden_model_of_integers());
-    const Asset model = read_paim(file), expected = golden_model_of_integers();
+    if (std::getenv("PAIM_UPDATE_GOLDEN") != nullptr) write_paim(file, golden_asset_of_integers());
+    const Asset asset = read_paim(file), expected = golden_asset_of_integers();
     for (const Attribute attribute : {Attribute::geometry, Attribute::transfer}) {
-        EXPECT_EQ(model.moving().attribute(attribute).mean, expected.moving().attribute(attribute).mean);
-        EXPECT_EQ(model.moving().attribute(attribute).components, expected.moving().attribute(attribute).components);
-        EXPECT_EQ(model.moving().attribute(attribute).steps, expected.moving().attribute(attribute).steps);
+        const LowRank& matrix = asset.moving().attribute(attribute);
+        const LowRank& numbers = expected.moving().attribute(attribute);
+        EXPECT_EQ(matrix.mean, numbers.mean);
+        EXPECT_EQ(matrix.components, numbers.components);
+        EXPECT_EQ(matrix.steps, numbers.steps);
     }
-    EXPECT_EQ(model.clusters.cluster, expected.clusters.cluster);
-    EXPECT_EQ(model.clusters.coefficients, expected.clusters.coefficients);
-    EXPECT_EQ(model.scenery.positions, expected.scenery.positions);
-    EXPECT_EQ(model.scenery.transfer, expected.scenery.transfer);
+    const auto* const cpca = asset.moving().transfer.as<CpcaTransfer>();
+    ASSERT_NE(cpca, nullptr);
+    const VertexClusters& clusters = expected.moving().transfer.as<CpcaTransfer>()->clusters;
+    EXPECT_EQ(cpca->clusters.cluster, clusters.cluster);
+    EXPECT_EQ(cpca->clusters.coefficients, clusters.coefficients);
+    ASSERT_NE(asset.still(), nullptr);
+    EXPECT_EQ(asset.still()->positions, expected.still()->positions);
+    EXPECT_EQ(asset.still()->transfer->matrix, expected.still()->transfer->matrix);
 }
 
 TEST(Golden, ReadsVersionOne) {
-    const Asset model = read_paim(std::filesystem::path(PAIM_GOLDEN_DIR) / "example_v1.paim");
-    const Asset expected = golden_model();
-    EXPECT_EQ(model.moving().topology, expected.moving().topology);
-    EXPECT_EQ(model.moving().positions.components, expected.moving().positions.components);
+    const Asset asset = read_paim(std::filesystem::path(PAIM_GOLDEN_DIR) / "example_v1.paim");
+    const Asset expected = golden_asset();
+    EXPECT_EQ(asset.moving().topology, expected.moving().topology);
+    EXPECT_EQ(asset.moving().positions.components, expected.moving().positions.components);
     DecodedPose pose;
-    SvdDecoder(model).decode(1.0, {}, pose);
+    MeshDecoder(asset.moving()).decode(1.0, {}, pose);
     // Row 0 of pose 1, mean + Σ weight · component, worked out once by another program.
     EXPECT_FLOAT_EQ(pose.positions[0], 0.170600212f);
 }

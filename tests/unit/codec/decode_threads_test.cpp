@@ -1,12 +1,48 @@
 // Decoded frames: the same bytes on any number of threads, and as the plain loops give them, of
-// models of many pieces of work.
+// meshes of many pieces of work.
 #include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
 
 #include "paim/base/parallel.h"
 #include "paim/base/seed.h"
 #include "paim/codec/accumulate.h"
-#include "paim/codec/rebuild_planes.h"
+#include "paim/codec/cpca/cpca_transfer.h"
 #include "paim/codec/mesh_decoder.h"
+#include "paim/codec/rebuild_planes.h"
+#include "paim/codec/svd/svd_transfer.h"
+
+// Pieces of memory large enough to hold values of a pose that were taken since the program began.
+static std::atomic<int> num_large_pieces{0};
+
+static void* take(size_t size, size_t alignment) {
+    constexpr size_t kLarge = 1000;
+    if (size >= kLarge) ++num_large_pieces;
+    void* const memory =
+        std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+    if (memory == nullptr) throw std::bad_alloc();
+    return memory;
+}
+void* operator new(size_t size) {
+    return take(std::max<size_t>(size, 1), __STDCPP_DEFAULT_NEW_ALIGNMENT__);
+}
+void* operator new(size_t size, std::align_val_t alignment) {
+    return take(std::max<size_t>(size, 1), static_cast<size_t>(alignment));
+}
+void operator delete(void* memory) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, size_t) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::align_val_t) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, size_t, std::align_val_t) noexcept {
+    std::free(memory);
+}
 
 namespace paim {
 namespace {
@@ -39,17 +75,17 @@ LowRank random_matrix(uint32_t num_points, uint32_t num_planes) {
     return matrix;
 }
 
-Asset random_model(bool clustered) {
-    Asset model;
-    model.moving().topology.num_vertices = kVertices;
-    model.moving().layout = {TransferKind::diffuse, 3, 1};
-    model.moving().positions = random_matrix(kVertices, 3);
+CodedMesh random_mesh(bool clustered) {
+    CodedMesh mesh;
+    mesh.topology.num_vertices = kVertices;
+    mesh.layout = {TransferKind::diffuse, 3, 1};
+    mesh.positions = random_matrix(kVertices, 3);
     if (!clustered) {
-        model.moving().transfer->matrix = random_matrix(kVertices, 9);
-        return model;
+        mesh.transfer = SvdTransfer(random_matrix(kVertices, 9));
+        return mesh;
     }
     RandomStream random(4);
-    VertexClusters& clusters = model.clusters;
+    VertexClusters clusters;
     clusters.num_clusters = 7;
     clusters.num_components = 4;
     for (uint32_t v = 0; v < kVertices; ++v) {
@@ -59,33 +95,34 @@ Asset random_model(bool clustered) {
         clusters.coefficients.push_back(random_values<int8_t>(random, kVertices, 127.0));
     }
     clusters.scales.assign(clusters.num_rows(), 0.5f);
-    model.moving().transfer->matrix = random_matrix(clusters.num_rows(), 9);
-    return model;
+    LowRank bases = random_matrix(clusters.num_rows(), 9);
+    mesh.transfer = CpcaTransfer(std::move(bases), std::move(clusters));
+    return mesh;
 }
 
 TEST(DecodeThreads, GiveTheSameBytes) {
     for (const bool clustered : {false, true}) {
-        const Asset model = random_model(clustered);
-        const std::unique_ptr<Decoder> decoder = make_decoder(model);
+        const CodedMesh mesh = random_mesh(clustered);
+        MeshDecoder decoder(mesh);
         DecodedPose one, some;
         {
             const ThreadLimit limit(1);
-            decoder->decode(1.3, {}, one);
+            decoder.decode(1.3, {}, one);
         }
         for (const int num_threads : {2, 3, 7}) {
             const ThreadLimit limit(num_threads);
-            decoder->decode(1.3, {}, some);
+            decoder.decode(1.3, {}, some);
             EXPECT_EQ(some.positions, one.positions);
-            EXPECT_EQ(some.moving().transfer->matrix, one.transfer);
+            EXPECT_EQ(some.transfer, one.transfer);
         }
     }
 }
 
 TEST(DecodeThreads, GiveTheBytesOfThePlainLoop) {
-    const Asset model = random_model(false);
+    const CodedMesh mesh = random_mesh(false);
     DecodedPose pose;
-    make_decoder(model)->decode(1.3, {}, pose);
-    const LowRank& matrix = model.moving().transfer->matrix;
+    MeshDecoder(mesh).decode(1.3, {}, pose);
+    const LowRank& matrix = mesh.transfer->matrix;
     std::vector<float> weights, plane(kVertices);
     interpolate_weights(matrix, 1.3, weights);
     for (uint32_t j = 0; j < matrix.num_planes; ++j) {
@@ -96,19 +133,21 @@ TEST(DecodeThreads, GiveTheBytesOfThePlainLoop) {
     }
 }
 
-// Frames of one model into one pose: the work space is that of the first.
+// Frames of one decoder into one pose: the work space is that of the first. The smallest, the rows of
+// the bases, has 35 rows of 9 planes: 1260 bytes.
 TEST(DecodeThreads, KeepTheWorkSpace) {
-    const Asset model = random_model(true);
-    const std::unique_ptr<Decoder> decoder = make_decoder(model);
-    DecodedPose pose;
-    decoder->decode(0.0, {}, pose);
-    const std::vector<const float*> before{pose.positions.data(), pose.transfer.data(),
-                                           pose.basis_rows.data(), pose.row_table.values.data()};
-    decoder->decode(1.0, {.bands = 2}, pose);
-    decoder->decode(2.0, {}, pose);
-    EXPECT_EQ(before,
-              (std::vector<const float*>{pose.positions.data(), pose.transfer.data(),
-                                         pose.basis_rows.data(), pose.row_table.values.data()}));
+    for (const bool clustered : {false, true}) {
+        const CodedMesh mesh = random_mesh(clustered);
+        MeshDecoder decoder(mesh);
+        DecodedPose pose;
+        decoder.decode(0.0, {}, pose);
+        const std::vector<const float*> before{pose.positions.data(), pose.transfer.data()};
+        const int taken = num_large_pieces;
+        decoder.decode(1.0, {.bands = 2}, pose);
+        decoder.decode(2.0, {}, pose);
+        EXPECT_EQ(num_large_pieces, taken);
+        EXPECT_EQ(before, (std::vector<const float*>{pose.positions.data(), pose.transfer.data()}));
+    }
 }
 
 }  // namespace

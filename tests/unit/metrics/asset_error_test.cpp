@@ -1,4 +1,4 @@
-// Models of every codec against a bake, measured as whole planes and, slowly, pose by pose.
+// Assets of every codec against a bake, measured as whole planes and, slowly, pose by pose.
 #include "paim/metrics/asset_error.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 #include "paim/base/error.h"
 #include "paim/codec/mesh_decoder.h"
 #include "paim/mesh/cache_order.h"
-#include "tests/example_model.h"
+#include "tests/example_asset.h"
 #include "tests/temporary_directory.h"
 
 namespace paim {
@@ -18,18 +18,19 @@ namespace {
 
 constexpr uint32_t kVertices = 4;
 
-class ModelErrorTest : public testing::Test {
+class AssetErrorTest : public testing::Test {
   protected:
-    // A bake of random numbers for the model's mesh, with scenery where the model has some.
-    BakeReader write_bake(const Asset& model, const TransferLayout& layout, uint32_t num_poses) {
+    // A bake of random numbers for the asset's meshes.
+    BakeReader write_bake(const Asset& asset, const TransferLayout& layout, uint32_t num_poses) {
         std::vector<BakeIdentity::Source> poses;
         for (uint32_t p = 0; p < num_poses; ++p) poses.push_back({"pose", p});
+        const CodedMesh& moving = asset.moving();
         BakeIdentity identity =
-            made_up_identity(model.moving().topology, model.moving().albedo, layout, std::move(poses));
+            made_up_identity(moving.topology, moving.albedo, layout, std::move(poses));
         const auto directory = directory_ / "x.bake";
         std::filesystem::remove_all(directory);
-        if (!model.scenery.empty()) identity.scenery.push_back({"still", 0});
-        const BakeWriter writer(directory, identity, model.moving().topology, model.moving().albedo);
+        if (asset.still() != nullptr) identity.scenery.push_back({"still", 0});
+        const BakeWriter writer(directory, identity, moving.topology, moving.albedo);
         RandomStream random(5);
         const auto fill = [&](size_t count, double size) {
             std::vector<float> values(count);
@@ -49,21 +50,21 @@ class ModelErrorTest : public testing::Test {
             return pose;
         };
         for (uint32_t p = 0; p < num_poses; ++p) writer.write_pose(p, random_pose());
-        if (!model.scenery.empty()) {
-            writer.write_scenery({model.scenery.topology, model.scenery.albedo, random_pose()});
+        if (const CodedMesh* still = asset.still()) {
+            writer.write_scenery({still->topology, still->albedo, random_pose()});
         }
         return BakeReader(directory);
     }
 
     // What differs, by the player's decoder: Σ w (t̂ − y)² / Σ w y², and the same of positions.
-    static void expect_as_pose_by_pose(const Asset& model, const BakeReader& bake,
+    static void expect_as_pose_by_pose(const Asset& asset, const BakeReader& bake,
                                        const BandPower& spectrum) {
         const TransferLayout& layout = bake.identity().layout;
-        const auto decoder = make_decoder(model);
+        MeshDecoder decoder(asset.moving());
         DecodedPose decoded;
         double deviation = 0.0, baked = 0.0, noise = 0.0, distances = 0.0;
         for (uint32_t p = 0; p < bake.num_poses(); ++p) {
-            decoder->decode(p, {}, decoded);
+            decoder.decode(p, {}, decoded);
             const BakedPose pose = bake.read_pose(p);
             for (uint32_t channel = 0; channel < layout.channels; ++channel) {
                 for (uint32_t i = 0; i < layout.num_coefficients(); ++i) {
@@ -88,7 +89,7 @@ class ModelErrorTest : public testing::Test {
                 distances += d * d;
             }
         }
-        const AssetError error = measure_asset(model, bake, spectrum);
+        const AssetError error = measure_asset(asset, bake, spectrum);
         // The sum of a few products of about 1 in floats is rounded by some 2^-24, in two orders,
         // while what is measured is about 1.
         EXPECT_NEAR(error.transfer.deviation, std::sqrt(deviation / baked), 1e-6);
@@ -99,9 +100,9 @@ class ModelErrorTest : public testing::Test {
         EXPECT_EQ(error.transfer.bands.size(), layout.in_bands);
     }
 
-    void expect_failure(const Asset& model, const BakeReader& bake, const std::string& part) {
+    void expect_failure(const Asset& asset, const BakeReader& bake, const std::string& part) {
         try {
-            measure_asset(model, bake, BandPower::natural());
+            measure_asset(asset, bake, BandPower::natural());
             FAIL() << part;
         } catch (const Error& error) {
             EXPECT_EQ(error.code(), ExitCode::bad_input);
@@ -113,53 +114,54 @@ class ModelErrorTest : public testing::Test {
     TemporaryDirectory directory_;
 };
 
-TEST_F(ModelErrorTest, IsThatOfThePlayersDecoder) {
+TEST_F(AssetErrorTest, IsThatOfThePlayersDecoder) {
     const BandPower natural = BandPower::natural();
     for (const uint32_t channels : {1u, 3u}) {
-        const Asset plain = make_example_model(2, channels);
-        const BakeReader bake = write_bake(plain, plain.layout, plain.num_poses());
-        for (const Asset& model :
+        const Asset plain = make_example_asset(2, channels);
+        const BakeReader bake = write_bake(plain, plain.moving().layout, plain.num_poses());
+        for (const Asset& asset :
              {plain, quantise_example(plain), make_clustered_example(2, channels, 2),
               make_clustered_example(2, channels, 1, true)}) {
-            expect_as_pose_by_pose(model, bake, natural);
+            expect_as_pose_by_pose(asset, bake, natural);
         }
     }
 }
 
-TEST_F(ModelErrorTest, CountsBandsAndChannelsThatTheModelLacks) {
-    const Asset model = make_example_model(2, 1);
-    const BakeReader bake = write_bake(model, {TransferKind::diffuse, 3, 3}, model.num_poses());
-    expect_as_pose_by_pose(model, bake, BandPower::flat(3));
-    expect_as_pose_by_pose(make_example_model(1, 3), bake, BandPower::flat(3));
+TEST_F(AssetErrorTest, CountsBandsAndChannelsThatTheAssetLacks) {
+    const Asset asset = make_example_asset(2, 1);
+    const BakeReader bake = write_bake(asset, {TransferKind::diffuse, 3, 3}, asset.num_poses());
+    expect_as_pose_by_pose(asset, bake, BandPower::flat(3));
+    expect_as_pose_by_pose(make_example_asset(1, 3), bake, BandPower::flat(3));
 }
 
-TEST_F(ModelErrorTest, RefusesAnotherAnimation) {
-    const Asset model = make_example_model(2, 1);
-    expect_failure(model, write_bake(model, model.moving().layout, 4), "4 poses, got 5");
-    const BakeReader bake = write_bake(model, model.moving().layout, 5);
-    expect_failure(make_example_model(3, 1), bake, "2 bands and 1 channels at most, got 3 and 1");
-    expect_failure(make_example_model(2, 3), bake, "2 bands and 1 channels at most, got 2 and 3");
-    Asset turned = model;
-    std::swap(turned.topology.triangles[0], turned.topology.triangles[1]);
+TEST_F(AssetErrorTest, RefusesAnotherAnimation) {
+    const Asset asset = make_example_asset(2, 1);
+    expect_failure(asset, write_bake(asset, asset.moving().layout, 4), "4 poses, got 5");
+    const BakeReader bake = write_bake(asset, asset.moving().layout, 5);
+    expect_failure(make_example_asset(3, 1), bake, "2 bands and 1 channels at most, got 3 and 1");
+    expect_failure(make_example_asset(2, 3), bake, "2 bands and 1 channels at most, got 2 and 3");
+    Asset turned = asset;
+    std::swap(turned.moving().topology.triangles[0], turned.moving().topology.triangles[1]);
     expect_failure(turned, bake, "other triangles");
 }
 
-// Integers of the scenery against its bake: Σ (t̂ − y)² / Σ y² of its own values, and distances.
-TEST_F(ModelErrorTest, MeasuresTheScenery) {
+// Integers of what stands still against its bake: Σ (t̂ − y)² / Σ y² of its own values, and distances.
+TEST_F(AssetErrorTest, MeasuresWhatStandsStill) {
     for (const uint32_t bands : {2u, 3u}) {
-        Asset model = make_example_model(bands, 3);
-        model.scenery = make_quantised_scenery(model.moving().layout);
-        const BakeReader bake = write_bake(model, {TransferKind::diffuse, 3, 3}, 5);
+        Asset asset = make_example_asset(bands, 3);
+        asset.parts.push_back(make_quantised_still(asset.moving().layout));
+        const CodedMesh& still = *asset.still();
+        const BakeReader bake = write_bake(asset, {TransferKind::diffuse, 3, 3}, 5);
         const BakedPose& baked = bake.scenery()->pose;
-        const std::vector<float> positions = model.scenery.positions.floats();
-        const std::vector<float> transfer = model.scenery.transfer.floats();
+        const std::vector<float> positions = still.positions.mean_floats();
+        const std::vector<float> transfer = still.transfer->matrix.mean_floats();
         double deviation = 0.0, energy = 0.0, distances = 0.0;
         for (uint32_t channel = 0; channel < 3; ++channel) {
             for (uint32_t i = 0; i < 9; ++i) {
                 for (uint32_t v = 0; v < 4; ++v) {
                     const double y = baked.transfer[(channel * 9 + i) * 4 + v];
                     const double t =
-                        i < bands * bands ? transfer[model.moving().layout.plane(channel, i) * 4 + v] : 0.0f;
+                        i < bands * bands ? transfer[still.layout.plane(channel, i) * 4 + v] : 0.0f;
                     deviation += (t - y) * (t - y);
                     energy += y * y;
                 }
@@ -169,28 +171,28 @@ TEST_F(ModelErrorTest, MeasuresTheScenery) {
             const double d = static_cast<double>(positions[j]) - baked.positions[j];
             distances += d * d;
         }
-        const AssetError error = measure_asset(model, bake, BandPower::flat(3));
-        ASSERT_TRUE(error.scenery.has_value());
-        EXPECT_NEAR(error.scenery->transfer.deviation, std::sqrt(deviation / energy), 1e-12);
-        EXPECT_NEAR(error.scenery->geometry.rms(), std::sqrt(distances / 4.0), 1e-12);
+        const AssetError error = measure_asset(asset, bake, BandPower::flat(3));
+        ASSERT_TRUE(error.still.has_value());
+        EXPECT_NEAR(error.still->transfer.deviation, std::sqrt(deviation / energy), 1e-12);
+        EXPECT_NEAR(error.still->geometry.rms(), std::sqrt(distances / 4.0), 1e-12);
         const std::vector<NamedError> named = named_errors(error);
         EXPECT_EQ(named.back().name, "scenery_position_worst");
-        EXPECT_EQ(named.back().value, error.scenery->geometry.worst());
+        EXPECT_EQ(named.back().value, error.still->geometry.worst());
     }
 }
 
 // Vertices in the order that files of integers have are those of the bake.
-TEST_F(ModelErrorTest, FindsTheSceneryInCacheOrder) {
-    Asset model = make_example_model(2, 1);
-    model.scenery = make_example_scenery(model.moving().layout);
+TEST_F(AssetErrorTest, FindsWhatStandsStillInCacheOrder) {
+    Asset asset = make_example_asset(2, 1);
+    asset.parts.push_back(make_example_still(asset.moving().layout));
     // Vertex 3 belongs to no triangle and would come last.
-    model.scenery.topology.triangles = {{3, 1, 2}};
-    const BakeReader bake = write_bake(model, model.moving().layout, 5);
-    const CacheOrder still = cache_order(model.scenery.topology);
+    asset.still()->topology.triangles = {{3, 1, 2}};
+    const BakeReader bake = write_bake(asset, asset.moving().layout, 5);
+    const CacheOrder still = cache_order(asset.still()->topology);
     ASSERT_NE(still.old_vertex, (std::vector<uint32_t>{0, 1, 2, 3}));
-    model.vertex_order = VertexOrder::cache;
-    model.moving().topology = cache_order(model.moving().topology).topology;
-    model.scenery.topology = still.topology;
+    asset.vertex_order = VertexOrder::cache;
+    asset.moving().topology = cache_order(asset.moving().topology).topology;
+    asset.still()->topology = still.topology;
     std::vector<float> positions(12), transfer(16);
     for (size_t v = 0; v < 4; ++v) {
         const size_t old = still.old_vertex[v];
@@ -201,26 +203,26 @@ TEST_F(ModelErrorTest, FindsTheSceneryInCacheOrder) {
             transfer[4 * j + v] = bake.scenery()->pose.transfer[4 * j + old];
         }
     }
-    model.scenery.positions = positions;
-    model.scenery.transfer = transfer;
-    const AssetError error = measure_asset(model, bake, BandPower::natural());
-    EXPECT_EQ(error.scenery->geometry.worst(), 0.0);
-    EXPECT_EQ(error.scenery->transfer.deviation, 0.0);
-    EXPECT_NEAR(error.scenery->transfer.error, error.scenery->transfer.bake_noise, 1e-12);
+    asset.still()->positions = LowRank::still(3, positions);
+    asset.still()->transfer->matrix = LowRank::still(4, transfer);
+    const AssetError error = measure_asset(asset, bake, BandPower::natural());
+    EXPECT_EQ(error.still->geometry.worst(), 0.0);
+    EXPECT_EQ(error.still->transfer.deviation, 0.0);
+    EXPECT_NEAR(error.still->transfer.error, error.still->transfer.bake_noise, 1e-12);
 }
 
-TEST_F(ModelErrorTest, RefusesOtherScenery) {
-    Asset model = make_example_model(2, 1);
-    const BakeReader without = write_bake(model, model.moving().layout, 5);
-    model.scenery = make_example_scenery(model.moving().layout);
-    expect_failure(model, without, "0 vertices of scenery, got 4");
-    const BakeReader bake = write_bake(model, model.moving().layout, 5);
-    std::swap(model.scenery.topology.triangles[0], model.scenery.topology.triangles[1]);
-    expect_failure(model, bake, "other triangles of the scenery");
+TEST_F(AssetErrorTest, RefusesOtherThingsThatStandStill) {
+    Asset asset = make_example_asset(2, 1);
+    const BakeReader without = write_bake(asset, asset.moving().layout, 5);
+    asset.parts.push_back(make_example_still(asset.moving().layout));
+    expect_failure(asset, without, "0 vertices of scenery, got 4");
+    const BakeReader bake = write_bake(asset, asset.moving().layout, 5);
+    std::swap(asset.still()->topology.triangles[0], asset.still()->topology.triangles[1]);
+    expect_failure(asset, bake, "other triangles of the scenery");
 }
 
 // Every figure by its own name.
-TEST_F(ModelErrorTest, IsStatedAndReadBack) {
+TEST_F(AssetErrorTest, IsStatedAndReadBack) {
     AssetError error;
     error.transfer.error = 0.3;
     error.transfer.missing_bands = 0.4;
@@ -229,10 +231,10 @@ TEST_F(ModelErrorTest, IsStatedAndReadBack) {
     error.transfer.worst_pose_deviation = 0.625;
     error.geometry.add(std::vector<float>{0, 0, 0, 0, 0, 0}, std::vector<float>{3, 0, 4, 0, 0, 0},
                        0);
-    Asset model = make_example_model();
-    model.provenance_json =
+    Asset asset = make_example_asset();
+    asset.provenance_json =
         R"({"measured":)" + error_statement_json(error, BandPower::natural()) + "}";
-    const ErrorStatement statement = read_error_statement(model, "x.paim");
+    const ErrorStatement statement = read_error_statement(asset, "x.paim");
     EXPECT_EQ(statement.band_power, "natural");
     // One of two vertices is off by the diagonal, 5.
     const std::vector<std::pair<std::string, double>> expected{

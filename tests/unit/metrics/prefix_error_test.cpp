@@ -6,51 +6,51 @@
 #include <cmath>
 
 #include "paim/codec/component_planes.h"
-#include "tests/example_model.h"
+#include "tests/example_asset.h"
 #include "tests/first_components.h"
 
 namespace paim {
 namespace {
 
-double decoded_energy(const Asset& model, const Asset& other, Attribute attribute,
+double decoded_energy(const CodedMesh& mesh, const CodedMesh& other, Attribute attribute,
                       const std::vector<double>& plane_weight) {
     double energy = 0.0;
     for (uint32_t plane = 0; plane < plane_weight.size(); ++plane) {
-        const Eigen::MatrixXd difference = decode_plane(model, attribute, plane).cast<double>() -
+        const Eigen::MatrixXd difference = decode_plane(mesh, attribute, plane).cast<double>() -
                                            decode_plane(other, attribute, plane).cast<double>();
         energy += plane_weight[plane] * difference.squaredNorm();
     }
     return energy;
 }
 
-Asset without_values(Asset model, Attribute attribute) {
-    LowRank& matrix = attribute == Attribute::geometry ? model.moving().positions : model.moving().transfer->matrix;
-    model = attribute == Attribute::geometry
-                ? first_components(model, 0, model.moving().transfer->matrix.num_components)
-                : first_components(model, model.moving().positions.num_components, 0);
+CodedMesh without_values(CodedMesh mesh, Attribute attribute) {
+    LowRank& matrix = attribute == Attribute::geometry ? mesh.positions : mesh.transfer->matrix;
+    matrix.keep_components(0);
     matrix.mean = std::vector<float>(matrix.num_rows());
-    return model;
+    return mesh;
 }
 
 // Components of the examples are random, so that they are far from orthogonal.
 TEST(PrefixError, IsWhatDecodingLacks) {
-    for (const Asset& model :
-         {make_example_model(3, 1), quantise_example(make_example_model(2, 3)),
+    for (const Asset& asset :
+         {make_example_asset(3, 1), quantise_example(make_example_asset(2, 3)),
           make_clustered_example(2, 3, 2, true), make_clustered_example(3, 1, 1)}) {
         for (const Attribute attribute : {Attribute::geometry, Attribute::transfer}) {
-            const LowRank& matrix = model.moving().attribute(attribute);
+            const CodedMesh& mesh = asset.moving();
+            const LowRank& matrix = mesh.attribute(attribute);
             std::vector<double> plane_weight;
             for (uint32_t j = 0; j < matrix.num_planes; ++j) plane_weight.push_back(1.0 / (1 + j));
-            const ComponentEnergy energy = component_energy(model, attribute, plane_weight);
+            const ComponentEnergy energy = component_energy(mesh, attribute, plane_weight);
             const double decoded =
-                decoded_energy(model, without_values(model, attribute), attribute, plane_weight);
+                decoded_energy(mesh, without_values(mesh, attribute), attribute, plane_weight);
             // Decoding adds up in floats: a few roundings of 6e-8, times two as these are squares.
             EXPECT_NEAR(energy.decoded, decoded, 1e-6 * decoded);
             ASSERT_EQ(energy.dropped.size(), size_t{matrix.num_components} + 1);
             EXPECT_EQ(energy.dropped.back(), 0.0);
             for (uint32_t k = 0; k < matrix.num_components; ++k) {
-                const Asset coarser = first_components(model, k, k);
-                const double lacking = decoded_energy(model, coarser, attribute, plane_weight);
+                const Asset coarser = first_components(asset, k, k);
+                const double lacking =
+                    decoded_energy(mesh, coarser.moving(), attribute, plane_weight);
                 EXPECT_GT(lacking, 0.0);
                 EXPECT_NEAR(energy.dropped[k], lacking, 1e-6 * decoded) << k;
             }
@@ -59,16 +59,16 @@ TEST(PrefixError, IsWhatDecodingLacks) {
 }
 
 // One vertex, one plane or three, numbers that can be followed by hand.
-Asset hand_made() {
-    Asset model = make_example_model(1, 1, 2, 1);
+CodedMesh hand_made() {
+    CodedMesh mesh = make_example_asset(1, 1, 2, 1).moving();
     const auto fill = [](LowRank& matrix, float mean, float component) {
         matrix.mean = std::vector<float>(matrix.num_rows(), mean);
         matrix.components = {StoredValues(std::vector<float>(matrix.num_rows(), component))};
         matrix.weights = {1.0f, -1.0f};
     };
-    fill(model.moving().positions, 5.0f, 2.0f);
-    fill(model.moving().transfer->matrix, 4.0f, 3.0f);
-    return model;
+    fill(mesh.positions, 5.0f, 2.0f);
+    fill(mesh.transfer->matrix, 4.0f, 3.0f);
+    return mesh;
 }
 
 TEST(PrefixError, WithoutAStatementIsWhatTheMissingComponentsCost) {
@@ -112,24 +112,25 @@ TEST(PrefixError, AddsWhatTheFileStatesInSquares) {
 
 // Bands count as much as there is light in them.
 TEST(PrefixError, WeighsBandsByTheLight) {
-    Asset model = make_example_model(2, 1, 2, 1);
+    CodedMesh mesh = make_example_asset(2, 1, 2, 1).moving();
+    LowRank& transfer = mesh.transfer->matrix;
     const std::vector<float> mean{1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
     const std::vector<float> component{0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 0, 0, 0, 0};
-    model.moving().transfer->matrix.mean = mean;
-    model.moving().transfer->matrix.components = {StoredValues(component)};
-    model.moving().transfer->matrix.weights = {1.0f, -1.0f};
-    EXPECT_DOUBLE_EQ(prefix_errors(model, {}).transfer[0], std::sqrt(1.0 / 2.0));
+    transfer.mean = mean;
+    transfer.components = {StoredValues(component)};
+    transfer.weights = {1.0f, -1.0f};
+    EXPECT_DOUBLE_EQ(prefix_errors(mesh, {}).transfer[0], std::sqrt(1.0 / 2.0));
     // (l + 1)⁻² is a quarter in band 1.
     const ErrorStatement statement{"natural", {{"transfer_total_error", 0.0}}};
-    EXPECT_DOUBLE_EQ(prefix_errors(model, statement).transfer[0], std::sqrt(0.25 / 1.25));
+    EXPECT_DOUBLE_EQ(prefix_errors(mesh, statement).transfer[0], std::sqrt(0.25 / 1.25));
 }
 
 // An animation of which nothing is lit has no error that is not a number.
 TEST(PrefixError, OfZerosIsZero) {
-    Asset model = make_example_model(2, 1, 3, 1);
-    model.moving().transfer->matrix.mean = std::vector<float>(16);
-    model.moving().transfer->matrix.components = {StoredValues(std::vector<float>(16))};
-    EXPECT_EQ(prefix_errors(model, {}).transfer, (std::vector<double>{0.0, 0.0}));
+    CodedMesh mesh = make_example_asset(2, 1, 3, 1).moving();
+    mesh.transfer->matrix.mean = std::vector<float>(16);
+    mesh.transfer->matrix.components = {StoredValues(std::vector<float>(16))};
+    EXPECT_EQ(prefix_errors(mesh, {}).transfer, (std::vector<double>{0.0, 0.0}));
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 
 #include "paim/codec/mesh_decoder.h"
 #include "paim/shade/shade.h"
-#include "tests/example_model.h"
+#include "tests/example_asset.h"
 
 namespace paim {
 namespace {
@@ -23,6 +23,10 @@ LightCoefficients make_light(uint32_t bands) {
     return light;
 }
 
+const CpcaTransfer& cpca_of(const CodedMesh& mesh) {
+    return *mesh.transfer.as<CpcaTransfer>();
+}
+
 // The light product of a row in pose p, by definition; `magnitude` of what is summed, which
 // rounding is relative to.
 struct Sum {
@@ -30,15 +34,16 @@ struct Sum {
     double magnitude = 0.0;
 };
 
-Sum row_product(const Asset& model, uint32_t row, uint32_t channel, uint32_t p, uint32_t bands,
+Sum row_product(const CodedMesh& mesh, uint32_t row, uint32_t channel, uint32_t p, uint32_t bands,
                 uint32_t num_components, const LightCoefficients& light) {
-    const LowRank& matrix = model.moving().transfer->matrix;
+    const CpcaTransfer& transfer = cpca_of(mesh);
+    const LowRank& matrix = transfer.matrix;
     Sum sum;
     for (uint32_t i = 0; i < bands * bands; ++i) {
-        const uint32_t plane = model.moving().layout.plane(model.moving().layout.channels == 3 ? channel : 0, i);
+        const uint32_t plane = mesh.layout.plane(mesh.layout.channels == 3 ? channel : 0, i);
         const size_t r = size_t{plane} * matrix.num_points + row;
-        const double factor = static_cast<double>(model.clusters.scales[row]) * matrix.step(plane) *
-                              light.values[i][channel];
+        const double factor = static_cast<double>(transfer.clusters.scales[row]) *
+                              matrix.step(plane) * light.values[i][channel];
         const auto add = [&](double value) {
             sum.value += factor * value;
             sum.magnitude += std::abs(factor * value);
@@ -55,18 +60,18 @@ Sum row_product(const Asset& model, uint32_t row, uint32_t channel, uint32_t p, 
 // Float sums of at most 100 terms, a few roundings each.
 constexpr double kRounding = 200.0 / (1 << 24);
 
-TEST(ClusterLight, IsTheProductOfEveryRowWithTheLight) {
+TEST(CpcaPlayer, IsTheProductOfEveryRowWithTheLight) {
     const LightCoefficients light = make_light(3);
     for (const uint32_t channels : {1u, 3u}) {
         for (const bool integers : {false, true}) {
-            const Asset model = make_clustered_example(3, channels, 2, integers);
-            ClusterLight cluster_light(model);
+            const CodedMesh mesh = make_clustered_example(3, channels, 2, integers).moving();
+            CpcaPlayer player(cpca_of(mesh), mesh.layout);
             std::vector<Vec3f> products;
-            cluster_light.basis_radiance(2.0, {}, light, products);
+            player.basis_radiance(2.0, {}, light, products);
             ASSERT_EQ(products.size(), 6u);
             for (uint32_t row = 0; row < 6; ++row) {
                 for (uint32_t channel = 0; channel < 3; ++channel) {
-                    const Sum expected = row_product(model, row, channel, 2, 3, 3, light);
+                    const Sum expected = row_product(mesh, row, channel, 2, 3, 3, light);
                     EXPECT_NEAR(products[row][channel], expected.value,
                                 kRounding * expected.magnitude);
                 }
@@ -75,47 +80,42 @@ TEST(ClusterLight, IsTheProductOfEveryRowWithTheLight) {
     }
 }
 
-TEST(ClusterLight, KeepsWithinLimits) {
-    const Asset model = make_clustered_example(3, 3, 2, true);
-    ClusterLight cluster_light(model);
+TEST(CpcaPlayer, KeepsWithinLimits) {
+    const CodedMesh mesh = make_clustered_example(3, 3, 2, true).moving();
+    CpcaPlayer player(cpca_of(mesh), mesh.layout);
     std::vector<Vec3f> products;
     const LightCoefficients light = make_light(3);
     const DecodeLimits limits{.transfer_components = 1, .bands = 2, .cluster_components = 1};
-    cluster_light.basis_radiance(3.0, limits, light, products);
+    player.basis_radiance(3.0, limits, light, products);
     for (uint32_t row = 0; row < 6; ++row) {
-        const Sum expected = row_product(model, row, 1, 3, 2, 1, light);
+        const Sum expected = row_product(mesh, row, 1, 3, 2, 1, light);
         EXPECT_NEAR(products[row][1], row % 3 == 2 ? 0.0 : expected.value,
                     kRounding * expected.magnitude);
     }
 }
 
 // Under a light of one band, one cluster and one component: (2 + 3 · (-4)) · 5.
-TEST(ClusterLight, ShadesAMeanAndItsComponent) {
-    Asset model;
-    model.moving().topology.num_vertices = 2;
-    model.moving().layout = {TransferKind::diffuse, 1, 1};
-    model.moving().transfer->matrix.num_points = 2;
-    model.moving().transfer->matrix.num_planes = model.moving().transfer->matrix.num_poses = 1;
-    model.moving().transfer->matrix.steps = {0.5f};
-    model.moving().transfer->matrix.mean = std::vector<int8_t>{4, 6};
-    model.clusters = {1, 1, {0, 0}, {std::vector<int8_t>{-4, 1}}, {1.0f, 1.0f}};
+TEST(CpcaPlayer, ShadesAMeanAndItsComponent) {
+    const CpcaTransfer transfer(LowRank::still(1, std::vector<int8_t>{4, 6}, {0.5f}),
+                                {1, 1, {0, 0}, {std::vector<int8_t>{-4, 1}}, {1.0f, 1.0f}});
     std::vector<Vec3f> products, radiance;
-    ClusterLight(model).basis_radiance(0.0, {}, {1, {Vec3f(5, 10, 20)}}, products);
+    CpcaPlayer(transfer, {TransferKind::diffuse, 1, 1})
+        .basis_radiance(0.0, {}, {1, {Vec3f(5, 10, 20)}}, products);
     EXPECT_EQ(products, (std::vector<Vec3f>{Vec3f(10, 20, 40), Vec3f(15, 30, 60)}));
-    shade_clusters(model.clusters, products, 1, {{Vec3f(1, 1, 0.5f)}}, radiance);
+    shade_clusters(transfer.clusters, products, 1, {{Vec3f(1, 1, 0.5f)}}, radiance);
     EXPECT_EQ(radiance, (std::vector<Vec3f>{Vec3f(-50, -100, -100), Vec3f(25, 50, 50)}));
-    shade_clusters(model.clusters, products, 0, {{Vec3f(1, 1, 1), Vec3f(0, 0, 1)}}, radiance);
+    shade_clusters(transfer.clusters, products, 0, {{Vec3f(1, 1, 1), Vec3f(0, 0, 1)}}, radiance);
     EXPECT_EQ(radiance, (std::vector<Vec3f>{Vec3f(10, 20, 40), Vec3f(0, 0, 40)}));
 }
 
 // Several hundred clusters: more rows than a block, more vertices than a piece of work.
-Asset make_large(uint32_t channels, bool integers) {
-    Asset model = make_clustered_example(2, channels, 3, integers);
+CodedMesh make_large(uint32_t channels, bool integers) {
+    CodedMesh mesh = make_clustered_example(2, channels, 3, integers).moving();
     RandomStream random(12);
     const auto number = [&] { return static_cast<float>(2.0 * random.uniform() - 1.0); };
     constexpr uint32_t kVertices = 3000, kClusters = 300;
-    model.moving().topology.num_vertices = kVertices;
-    VertexClusters& clusters = model.clusters;
+    mesh.topology.num_vertices = kVertices;
+    VertexClusters& clusters = mesh.transfer.as<CpcaTransfer>()->clusters;
     clusters.num_clusters = kClusters;
     clusters.cluster.resize(kVertices);
     for (uint32_t& c : clusters.cluster) c = static_cast<uint32_t>(random.uniform() * kClusters);
@@ -132,10 +132,10 @@ Asset make_large(uint32_t channels, bool integers) {
     }
     clusters.scales.resize(clusters.num_rows());
     std::generate(clusters.scales.begin(), clusters.scales.end(), number);
-    model.moving().positions.num_points = kVertices;
-    model.moving().positions.mean = std::vector<float>(model.moving().positions.num_rows());
-    for (StoredValues& c : model.moving().positions.components) c = model.moving().positions.mean;
-    LowRank& matrix = model.moving().transfer->matrix;
+    mesh.positions.num_points = kVertices;
+    mesh.positions.mean = std::vector<float>(mesh.positions.num_rows());
+    for (StoredValues& c : mesh.positions.components) c = mesh.positions.mean;
+    LowRank& matrix = mesh.transfer->matrix;
     matrix.num_points = clusters.num_rows();
     const auto fill = [&](StoredValues& out) {
         std::vector<float> rows(matrix.num_rows());
@@ -150,17 +150,17 @@ Asset make_large(uint32_t channels, bool integers) {
     };
     fill(matrix.mean);
     for (StoredValues& component : matrix.components) fill(component);
-    return model;
+    return mesh;
 }
 
-TEST(ClusterLight, EqualsDecodingAndShading) {
+TEST(CpcaPlayer, EqualsDecodingAndShading) {
     for (const uint32_t channels : {1u, 3u}) {
         for (const bool integers : {false, true}) {
-            Asset model = make_large(channels, integers);
-            model.moving().albedo.values.assign(model.moving().topology.num_vertices, Vec3f(0.5f, 0.25f, 0.75f));
-            model.moving().albedo.values[7] = Vec3f(1, 0, 0);
-            const std::unique_ptr<Decoder> decoder = make_decoder(model);
-            ClusterLight cluster_light(model);
+            CodedMesh mesh = make_large(channels, integers);
+            mesh.albedo.values.assign(mesh.topology.num_vertices, Vec3f(0.5f, 0.25f, 0.75f));
+            mesh.albedo.values[7] = Vec3f(1, 0, 0);
+            MeshDecoder decoder(mesh);
+            CpcaPlayer player(cpca_of(mesh), mesh.layout);
             std::vector<Vec3f> products, radiance, expected;
             DecodedPose pose;
             for (const DecodeLimits limits :
@@ -168,11 +168,11 @@ TEST(ClusterLight, EqualsDecodingAndShading) {
                   DecodeLimits{.transfer_components = 0, .cluster_components = 2}}) {
                 for (const uint32_t light_bands : {1u, 2u, 3u}) {
                     const LightCoefficients light = make_light(light_bands);
-                    decoder->decode(1.6, limits, pose);
-                    shade(pose.layout, pose.transfer, model.moving().albedo, light, expected);
-                    cluster_light.basis_radiance(1.6, limits, light, products);
-                    shade_clusters(model.clusters, products, limits.cluster_components,
-                                   model.moving().albedo, radiance);
+                    decoder.decode(1.6, limits, pose);
+                    shade(pose.layout, pose.transfer, mesh.albedo, light, expected);
+                    player.basis_radiance(1.6, limits, light, products);
+                    shade_clusters(cpca_of(mesh).clusters, products, limits.cluster_components,
+                                   mesh.albedo, radiance);
                     ASSERT_EQ(radiance.size(), expected.size());
                     float largest = 0.0f, off = 0.0f;
                     for (size_t v = 0; v < expected.size(); ++v) {
@@ -188,26 +188,28 @@ TEST(ClusterLight, EqualsDecodingAndShading) {
     }
 }
 
-TEST(ClusterLight, GivesTheSameBytesInAnyOrderOfFrames) {
-    const Asset model = make_large(3, true);
+TEST(CpcaPlayer, GivesTheSameBytesInAnyOrderOfFrames) {
+    const CodedMesh mesh = make_large(3, true);
+    const VertexClusters& clusters = cpca_of(mesh).clusters;
     const LightCoefficients light = make_light(2);
-    ClusterLight reused(model);
+    CpcaPlayer reused(cpca_of(mesh), mesh.layout);
     std::vector<Vec3f> products, radiance, again;
     reused.basis_radiance(3.5, {.cluster_components = 1}, make_light(1), products);
     for (const double time : {4.0, 0.0, 2.25}) {
         reused.basis_radiance(time, {}, light, products);
-        shade_clusters(model.clusters, products, 3, model.moving().albedo, radiance);
+        shade_clusters(clusters, products, 3, mesh.albedo, radiance);
         std::vector<Vec3f> fresh;
-        ClusterLight(model).basis_radiance(time, {}, light, fresh);
+        CpcaPlayer(cpca_of(mesh), mesh.layout).basis_radiance(time, {}, light, fresh);
         EXPECT_EQ(products, fresh);
-        shade_clusters(model.clusters, fresh, 3, model.moving().albedo, again);
+        shade_clusters(clusters, fresh, 3, mesh.albedo, again);
         EXPECT_EQ(radiance, again);
     }
 }
 
-TEST(ClusterLightDeathTest, RefusesModelsWithoutClusters) {
-    const Asset model = make_example_model();
-    EXPECT_DEATH(ClusterLight{model}, "clusters");
+TEST(CpcaPlayerDeathTest, RefusesBasesWithoutClusters) {
+    const CodedMesh mesh = make_example_asset().moving();
+    const CpcaTransfer transfer(mesh.transfer->matrix, {});
+    EXPECT_DEATH(CpcaPlayer(transfer, mesh.layout), "clusters");
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "paim/base/error.h"
+#include "paim/codec/cpca/cpca_transfer.h"
 #include "tests/unit/encode/quantise/random_factors.h"
 
 namespace paim {
@@ -53,9 +54,10 @@ class ClusterTransfer : public testing::Test {
     double decoded(const ScaledFactors& factors, const ClusteredFactors& clustered,
                    const Quantiser& quantiser) const {
         ClusteredMatrix quantised = quantise_clusters(clustered, quantiser);
-        Asset model = model_of(std::move(quantised.matrix), factors.num_points);
-        model.clusters = std::move(quantised.clusters);
-        return decoded_error(model, factors, kWeights);
+        const CodedMesh mesh =
+            mesh_of(CpcaTransfer(std::move(quantised.matrix), std::move(quantised.clusters)),
+                    factors.num_points);
+        return decoded_error(mesh, factors, kWeights);
     }
 
     ClusteredPca pca_;

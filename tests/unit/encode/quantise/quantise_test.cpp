@@ -18,8 +18,8 @@ std::vector<double> alike(const ScaledFactors& factors) {
 }
 
 double decoded(const ScaledFactors& factors, const Quantiser& quantiser) {
-    return decoded_error(model_of(quantise(factors, quantiser), factors.num_points), factors,
-                         quantiser.plane_weight);
+    const CodedMesh mesh = mesh_of(SvdTransfer(quantise(factors, quantiser)), factors.num_points);
+    return decoded_error(mesh, factors, quantiser.plane_weight);
 }
 
 TEST(Quantise, ErrorIsThatOfWhatIsDecoded) {
@@ -58,12 +58,12 @@ TEST(Quantise, StepsOfPlanesWeighAlike) {
     ASSERT_EQ(matrix.steps.size(), 4u);
     for (uint32_t j = 0; j < 4; ++j) EXPECT_FLOAT_EQ(matrix.steps[j], expected[j]);
     // So that each plane has about as much of the error: 1600 squares, deviation 2.3 %.
-    const Asset model = model_of(matrix, factors.num_points);
+    const CodedMesh mesh = mesh_of(SvdTransfer(matrix), factors.num_points);
     const double share = quantised_error(factors, quantiser) / 4.0;
     for (uint32_t j = 0; j < 4; ++j) {
         std::vector<double> one(4, 0.0);
         one[j] = weights[j];
-        EXPECT_NEAR(decoded_error(model, factors, one) / share, 1.0, 0.15) << j;
+        EXPECT_NEAR(decoded_error(mesh, factors, one) / share, 1.0, 0.15) << j;
     }
 }
 

@@ -7,8 +7,9 @@
 
 #include "compressor/encode/quantise/scaled_factors.h"
 #include "paim/base/seed.h"
-#include "paim/codec/component_planes.h"
 #include "paim/codec/asset.h"
+#include "paim/codec/component_planes.h"
+#include "paim/codec/svd/svd_transfer.h"
 
 namespace paim {
 
@@ -61,23 +62,23 @@ inline Eigen::MatrixXd exact_plane(const ScaledFactors& factors, uint32_t j) {
     return plane;
 }
 
-// Weighted squares of what the transfer of a model decodes to beside the factors.
-inline double decoded_error(const Asset& model, const ScaledFactors& factors,
+// Weighted squares of what the transfer of a mesh decodes to beside the factors.
+inline double decoded_error(const CodedMesh& mesh, const ScaledFactors& factors,
                             const std::vector<double>& plane_weight) {
     double sum = 0.0;
     for (uint32_t j = 0; j < factors.num_planes; ++j) {
-        const Eigen::MatrixXd decoded = decode_plane(model, Attribute::transfer, j).cast<double>();
+        const Eigen::MatrixXd decoded = decode_plane(mesh, Attribute::transfer, j).cast<double>();
         sum += plane_weight[j] * (decoded - exact_plane(factors, j)).squaredNorm();
     }
     return sum;
 }
 
-// A model that holds this transfer and nothing else.
-inline Asset model_of(LowRank transfer, uint32_t num_vertices) {
-    Asset model;
-    model.moving().topology.num_vertices = num_vertices;
-    model.moving().transfer->matrix = std::move(transfer);
-    return model;
+// A mesh that holds this transfer and nothing else.
+inline CodedMesh mesh_of(CodedTransfer transfer, uint32_t num_vertices) {
+    CodedMesh mesh;
+    mesh.topology.num_vertices = num_vertices;
+    mesh.transfer = std::move(transfer);
+    return mesh;
 }
 
 }  // namespace paim

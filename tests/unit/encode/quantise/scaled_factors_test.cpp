@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "compressor/encode/quantise/float_part.h"
+#include "compressor/encode/quantise/float_matrix.h"
 #include "compressor/encode/search/part_search.h"
 #include "paim/base/half.h"
 #include "tests/unit/encode/quantise/random_factors.h"
@@ -93,16 +93,17 @@ TEST(ScaledFactors, TailErrorsAreWhatDroppedComponentsLeave) {
     const std::vector<double> tails = tail_errors(factors, weight);
     ASSERT_EQ(tails.size(), 4u);
     for (uint32_t k = 0; k <= 3; ++k) {
-        const Asset model = model_of(float_part(factors, k, Precision::f32), factors.num_points);
+        const CodedMesh mesh =
+            mesh_of(SvdTransfer(float_matrix(factors, k, Precision::f32)), factors.num_points);
         // Floats: 2^-24 of values near 1, 19200 of them.
-        EXPECT_NEAR(decoded_error(model, factors, weight), tails[k], 1e-6 * tails[0] + 1e-9) << k;
+        EXPECT_NEAR(decoded_error(mesh, factors, weight), tails[k], 1e-6 * tails[0] + 1e-9) << k;
     }
 }
 
-TEST(FloatPart, HasComponentsOfUnitRms) {
+TEST(FloatMatrix, HasComponentsOfUnitRms) {
     ScaledFactors factors = random_factors();
     std::fill(factors.components[2].begin(), factors.components[2].end(), 0.0f);
-    const LowRank matrix = float_part(factors, 1000, Precision::f32);
+    const LowRank matrix = float_matrix(factors, 1000, Precision::f32);
     EXPECT_EQ(matrix.num_components, 3u);
     EXPECT_EQ(matrix.mean.floats(), factors.mean);
     for (uint32_t k = 0; k < 2; ++k) {
@@ -112,18 +113,18 @@ TEST(FloatPart, HasComponentsOfUnitRms) {
     }
 }
 
-TEST(FloatPart, RoundsToHalves) {
+TEST(FloatMatrix, RoundsToHalves) {
     const ScaledFactors factors = random_factors();
-    const LowRank matrix = float_part(factors, 3, Precision::f16);
+    const LowRank matrix = float_matrix(factors, 3, Precision::f16);
     for (const StoredValues& component : matrix.components) {
         for (const float c : component.floats()) EXPECT_EQ(from_half(to_half(c)), c);
     }
     // Halves of values up to √3 are off by 2^-11 of themselves at most, as components are: no more
     // than that of the energy beside the mean, and at least a tenth (uniform rounding: about 0.2).
-    const Asset model = model_of(matrix, factors.num_points);
+    const CodedMesh mesh = mesh_of(SvdTransfer(matrix), factors.num_points);
     const std::vector<double> alike(4, 1.0);
     const double energy = tail_errors(factors, alike)[0];
-    const double relative = std::sqrt(decoded_error(model, factors, alike) / energy);
+    const double relative = std::sqrt(decoded_error(mesh, factors, alike) / energy);
     EXPECT_LT(relative, std::exp2(-11));
     EXPECT_GT(relative, 0.1 * std::exp2(-11));
 }

@@ -8,7 +8,7 @@
 #include "paim/format/paim/paim_write.h"
 #include "paim/format/paim/paim_metadata.h"
 #include "paim/metrics/singular_value_error.h"
-#include "tests/example_model.h"
+#include "tests/example_asset.h"
 #include "tests/temporary_directory.h"
 #include "tests/unit/encode/quantise/random_factors.h"
 
@@ -24,18 +24,14 @@ LowRank quantised() {
 
 // A file whose transfer is that, of one band and grey.
 Asset example_of(LowRank transfer) {
-    Asset model = make_example_model();
-    model.moving().layout = {TransferKind::diffuse, 2, 1};
-    model.moving().topology = {400, {}};
-    model.moving().positions = {};
-    model.moving().positions.num_points = 400;
-    model.moving().positions.num_planes = 3;
-    model.moving().positions.num_poses = 12;
-    model.moving().positions.mean = std::vector<float>(1200, 0.0f);
-    model.scenery = {};
-    model.moving().albedo = {};
-    model.moving().transfer->matrix = std::move(transfer);
-    return model;
+    Asset asset = make_example_asset();
+    CodedMesh& mesh = asset.moving();
+    mesh.layout = {TransferKind::diffuse, 2, 1};
+    mesh.topology = {400, {}};
+    mesh.positions = LowRank::still(3, std::vector<float>(1200, 0.0f));
+    mesh.positions.num_poses = 12;
+    mesh.transfer = SvdTransfer(std::move(transfer));
+    return asset;
 }
 
 TEST(VanishedComponent, OthersKeepTheirSingularValues) {
@@ -61,27 +57,28 @@ TEST(VanishedComponent, FirstOnesNeedNoIndices) {
 
 // Had the last one the second value, it would come before the geometry's.
 TEST(VanishedComponent, OthersAreWhereTheirEnergyPutsThem) {
-    Asset model = example_of(quantised());
-    model.moving().positions.num_components = 1;
-    model.moving().positions.singular_values = {3.0, 3.0};
-    model.moving().transfer->matrix.singular_values = {8.0, 7.9, 7.9, 1.0};
+    Asset asset = example_of(quantised());
+    asset.moving().positions.num_components = 1;
+    asset.moving().positions.singular_values = {3.0, 3.0};
+    asset.moving().transfer->matrix.singular_values = {8.0, 7.9, 7.9, 1.0};
     const std::vector<ComponentId> expected{
         {Attribute::geometry, 0}, {Attribute::transfer, 0}, {Attribute::transfer, 1}};
     // Shares 0.5, 0.34 and 0.005. The second value would have 0.33.
-    EXPECT_EQ(component_order(model), expected);
-    model.moving().positions.singular_values = {1.0, 2.0, 2.0};  // 0.11
-    EXPECT_EQ(component_order(model)[1], (ComponentId{Attribute::geometry, 0}));
+    EXPECT_EQ(component_order(asset), expected);
+    asset.moving().positions.singular_values = {1.0, 2.0, 2.0};  // 0.11
+    EXPECT_EQ(component_order(asset)[1], (ComponentId{Attribute::geometry, 0}));
 }
 
 TEST(VanishedComponent, FilesSayWhichAreLeft) {
     const TemporaryDirectory directory;
-    const Asset model = example_of(quantised());
-    write_paim(directory / "x.paim", model);
+    const Asset asset = example_of(quantised());
+    write_paim(directory / "x.paim", asset);
     const Asset read = read_paim(directory / "x.paim");
-    EXPECT_EQ(read.transfer.singular_indices, model.moving().transfer->matrix.singular_indices);
-    EXPECT_TRUE(read.geometry.singular_indices.empty());
-    EXPECT_NEAR(theory_error(read.transfer), 6.5 / 15.5, 1e-7);  // of floats
-    const std::string metadata = paim_metadata(model);
+    const LowRank& matrix = read.moving().transfer->matrix;
+    EXPECT_EQ(matrix.singular_indices, asset.moving().transfer->matrix.singular_indices);
+    EXPECT_TRUE(read.moving().positions.singular_indices.empty());
+    EXPECT_NEAR(theory_error(matrix), 6.5 / 15.5, 1e-7);  // of floats
+    const std::string metadata = paim_metadata(asset);
     EXPECT_NE(metadata.find("transfer_singular_indices"), std::string::npos);
     EXPECT_EQ(metadata.find("geometry_singular_indices"), std::string::npos);
 }

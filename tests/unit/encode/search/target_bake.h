@@ -21,8 +21,8 @@ struct TargetBake {
     uint32_t still_from = 99;  // bands that are zero from here on
     double movement = 1.0;     // 0: all poses are alike but for noise
     double scale = 1.0;        // of the transfer
-    // There is scenery, too: the sheet at another time, of this noise, twice as large.
-    std::optional<double> scenery_noise = {};
+    // Something stands still, too: the sheet at another time, of this noise, twice as large.
+    std::optional<double> still_noise = {};
 };
 
 // Waves travel over a sheet, and its transfer follows them.
@@ -48,7 +48,7 @@ inline BakeReader write_target_bake(const std::filesystem::path& directory,
     std::vector<BakeIdentity::Source> poses;
     for (uint32_t p = 0; p < bake.num_poses; ++p) poses.push_back({"pose", p});
     BakeIdentity identity = made_up_identity(topology, albedo, bake.layout, std::move(poses));
-    if (bake.scenery_noise) identity.scenery.push_back({"still", 0});
+    if (bake.still_noise) identity.scenery.push_back({"still", 0});
     const BakeWriter writer(directory, identity, topology, albedo);
 
     RandomStream random(5);
@@ -70,7 +70,7 @@ inline BakeReader write_target_bake(const std::filesystem::path& directory,
                 const double wave = std::sin(6.0 * u + time) +
                                     0.4 * std::sin(9.0 * w - 2.0 * time) +
                                     0.1 * std::sin(20.0 * u * w + 3.0 * time);
-                // Scenery is no lattice, whose few coordinates would be rounded by luck.
+                // What stands still is no lattice, whose few coordinates would be rounded by luck.
                 const double sway = (extent - 1.0) * 0.1 * wave;
                 pose.positions[v] = static_cast<float>(extent * u + sway);
                 pose.positions[num_vertices + v] = static_cast<float>(extent * 0.2 * wave);
@@ -99,8 +99,8 @@ inline BakeReader write_target_bake(const std::filesystem::path& directory,
         writer.write_pose(
             p, make_pose(bake.movement * 2.0 * kPi * p / bake.num_poses, bake.noise, 1.0));
     }
-    if (bake.scenery_noise) {
-        writer.write_scenery({topology, albedo, make_pose(0.5, *bake.scenery_noise, 2.0)});
+    if (bake.still_noise) {
+        writer.write_scenery({topology, albedo, make_pose(0.5, *bake.still_noise, 2.0)});
     }
     return BakeReader(directory);
 }

@@ -1,4 +1,4 @@
-// Prefixes of .paim files: every cut is the whole model with fewer components, or a clear error.
+// Prefixes of .paim files: every cut is the whole asset with fewer components, or a clear error.
 #include "paim/format/paim/prefixes.h"
 
 #include <gtest/gtest.h>
@@ -14,23 +14,23 @@
 #include "paim/format/container/sections.h"
 #include "paim/format/paim/paim_read.h"
 #include "paim/format/paim/paim_write.h"
-#include "tests/example_model.h"
+#include "tests/example_asset.h"
 #include "tests/first_components.h"
 #include "tests/temporary_directory.h"
 
 namespace paim {
 namespace {
 
-constexpr ReadOptions kProgressive{.progressive = true};
+constexpr ReadOptions kPrefix{.prefix = true};
 
 using Bytes = std::vector<char>;
 
-std::vector<std::pair<std::string, Asset>> example_models() {
-    Asset half = make_example_model(2, 3);
-    half.transfer.precision = Precision::f16;
-    half.scenery = make_example_scenery(half.layout);
-    Asset integers = quantise_example(make_example_model(2, 1, 5, 4));
-    for (LowRank* matrix : {&integers.geometry, &integers.transfer}) {
+std::vector<std::pair<std::string, Asset>> example_assets() {
+    Asset half = make_example_asset(2, 3);
+    half.moving().transfer->matrix.precision = Precision::f16;
+    half.parts.push_back(make_example_still(half.moving().layout));
+    Asset integers = quantise_example(make_example_asset(2, 1, 5, 4));
+    for (LowRank* matrix : {&integers.moving().positions, &integers.moving().transfer->matrix}) {
         matrix->weight_steps = {0.25f, 0.0f, 1e-3f, 2.0f};
         for (size_t j = 0; j < matrix->weights.size(); ++j) {
             const auto q = static_cast<float>(j * 977 % 401) - 200.0f;
@@ -40,13 +40,13 @@ std::vector<std::pair<std::string, Asset>> example_models() {
         matrix->singular_values.push_back(0.25 * matrix->singular_values.back());
         matrix->singular_indices = {0, 1, 3, 4};
     }
-    integers.scenery = make_quantised_scenery(integers.layout);
-    return {{"f32", make_example_model(3, 1)},
+    integers.parts.push_back(make_quantised_still(integers.moving().layout));
+    return {{"f32", make_example_asset(3, 1)},
             {"f16", half},
             {"integers", integers},
             {"clusters", make_clustered_example(2, 3, 2, true)},
             {"clusters of floats", make_clustered_example()},
-            {"still", make_example_model(2, 1, 1, 0)}};
+            {"still", make_example_asset(2, 1, 1, 0)}};
 }
 
 void expect_equal(const LowRank& a, const LowRank& b) {
@@ -64,21 +64,29 @@ void expect_equal(const LowRank& a, const LowRank& b) {
     EXPECT_EQ(a.singular_indices, b.singular_indices);
 }
 
+void expect_equal(const CodedMesh& a, const CodedMesh& b) {
+    EXPECT_EQ(a.topology, b.topology);
+    EXPECT_EQ(a.albedo.values, b.albedo.values);
+    EXPECT_EQ(a.layout, b.layout);
+    expect_equal(a.positions, b.positions);
+    expect_equal(a.transfer->matrix, b.transfer->matrix);
+    const auto* const of_a = a.transfer.as<CpcaTransfer>();
+    const auto* const of_b = b.transfer.as<CpcaTransfer>();
+    ASSERT_EQ(of_a == nullptr, of_b == nullptr);
+    if (of_a == nullptr) return;
+    EXPECT_EQ(of_a->clusters.num_clusters, of_b->clusters.num_clusters);
+    EXPECT_EQ(of_a->clusters.num_components, of_b->clusters.num_components);
+    EXPECT_EQ(of_a->clusters.cluster, of_b->clusters.cluster);
+    EXPECT_EQ(of_a->clusters.coefficients, of_b->clusters.coefficients);
+    EXPECT_EQ(of_a->clusters.scales, of_b->clusters.scales);
+}
+
 void expect_equal(const Asset& a, const Asset& b) {
-    EXPECT_EQ(a.moving().topology, b.moving().topology);
-    EXPECT_EQ(a.moving().albedo.values, b.moving().albedo.values);
-    EXPECT_EQ(a.moving().layout, b.moving().layout);
     EXPECT_EQ(a.name, b.name);
     EXPECT_EQ(a.provenance_json, b.provenance_json);
     EXPECT_EQ(a.vertex_order, b.vertex_order);
-    EXPECT_EQ(a.clusters.num_clusters, b.clusters.num_clusters);
-    EXPECT_EQ(a.clusters.cluster, b.clusters.cluster);
-    EXPECT_EQ(a.clusters.coefficients, b.clusters.coefficients);
-    EXPECT_EQ(a.clusters.scales, b.clusters.scales);
-    EXPECT_EQ(a.scenery.positions, b.scenery.positions);
-    EXPECT_EQ(a.scenery.transfer, b.scenery.transfer);
-    expect_equal(a.moving().positions, b.moving().positions);
-    expect_equal(a.moving().transfer->matrix, b.moving().transfer->matrix);
+    ASSERT_EQ(a.parts.size(), b.parts.size());
+    for (size_t j = 0; j < a.parts.size(); ++j) expect_equal(a.parts[j], b.parts[j]);
 }
 
 // What reading says; empty if all is well.
@@ -126,9 +134,9 @@ uint32_t count_components(const std::vector<Section>& sections, Tag tag, uint64_
 TEST(Prefix, EveryCutIsTheWholeWithFewerComponentsOrAClearError) {
     const TemporaryDirectory directory;
     const auto path = directory / "x.paim";
-    for (const auto& [name, model] : example_models()) {
+    for (const auto& [name, asset] : example_assets()) {
         SCOPED_TRACE(name);
-        write_paim(path, model);
+        write_paim(path, asset);
         const Asset whole = read_paim(path);
         EXPECT_TRUE(whole.complete);
         const std::vector<Section> sections = sections_of(path);
@@ -140,10 +148,10 @@ TEST(Prefix, EveryCutIsTheWholeWithFewerComponentsOrAClearError) {
             if (!is_component(section)) playable = std::max(playable, end_of(section));
         }
         EXPECT_EQ(prefixes.front(), (Prefix{playable, 0, 0}));
-        EXPECT_EQ(prefixes.back(), (Prefix{size_bytes, whole.moving().positions.num_components,
-                                           whole.moving().transfer->matrix.num_components}));
-        EXPECT_EQ(prefixes.size(),
-                  1 + whole.moving().positions.num_components + whole.moving().transfer->matrix.num_components);
+        const uint32_t num_geometry = whole.moving().positions.num_components;
+        const uint32_t num_transfer = whole.moving().transfer->matrix.num_components;
+        EXPECT_EQ(prefixes.back(), (Prefix{size_bytes, num_geometry, num_transfer}));
+        EXPECT_EQ(prefixes.size(), 1 + num_geometry + num_transfer);
         for (uint64_t cut = size_bytes; cut-- > 0;) {
             SCOPED_TRACE(cut);
             std::filesystem::resize_file(path, cut);
@@ -152,12 +160,12 @@ TEST(Prefix, EveryCutIsTheWholeWithFewerComponentsOrAClearError) {
             if (cut < table_end) {
                 const std::string needed = std::to_string(cut < 64 ? 64 : table_end);
                 expect_contains(complaint([&] { read_prefixes(path); }), "at least the " + needed);
-                expect_contains(complaint(path, kProgressive), "at least the " + needed);
+                expect_contains(complaint(path, kPrefix), "at least the " + needed);
                 continue;
             }
             ASSERT_EQ(read_prefixes(path), prefixes);
             if (cut < playable) {
-                expect_contains(complaint(path, kProgressive),
+                expect_contains(complaint(path, kPrefix),
                                 path.string() + ": cut short: " + std::to_string(cut) +
                                     " bytes, expected at least the " + std::to_string(playable) +
                                     " that can be played");
@@ -165,7 +173,7 @@ TEST(Prefix, EveryCutIsTheWholeWithFewerComponentsOrAClearError) {
             }
             const uint32_t kg = count_components(sections, Tag("GCMP"), cut);
             const uint32_t kt = count_components(sections, Tag("TCMP"), cut);
-            const Asset read = read_paim(path, kProgressive);
+            const Asset read = read_paim(path, kPrefix);
             EXPECT_FALSE(read.complete);
             expect_equal(read, first_components(whole, kg, kt));
             // The list says the same.
@@ -179,12 +187,12 @@ TEST(Prefix, EveryCutIsTheWholeWithFewerComponentsOrAClearError) {
     }
 }
 
-TEST(Prefix, WholeFilesReadProgressivelyAreComplete) {
+TEST(Prefix, WholeFilesReadAsPrefixesAreComplete) {
     const TemporaryDirectory directory;
-    for (const auto& [name, model] : example_models()) {
+    for (const auto& [name, asset] : example_assets()) {
         SCOPED_TRACE(name);
-        write_paim(directory / "x.paim", model);
-        const Asset read = read_paim(directory / "x.paim", kProgressive);
+        write_paim(directory / "x.paim", asset);
+        const Asset read = read_paim(directory / "x.paim", kPrefix);
         EXPECT_TRUE(read.complete);
         expect_equal(read, read_paim(directory / "x.paim"));
     }
@@ -193,12 +201,12 @@ TEST(Prefix, WholeFilesReadProgressivelyAreComplete) {
 TEST(Prefix, RefusesMoreThanTheWholeFile) {
     const TemporaryDirectory directory;
     const auto path = directory / "x.paim";
-    write_paim(path, make_example_model());
+    write_paim(path, make_example_asset());
     Bytes bytes = read_file(path, 1 << 20);
     const std::string whole = std::to_string(bytes.size());
     bytes.push_back(0);
     write_file(path, std::string(bytes.begin(), bytes.end()));
-    expect_contains(complaint(path, kProgressive), "expected " + whole);
+    expect_contains(complaint(path, kPrefix), "expected " + whole);
     expect_contains(complaint([&] { read_prefixes(path); }), "expected " + whole);
 }
 
@@ -206,9 +214,9 @@ TEST(Prefix, RefusesMoreThanTheWholeFile) {
 TEST(Prefix, RefusesDamageWithinThePrefixOnly) {
     const TemporaryDirectory directory;
     const auto path = directory / "x.paim";
-    for (const auto& [name, model] : example_models()) {
+    for (const auto& [name, asset] : example_assets()) {
         SCOPED_TRACE(name);
-        write_paim(path, model);
+        write_paim(path, asset);
         const Bytes bytes = read_file(path, 1 << 20);
         const std::vector<Section> sections = sections_of(path);
         const std::vector<Prefix> prefixes = read_prefixes(path);
@@ -218,7 +226,7 @@ TEST(Prefix, RefusesDamageWithinThePrefixOnly) {
             damaged[place] = static_cast<char>(damaged[place] ^ 4);
             damaged.resize(std::min<uint64_t>(cut, damaged.size()));
             std::ofstream(path, std::ios::binary) << damaged;  // often, so not flushed to the disk
-            return complaint(path, kProgressive);
+            return complaint(path, kPrefix);
         };
         for (const Section& section : sections) {
             if (section.stored_size_bytes == 0) continue;
@@ -266,7 +274,7 @@ TEST(Prefix, RefusesHostileTables) {
     const auto path = directory / "x.paim";
     const auto expect_refused = [&](const auto& change, const char* message) {
         write_hostile(path, ~0ull, change);
-        expect_contains(complaint(path, kProgressive), message);
+        expect_contains(complaint(path, kPrefix), message);
     };
     constexpr uint64_t kHuge = 1ull << 45;
     expect_refused(
@@ -311,14 +319,14 @@ TEST(Prefix, RefusesHostileTables) {
     EXPECT_EQ(last.geometry_components + last.transfer_components, 4u);
     // The header alone makes no file large.
     write_hostile(path, ~0ull, [](Header& h, Table&) { h.file_size_bytes = kHuge; });
-    EXPECT_TRUE(read_paim(path, kProgressive).complete);
+    EXPECT_TRUE(read_paim(path, kPrefix).complete);
 }
 
 // Sections in any order: what counts is when everything that is needed is there.
 TEST(Prefix, CountsBytesOfFilesInAnyOrder) {
     const TemporaryDirectory directory;
     const auto path = directory / "x.paim";
-    write_paim(path, make_example_model(2, 1, 5, 3));
+    write_paim(path, make_example_asset(2, 1, 5, 3));
     const Bytes bytes = read_file(path, 1 << 20);
     std::vector<Section> sections = sections_of(path);
     // One component before all else, the others last and backwards.
@@ -347,7 +355,7 @@ TEST(Prefix, CountsBytesOfFilesInAnyOrder) {
                                        {end_of(moved[n - 1]), 3, 3}};
     EXPECT_EQ(read_prefixes(directory / "y.paim"), expected);
     std::filesystem::resize_file(directory / "y.paim", end_of(moved[n - 1]) - 1);
-    const Asset read = read_paim(directory / "y.paim", kProgressive);
+    const Asset read = read_paim(directory / "y.paim", kPrefix);
     EXPECT_FALSE(read.complete);
     expect_equal(read, first_components(read_paim(path), 3, 0));
 }

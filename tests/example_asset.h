@@ -4,21 +4,26 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
+#include <vector>
 
 #include "paim/base/seed.h"
 #include "paim/codec/asset.h"
+#include "paim/codec/cpca/cpca_transfer.h"
+#include "paim/codec/svd/svd_transfer.h"
 
 namespace paim {
 
 // A tetrahedron with random components. Weights fall off, so that components have an order.
-inline Asset make_example_model(uint32_t bands = 2, uint32_t channels = 1, uint32_t num_poses = 5,
+inline Asset make_example_asset(uint32_t bands = 2, uint32_t channels = 1, uint32_t num_poses = 5,
                                 uint32_t num_components = 3) {
     RandomStream random(7);
-    Asset model;
-    model.name = "example";
-    model.provenance_json = R"({"made":"by a test"})";
-    model.moving().topology = {4, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
-    model.moving().layout = {TransferKind::diffuse, bands, channels};
+    Asset asset;
+    asset.name = "example";
+    asset.provenance_json = R"({"made":"by a test"})";
+    CodedMesh& mesh = asset.moving();
+    mesh.topology = {4, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+    mesh.layout = {TransferKind::diffuse, bands, channels};
     const auto fill = [&](uint32_t num_planes) {
         LowRank matrix;
         matrix.num_points = 4;
@@ -40,15 +45,15 @@ inline Asset make_example_model(uint32_t bands = 2, uint32_t channels = 1, uint3
         }
         return matrix;
     };
-    model.moving().positions = fill(3);
-    model.moving().transfer->matrix = fill(model.moving().layout.num_planes());
-    return model;
+    mesh.positions = fill(3);
+    mesh.transfer = SvdTransfer(fill(mesh.layout.num_planes()));
+    return asset;
 }
 
 // The same with integers instead of floats: i16 components, of which the last are i8.
-inline Asset quantise_example(Asset model) {
+inline Asset quantise_example(Asset asset) {
     RandomStream random(9);
-    for (LowRank* matrix : {&model.moving().positions, &model.moving().transfer->matrix}) {
+    for (LowRank* matrix : {&asset.moving().positions, &asset.moving().transfer->matrix}) {
         const auto integer = [&](double limit) { return limit * (2.0 * random.uniform() - 1.0); };
         matrix->precision = Precision::i16;
         for (uint32_t j = 0; j < matrix->num_planes; ++j) {
@@ -68,17 +73,17 @@ inline Asset quantise_example(Asset model) {
                 2 * k < matrix->num_components ? StoredValues(wide) : StoredValues(narrow);
         }
     }
-    return model;
+    return asset;
 }
 
 // The tetrahedron with clustered transfer: two clusters of two vertices, and so many components in
-// each; components over time and numbers as in make_example_model().
+// each; components over time and numbers as in make_example_asset().
 inline Asset make_clustered_example(uint32_t bands = 2, uint32_t channels = 1,
                                     uint32_t num_cluster_components = 1, bool integers = false) {
     RandomStream random(10);
     const auto number = [&] { return static_cast<float>(2.0 * random.uniform() - 1.0); };
-    Asset model = make_example_model(bands, channels);
-    VertexClusters& clusters = model.clusters;
+    Asset asset = make_example_asset(bands, channels);
+    VertexClusters clusters;
     clusters.num_clusters = 2;
     clusters.num_components = num_cluster_components;
     clusters.cluster = {1, 0, 0, 1};
@@ -93,7 +98,7 @@ inline Asset make_clustered_example(uint32_t bands = 2, uint32_t channels = 1,
     }
     clusters.scales.resize(clusters.num_rows());
     std::generate(clusters.scales.begin(), clusters.scales.end(), number);
-    LowRank& matrix = model.moving().transfer->matrix;
+    LowRank matrix = asset.moving().transfer->matrix;
     matrix.num_points = clusters.num_rows();
     std::vector<float> rows(matrix.num_rows());
     const auto fill = [&] {
@@ -102,45 +107,52 @@ inline Asset make_clustered_example(uint32_t bands = 2, uint32_t channels = 1,
     };
     matrix.mean = fill();
     for (StoredValues& component : matrix.components) component = fill();
-    return integers ? quantise_example(model) : model;
+    asset.moving().transfer = CpcaTransfer(std::move(matrix), std::move(clusters));
+    return integers ? quantise_example(asset) : asset;
 }
 
-// Two triangles of three colours.
-inline Scenery make_example_scenery(const TransferLayout& layout) {
+// Two triangles of three colours, which stand still.
+inline CodedMesh make_example_still(const TransferLayout& layout) {
     RandomStream random(8);
-    Scenery scenery;
-    scenery.topology = {4, {{0, 1, 2}, {1, 3, 2}}};
-    scenery.albedo.values = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.5f, 0.5f, 0.5f}};
+    CodedMesh mesh;
+    mesh.topology = {4, {{0, 1, 2}, {1, 3, 2}}};
+    mesh.albedo.values = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.5f, 0.5f, 0.5f}};
+    mesh.layout = layout;
     const auto number = [&] { return static_cast<float>(2.0 * random.uniform() - 1.0); };
-    const auto planes = [&](size_t count) {
-        std::vector<float> values(4 * count);
+    const auto still = [&](uint32_t num_planes) {
+        std::vector<float> values(size_t{4} * num_planes);
         std::generate(values.begin(), values.end(), number);
-        return values;
+        return LowRank::still(num_planes, std::move(values));
     };
-    scenery.positions = planes(3);
-    scenery.transfer = planes(layout.num_planes());
-    return scenery;
+    mesh.positions = still(3);
+    mesh.transfer = SvdTransfer(still(layout.num_planes()));
+    return mesh;
 }
 
 // The same in integers: positions i16, transfer i8, a step a plane.
-inline Scenery make_quantised_scenery(const TransferLayout& layout) {
-    Scenery scenery = make_example_scenery(layout);
-    const auto quantise = [](StillPlanes& planes, auto largest) {
+inline CodedMesh make_quantised_still(const TransferLayout& layout) {
+    CodedMesh mesh = make_example_still(layout);
+    const auto quantise = [](LowRank& matrix, auto largest) {
         using Integer = decltype(largest);
-        const std::vector<float> values = planes.floats();
         std::vector<Integer> integers;
-        for (const float value : values) {
+        for (const float value : matrix.mean.floats()) {
             integers.push_back(static_cast<Integer>(std::lround(value * largest)));
         }
         std::vector<float> steps;
-        for (size_t j = 0; 4 * j < values.size(); ++j) {
+        for (uint32_t j = 0; j < matrix.num_planes; ++j) {
             steps.push_back(static_cast<float>(1 + j) / static_cast<float>(largest));
         }
-        planes = {integers, steps};
+        matrix = LowRank::still(matrix.num_planes, std::move(integers), std::move(steps));
     };
-    quantise(scenery.positions, int16_t{1000});
-    quantise(scenery.transfer, int8_t{100});
-    return scenery;
+    quantise(mesh.positions, int16_t{1000});
+    quantise(mesh.transfer->matrix, int8_t{100});
+    return mesh;
+}
+
+// The example, and what stands still around it.
+inline Asset with_still(Asset asset, CodedMesh still) {
+    asset.parts.push_back(std::move(still));
+    return asset;
 }
 
 }  // namespace paim

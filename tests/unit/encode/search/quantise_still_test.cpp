@@ -1,5 +1,5 @@
 // What stands still is within a target as well, and no finer than that.
-#include "compressor/encode/search/quantise_scenery.h"
+#include "compressor/encode/search/quantise_still.h"
 
 #include <gtest/gtest.h>
 
@@ -13,13 +13,13 @@
 namespace paim {
 namespace {
 
-class QuantiseScenery : public testing::Test {
+class QuantiseStill : public testing::Test {
   protected:
-    QuantiseScenery() { options_.precision = Precision::i16; }
+    QuantiseStill() { options_.precision = Precision::i16; }
 
-    BakeReader bake(double scenery_noise) const {
+    BakeReader bake(double still_noise) const {
         TargetBake numbers;
-        numbers.scenery_noise = scenery_noise;
+        numbers.still_noise = still_noise;
         return write_target_bake(directory_ / "x.bake", numbers);
     }
 
@@ -37,37 +37,38 @@ class QuantiseScenery : public testing::Test {
     EncodeOptions options_;
 };
 
-TEST_F(QuantiseScenery, IsAsCoarseAsTheTargetAllows) {
+TEST_F(QuantiseStill, IsAsCoarseAsTheTargetAllows) {
     const BakeReader bake = this->bake(0.001);
     for (const double error : {0.1, 0.02}) {
-        const Asset model = encode(bake, error);
-        EXPECT_FALSE(model.scenery.transfer.values.holds_floats());
-        EXPECT_FALSE(model.scenery.positions.values.holds_floats());
-        const AssetError measured = measure_asset(model, bake, BandPower::flat(4));
+        const Asset asset = encode(bake, error);
+        ASSERT_NE(asset.still(), nullptr);
+        EXPECT_FALSE(asset.still()->transfer->matrix.holds_floats());
+        EXPECT_FALSE(asset.still()->positions.holds_floats());
+        const AssetError measured = measure_asset(asset, bake, BandPower::flat(4));
         // Steps end within 0.5 % of the largest that are good, and errors of rounding are those of
         // 6400 and 1200 values.
-        EXPECT_LE(measured.scenery->transfer.total(), error);
-        EXPECT_GT(measured.scenery->transfer.total(), 0.93 * error);
-        // Of the animation's diagonal, not the scenery's, which is twice as long.
+        EXPECT_LE(measured.still->transfer.total(), error);
+        EXPECT_GT(measured.still->transfer.total(), 0.93 * error);
+        // Of the diagonal of what moves, not of what stands still, which is twice as long.
         const double distance = error * kGeometryPerTransferError * measured.geometry.diagonal;
-        EXPECT_LE(measured.scenery->geometry.rms(), distance * (1.0 + 1e-6));
-        EXPECT_GT(measured.scenery->geometry.rms(), 0.9 * distance);
-        const ErrorStatement stated = read_error_statement(model, output_);
+        EXPECT_LE(measured.still->geometry.rms(), distance * (1.0 + 1e-6));
+        EXPECT_GT(measured.still->geometry.rms(), 0.9 * distance);
+        const ErrorStatement stated = read_error_statement(asset, output_);
         EXPECT_EQ(stated.errors.back().name, "scenery_position_worst");
-        EXPECT_EQ(stated.errors.back().value, measured.scenery->geometry.worst());
+        EXPECT_EQ(stated.errors.back().value, measured.still->geometry.worst());
     }
 }
 
-TEST_F(QuantiseScenery, IsWithinTheTargetWithNoiseOfItsOwn) {
+TEST_F(QuantiseStill, IsWithinTheTargetWithNoiseOfItsOwn) {
     const BakeReader bake = this->bake(0.02);
-    const Asset model = encode(bake, 0.08);
-    const AssetError measured = measure_asset(model, bake, BandPower::flat(4));
-    EXPECT_GT(measured.scenery->transfer.bake_noise, 0.02);
-    EXPECT_LE(measured.scenery->transfer.total(), 0.08);
-    EXPECT_GT(measured.scenery->transfer.total(), 0.07);
+    const Asset asset = encode(bake, 0.08);
+    const AssetError measured = measure_asset(asset, bake, BandPower::flat(4));
+    EXPECT_GT(measured.still->transfer.bake_noise, 0.02);
+    EXPECT_LE(measured.still->transfer.total(), 0.08);
+    EXPECT_GT(measured.still->transfer.total(), 0.07);
 }
 
-TEST_F(QuantiseScenery, IsRefusedByNameWhereItsNoiseIsTooLarge) {
+TEST_F(QuantiseStill, IsRefusedByNameWhereItsNoiseIsTooLarge) {
     const BakeReader bake = this->bake(0.1);
     try {
         encode(bake, 0.02);
@@ -82,12 +83,12 @@ TEST_F(QuantiseScenery, IsRefusedByNameWhereItsNoiseIsTooLarge) {
 }
 
 // Floats stay what they are, in the order that the animation has.
-TEST_F(QuantiseScenery, LeavesFloatsAsTheyAre) {
+TEST_F(QuantiseStill, LeavesFloatsAsTheyAre) {
     options_.precision = Precision::f32;
     const BakeReader bake = this->bake(0.001);
     const AssetError measured = measure_asset(encode(bake, 0.02), bake, BandPower::flat(4));
-    EXPECT_EQ(measured.scenery->geometry.worst(), 0.0);
-    EXPECT_EQ(measured.scenery->transfer.deviation, 0.0);
+    EXPECT_EQ(measured.still->geometry.worst(), 0.0);
+    EXPECT_EQ(measured.still->transfer.deviation, 0.0);
 }
 
 }  // namespace
