@@ -96,10 +96,12 @@ EncodeSummary encode(const BakeReader& bake, const EncodeOptions& options,
     asset.origin = bake.identity().origin;
     asset.frames_per_second = options.frames_per_second;
     asset.name = options.name;
+    const TransferLayout layout = bake.identity().layout.with_bands(options.bands);
+    if (auto still = still_part(bake, layout.in_bands)) asset.parts.push_back(std::move(*still));
     CodedMesh& mesh = asset.moving();
     mesh.topology = bake.topology();
     mesh.albedo = bake.albedo();
-    mesh.layout = bake.identity().layout.with_bands(options.bands);
+    mesh.layout = layout;
 
     const GeometryRows baked_geometry(bake);
     const TransferRows baked_transfer(bake, mesh.layout.in_bands);
@@ -147,9 +149,6 @@ EncodeSummary encode(const BakeReader& bake, const EncodeOptions& options,
         start_matrix(bake, geometry_rows, geometry, summary.geometry_components, options);
     mesh.transfer = SvdTransfer(
         start_matrix(bake, transfer_rows, transfer, summary.transfer_components, options));
-    if (auto still = still_part(bake, mesh.layout.in_bands)) {
-        asset.parts.push_back(std::move(*still));
-    }
 
     if (options.measure) {
         check_measuring_memory(paim_size_bytes(asset), mesh.topology.num_vertices,

@@ -9,7 +9,6 @@
 #include "compressor/bake/bake_sequence.h"
 #include "paim/codec/mesh_decoder.h"
 #include "paim/format/paim/paim_read.h"
-#include "paim/format/paim/paim_write.h"
 #include "paim/metrics/singular_value_error.h"
 #include "poses/octopus.h"
 #include "tests/temporary_directory.h"
@@ -55,8 +54,8 @@ double magnitude(const LowRank& matrix, size_t r, uint32_t p) {
     return sum;
 }
 
-void expect_back_to_rounding(const LowRank& matrix, uint32_t p,
-                             const std::vector<float>& decoded, const std::vector<float>& baked) {
+void expect_back_to_rounding(const LowRank& matrix, uint32_t p, const std::vector<float>& decoded,
+                             const std::vector<float>& baked) {
     ASSERT_EQ(decoded.size(), baked.size());
     // Floats round by at most u = 2^-24 of the value. The mean is stored with one rounding, each
     // term component · weight with three (both factors, the product), and each of the K additions
@@ -76,13 +75,14 @@ TEST_F(Encode, AllComponentsGiveTheBakeBack) {
     const BakeReader bake(directory_ / "x.bake");
     EXPECT_EQ(asset.moving().topology, bake.topology());
     EXPECT_EQ(asset.moving().albedo.values, bake.albedo().values);
-    const SvdDecoder decoder(asset);
+    const LowRank& transfer = asset.moving().transfer->matrix;
+    MeshDecoder decoder(asset.moving());
     DecodedPose pose;
     for (uint32_t p = 0; p < kNumPoses; ++p) {
         decoder.decode(p, {}, pose);
         const BakedPose baked = bake.read_pose(p);
         expect_back_to_rounding(asset.moving().positions, p, pose.positions, baked.positions);
-        expect_back_to_rounding(asset.moving().transfer->matrix, p, pose.transfer, baked.transfer);
+        expect_back_to_rounding(transfer, p, pose.transfer, baked.transfer);
     }
 }
 
@@ -118,7 +118,7 @@ TEST_F(Encode, TruncationErrorIsWhatTheDroppedSingularValuesSay) {
         transfer.push_back(std::move(pose.transfer));
     }
     const auto check = [&](const Asset& asset, const DecodeLimits& limits) {
-        const SvdDecoder decoder(asset);
+        MeshDecoder decoder(asset.moving());
         std::vector<std::vector<float>> decoded_positions, decoded_transfer;
         DecodedPose pose;
         for (uint32_t p = 0; p < kNumPoses; ++p) {
@@ -148,14 +148,14 @@ TEST_F(Encode, TruncationErrorIsWhatTheDroppedSingularValuesSay) {
 }
 
 TEST_F(Encode, FewerComponentsAreAPrefixOfAll) {
-    const Asset all = encode_with(kAll, kAll);
-    const Asset some = encode_with(first(2), first(3));
-    EXPECT_EQ(some.moving().positions.singular_values, all.moving().positions.singular_values);
-    EXPECT_EQ(some.moving().positions.mean, all.moving().positions.mean);
-    EXPECT_TRUE(std::equal(some.moving().positions.components.begin(), some.moving().positions.components.end(),
-                           all.moving().positions.components.begin()));
-    EXPECT_TRUE(std::equal(some.moving().transfer->matrix.weights.begin(), some.moving().transfer->matrix.weights.end(),
-                           all.moving().transfer->matrix.weights.begin()));
+    const CodedMesh all = encode_with(kAll, kAll).moving();
+    const CodedMesh some = encode_with(first(2), first(3)).moving();
+    EXPECT_EQ(some.positions.singular_values, all.positions.singular_values);
+    EXPECT_EQ(some.positions.mean, all.positions.mean);
+    EXPECT_TRUE(std::equal(some.positions.components.begin(), some.positions.components.end(),
+                           all.positions.components.begin()));
+    const LowRank &fewer = some.transfer->matrix, &more = all.transfer->matrix;
+    EXPECT_TRUE(std::equal(fewer.weights.begin(), fewer.weights.end(), more.weights.begin()));
 }
 
 TEST_F(Encode, StillAnimationsNeedNoComponents) {

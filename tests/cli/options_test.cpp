@@ -2,7 +2,6 @@
 #include "paim/codec/mesh_decoder.h"
 #include "paim/format/bake/bake_directory.h"
 #include "paim/format/paim/paim_read.h"
-#include "paim/format/paim/paim_write.h"
 #include "tests/cli/tool_test.h"
 
 namespace paim {
@@ -72,7 +71,8 @@ TEST_F(Options, AlbedoIsGivenOrTheVertexColours) {
     uniform.insert(uniform.end(), {"--albedo", "0.25,0.5,0.75"});
     expect_success(compress(uniform));
     EXPECT_EQ(describe(path("x.paim"))["albedo"], "uniform");
-    EXPECT_EQ(read_paim(path("x.paim")).albedo.values, (std::vector<Vec3f>{{0.25f, 0.5f, 0.75f}}));
+    EXPECT_EQ(read_paim(path("x.paim")).moving().albedo.values,
+              (std::vector<Vec3f>{{0.25f, 0.5f, 0.75f}}));
 }
 
 TEST_F(Options, ComponentsAreCountedAllOrChosen) {
@@ -129,7 +129,7 @@ TEST_F(Options, FewerBandsAreTheFirstPlanes) {
                              "--transfer-components", "all"}));
     const Asset asset = read_paim(path("3.paim"));
     const BakeReader bake(path("x.bake"));
-    const SvdDecoder decoder(asset);
+    MeshDecoder decoder(asset.moving());
     DecodedPose pose;
     for (uint32_t p = 0; p < 4; ++p) {
         decoder.decode(p, {}, pose);

@@ -76,7 +76,7 @@ TEST_F(Prefixes, HaveTheErrorsThatAreListed) {
     for (size_t j = report["prefixes"].size(); j-- > 0;) {
         const json& entry = report["prefixes"][j];
         std::filesystem::resize_file(file, entry["size_bytes"].get<uint64_t>());
-        const Asset asset = read_paim(file, {.progressive = true});
+        const Asset asset = read_paim(file, {.prefix = true});
         const AssetError error = measure_asset(asset, bake, BandPower::natural());
         // Geometry has no noise: what is missing is orthogonal but for f32.
         const double rms = error.geometry.rms();

@@ -44,7 +44,7 @@ TEST_F(Scenes, FloorIsPartOfTheMeshAndOfTheIdentity) {
     expect_failure(bake("plain.bake", same), 2, {"(floor: none there, " + floor + " asked for)"});
 
     expect_success(compress({"encode", path("x.bake"), "-o", path("x.paim")}));
-    EXPECT_EQ(read_paim(path("x.paim")).topology.num_vertices, json["num_vertices"]);
+    EXPECT_EQ(read_paim(path("x.paim")).moving().topology.num_vertices, json["num_vertices"]);
 }
 
 TEST_F(Scenes, FarFromTheWorldsOriginAllCountFromOnePlace) {
@@ -173,7 +173,8 @@ TEST_F(Scenes, StaticFilesAreWithinATargetToo) {
     expect_success(said);
     EXPECT_TRUE(contains(said.out, "scenery: transfer ")) << said.out;
     const Asset asset = read_paim(path("x.paim"));
-    EXPECT_FALSE(asset.scenery.transfer.values.holds_floats());
+    ASSERT_NE(asset.still(), nullptr);
+    EXPECT_FALSE(asset.still()->transfer->matrix.holds_floats());
     const auto json =
         parse_object(analyze({path("x.bake"), "--verify", path("x.paim"), "--json"}))["errors"];
     for (const char* name : {"scenery_transfer_total_error", "scenery_position_worst"}) {
@@ -184,7 +185,7 @@ TEST_F(Scenes, StaticFilesAreWithinATargetToo) {
 
     // One that was changed is found out.
     Asset worse = asset;
-    worse.scenery.transfer.steps[0] *= 1.5f;
+    worse.still()->transfer->matrix.steps[0] *= 1.5f;
     write_paim(path("worse.paim"), worse);
     const ToolResult found = analyze({path("x.bake"), "--verify", path("worse.paim")});
     EXPECT_EQ(found.exit_code, 5);
@@ -210,10 +211,11 @@ TEST_F(Scenes, StaticFilesAreStoredOnceAndNamed) {
     expect_success(compress({"encode", path("x.bake"), "-o", path("x.paim"), "--bands", "1"}));
     const Asset asset = read_paim(path("x.paim"));
     const BakeReader reader(path("x.bake"));
-    ASSERT_EQ(asset.scenery.topology.num_vertices, 59u);
-    EXPECT_EQ(asset.scenery.positions.floats(), reader.scenery()->pose.positions);
+    ASSERT_NE(asset.still(), nullptr);
+    ASSERT_EQ(asset.still()->topology.num_vertices, 59u);
+    EXPECT_EQ(asset.still()->positions.mean_floats(), reader.scenery()->pose.positions);
     const auto& baked = reader.scenery()->pose.transfer;  // of two bands, the first is kept
-    EXPECT_EQ(asset.scenery.transfer.floats(),
+    EXPECT_EQ(asset.still()->transfer->matrix.mean_floats(),
               std::vector<float>(baked.begin(), baked.begin() + 59));
     for (const std::string file : {"x.bake", "x.paim"}) {
         EXPECT_EQ(parse_object(info({path(file), "--json"}))["scenery_triangles"], 109);
@@ -225,7 +227,7 @@ TEST_F(Scenes, StaticFilesAreStoredOnceAndNamed) {
     write("x.bake/notes.txt", "mine");
     EXPECT_EQ(parse_object(info({path("x.bake"), "--json"}))["size_bytes"], size_bytes);
 
-    // All of the model shows all of the bake, scenery and all; one band less is another picture.
+    // All of the file shows all of the bake, what stands still too; one band less is another picture.
     json = parse_object(analyze({path("x.bake"), "-o", path("report"), "--size", "32",
                                  "--components", "1", "--bands", "1", "--poses", "1", "--json"}));
     EXPECT_LT(json["bands"][0]["visual_error"]["sky"], 1e-5);

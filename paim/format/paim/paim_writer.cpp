@@ -15,7 +15,7 @@ namespace {
 
 // The type that a row of floats has in a file that is not packed.
 struct PlainType {
-    ScalarType operator()(const Topology*) const { return ScalarType::u32; }
+    ScalarType operator()(Topology*) const { return ScalarType::u32; }
     ScalarType operator()(const SingularValues&) const { return ScalarType::f64; }
     ScalarType operator()(const MatrixValues& row) const {
         return row.is_component && row.matrix->precision == Precision::f16 ? ScalarType::f16

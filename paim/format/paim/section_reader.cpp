@@ -174,11 +174,11 @@ void check_singular_values(const ContainerReader& reader, const LowRank& matrix)
 // Types that a row may have in a file.
 struct AllowedTypes {
     using Types = std::vector<ScalarType>;
-    Types operator()(const Topology*) const { return {ScalarType::u32}; }
+    Types operator()(Topology*) const { return {ScalarType::u32}; }
     Types operator()(const SingularValues&) const { return {ScalarType::f64, ScalarType::f32}; }
     Types operator()(const Weights&) const { return {ScalarType::f32, ScalarType::i16}; }
     Types operator()(const MatrixValues&) const { return kValues; }
-    Types operator()(const StoredValues*) const { return kValues; }
+    Types operator()(StoredValues*) const { return kValues; }
     Types operator()(const SmallNumbers&) const { return {ScalarType::i16}; }
     template <typename Row>
     Types operator()(const Row&) const {

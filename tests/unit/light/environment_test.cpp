@@ -122,7 +122,8 @@ TEST(EnvironmentLight, RadianceInterpolatesPixelCentres) {
 TEST(EnvironmentLight, CoefficientsAreTheProjection) {
     const Image image(4, 2, Vec3f(1, 2, 3));
     const EnvironmentLight light(image);
-    EXPECT_EQ(light.coefficients(Vec3f(5, 5, 5), 3).values, project_latlong(image, 3).values);
+    EXPECT_EQ(light.coefficients(3).values, project_latlong(image, 3).values);
+    EXPECT_EQ(light.at(Vec3f(5, 5, 5), 3).values, project_latlong(image, 3).values);
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include "compressor/encode/search/target_encode.h"
 #include "paim/base/error.h"
 #include "paim/format/paim/paim_read.h"
-#include "paim/format/paim/paim_write.h"
 #include "tests/temporary_directory.h"
 #include "tests/unit/encode/search/target_bake.h"
 

@@ -13,7 +13,6 @@
 #include "paim/codec/component_planes.h"
 #include "paim/codec/svd/svd_transfer.h"
 #include "paim/format/paim/paim_read.h"
-#include "paim/format/paim/paim_write.h"
 #include "paim/mesh/cache_order.h"
 #include "tests/temporary_directory.h"
 #include "tests/unit/encode/search/target_bake.h"

@@ -177,7 +177,8 @@ TEST_F(BakeDirectory, RefusesOtherIdentitiesByName) {
         change(identity);
         return complaint([&] { writer(identity); });
     };
-    expect_contains(refusal([](auto& i) { i.layout.in_bands = 3; }), "(bands: 2 there, 3 asked for)");
+    expect_contains(refusal([](auto& i) { i.layout.in_bands = 3; }),
+                    "(bands: 2 there, 3 asked for)");
     expect_contains(refusal([](auto& i) { i.layout.channels = 3; }),
                     "(channels: 1 there, 3 asked for)");
     expect_contains(refusal([](auto& i) { i.rays = 2; }), "(rays: 64 there, 2 asked for)");
