@@ -131,6 +131,23 @@ TEST(PlanePacking, IsWhatTheDocumentsSay) {
     EXPECT_EQ(plane.lows, (std::vector<uint8_t>{(2 * (300 - 127)) & 255}));
 }
 
+// The bytes that docs/algorithms/quantisation.md draws.
+TEST(PlanePacking, PacksTheExampleOfTheDocuments) {
+    using Bytes = std::vector<uint8_t>;
+    const std::vector<int16_t> narrow{1, 0, -1, 0, 6, -1};
+    PackedPlane plane = pack(Prediction::none, 1, std::span<const int16_t>(narrow));
+    EXPECT_EQ(plane.symbols, (Bytes{0xc2, 0x28}));
+    EXPECT_EQ(plane.gaps, (Bytes{0x04}));
+    EXPECT_EQ(plane.lows, (Bytes{0x0a}));
+    EXPECT_FALSE(plane.header.wide);
+    const std::vector<int16_t> wide{302, -2, 0, -699, 0, -1};
+    plane = pack(Prediction::none, 2, std::span<const int16_t>(wide));
+    EXPECT_EQ(plane.symbols, (Bytes{0x66, 0x0b}));
+    EXPECT_EQ(plane.gaps, (Bytes{0x00, 0x02}));
+    EXPECT_EQ(plane.lows, (Bytes{0x58, 0x71}));
+    EXPECT_EQ(plane.highs, (Bytes{0x02, 0x05}));
+}
+
 // Planes whose magnitudes go from 0 to `limit`, each another way.
 template <typename Integer>
 std::vector<Integer> some_planes(uint32_t n, const std::vector<double>& limits, uint64_t seed) {
@@ -325,7 +342,7 @@ TEST(CacheOrder, IsAPermutationThatKeepsTheMesh) {
 }
 
 // Two planes of six values, laid out as in docs/format.md: packed symbols, then the gaps, low bytes and
-// high bytes of the escapes of both planes. docs/algorithms/quantisation.md draws these bytes.
+// high bytes of the escapes of both planes. An escape may add to any symbol, as the one of −699 does.
 TEST(PlaneCodec, ReadsAFrameWrittenByHand) {
     const std::vector<uint8_t> contents{
         0x00, 1,    1, 0, 0, 0,  // no prediction, symbols up to 1, one escape
