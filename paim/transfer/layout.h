@@ -8,7 +8,7 @@
 namespace paim {
 
 enum class TransferKind : uint32_t {
-    diffuse = 0,  // albedo-free, divided by π (docs/equations.md E1)
+    diffuse = 0,  // albedo-free, divided by π (docs/algorithms/transfer.md, E1)
 };
 
 // Values are stored plane by plane: plane = channel · bands² + i, each contiguous over the

@@ -51,7 +51,7 @@ QuantisedScenery quantise_scenery(const EncodeProblem& problem, double transfer_
     const double room = transfer_error * transfer_error - floor.total() * floor.total();
     double transfer_budget = std::max(0.0, room) * energy;
     double distance_budget = distance * distance * num_vertices;
-    // Rounding and noise are independent, but only on average.
+    // The budget takes rounding and noise for uncorrelated. They are, but only on average.
     constexpr int kMaxRounds = 8;
     constexpr double kSmaller = 0.95;
     Model model = problem.frame;
