@@ -1,10 +1,10 @@
-# Codec 3 as bytes: two planes of six residuals, their symbols and escapes, and the frame's contents.
+# Codec 3 as bytes: two planes of six residuals, their symbols and escapes, and the frame.
 #   codec3_bytes.py SVG
 # The test PlanePacking.PacksTheExampleOfTheDocuments holds the encoder to the same bytes.
 import sys
 from pathlib import Path
 
-from svg import BLUE, Figure, GREEN, INK, LIGHT_BLUE, LIGHT_GREEN, LIGHT_ORANGE, ORANGE, PALE, SOFT
+from svg import BLUE, Figure, GREEN, LIGHT_BLUE, LIGHT_GREEN, LIGHT_ORANGE, ORANGE, PALE, SOFT
 
 PLANES = [
     {"magnitude": 1, "per_byte": 5, "residuals": [1, 0, -1, 0, 6, -1]},
@@ -26,7 +26,9 @@ def zigzag(value):
 def pack(plane):
     a, base = plane["magnitude"], 2 * plane["magnitude"] + 1
     plane["symbols"] = [max(-a, min(a, r)) for r in plane["residuals"]]
-    escapes = [(n, r - s) for n, (r, s) in enumerate(zip(plane["residuals"], plane["symbols"])) if r != s]
+    escapes = [
+        (n, r - s) for n, (r, s) in enumerate(zip(plane["residuals"], plane["symbols"])) if r != s
+    ]
     plane["escapes"] = escapes
     shifted = [s + a for s in plane["symbols"]]
     while len(shifted) % plane["per_byte"]:
@@ -58,12 +60,16 @@ def draw_plane(figure, y, number, plane):
     left, step = 150, 68
     base = 2 * plane["magnitude"] + 1
     figure.text(16, y + 20, f"plane {number}", 15, bold=True)
-    figure.text(16, y + 42, f"symbols −{plane['magnitude']} … {plane['magnitude']}", 13, colour=SOFT)
+    figure.text(
+        16, y + 42, f"symbols −{plane['magnitude']} … {plane['magnitude']}", 13, colour=SOFT
+    )
     figure.text(16, y + 62, f"base {base}", 13, colour=SOFT)
     for n, (residual, symbol) in enumerate(zip(plane["residuals"], plane["symbols"])):
         x = left + n * step
         escaped = residual != symbol
-        figure.rect(x, y, step - 8, 28, LIGHT_ORANGE if escaped else PALE, ORANGE if escaped else SOFT)
+        figure.rect(
+            x, y, step - 8, 28, LIGHT_ORANGE if escaped else PALE, ORANGE if escaped else SOFT
+        )
         figure.text(x + (step - 8) / 2, y + 19, signed(residual), 14, "middle", mono=True)
         figure.arrow(x + (step - 8) / 2, y + 29, x + (step - 8) / 2, y + 47, SOFT)
         figure.rect(x, y + 48, step - 8, 28, LIGHT_BLUE, BLUE)
@@ -73,16 +79,22 @@ def draw_plane(figure, y, number, plane):
     figure.text(x, y + 67, "symbols", 13, colour=SOFT)
     for n, (group, byte) in enumerate(zip(plane["groups"], plane["packed"])):
         powers = [base**e for e in range(len(group) - 1, -1, -1)]
-        terms = " + ".join(f"{digit}·{power}" if power > 1 else str(digit) for digit, power in zip(group, powers))
-        figure.text(left, y + 100 + 22 * n, f"{terms} = {byte} = 0x{byte:02x}", 13, mono=True, colour=BLUE)
+        terms = " + ".join(
+            f"{digit}·{power}" if power > 1 else str(digit) for digit, power in zip(group, powers)
+        )
+        figure.text(
+            left, y + 100 + 22 * n, f"{terms} = {byte} = 0x{byte:02x}", 13, mono=True, colour=BLUE
+        )
     top = y + 100
     place = left + 440
     for n, ((index, value), gap) in enumerate(zip(plane["escapes"], plane["gaps"])):
         code = zigzag(value)
         figure.text(
-            place, top + 22 * n,
+            place,
+            top + 22 * n,
             f"skip {gap}, add {signed(value)} = zigzag 0x{code:0{4 if plane['wide'] else 2}x}",
-            13, colour=ORANGE,
+            13,
+            colour=ORANGE,
         )
 
 
@@ -95,7 +107,9 @@ def main(svg):
             text = "{" + ", ".join(f"0x{byte:02x}" for byte in plane[part]) + "}"
             assert not plane[part] or text in test.read_text(), f"{test.name} has no {part} {text}"
 
-    figure = Figure(900, 470, "Codec 3: residuals become symbols and escapes, and then bytes", "codec3_bytes.py")
+    figure = Figure(
+        900, 470, "Codec 3: residuals become symbols and escapes, and then bytes", "codec3_bytes.py"
+    )
     draw_plane(figure, 14, 0, PLANES[0])
     draw_plane(figure, 164, 1, PLANES[1])
 
@@ -125,7 +139,14 @@ def main(svg):
         colour = COLOURS[part][1]
         figure.line(start, y + 38, end, y + 38, colour, 2)
         figure.text((start + end) / 2, y + 56, names[part], 13, "middle", colour)
-    figure.text(16, 445, "Gaps, lows and highs of both planes follow one another. Plane 1 is wide: its escapes have high bytes.", 13, colour=SOFT)
+    figure.text(
+        16,
+        445,
+        "Gaps, lows and highs of both planes follow one another. "
+        "Plane 1 is wide: its escapes have high bytes.",
+        13,
+        colour=SOFT,
+    )
     figure.save(svg)
 
 

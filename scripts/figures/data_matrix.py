@@ -4,11 +4,10 @@
 import json
 import math
 import sys
-from pathlib import Path
 
 from octopus import Octopus, centred
 from paim_files import Container
-from svg import BLUE, Figure, GREEN, INK, ORANGE, SOFT
+from svg import Figure, GREEN, SOFT
 
 PER_PLANE = 8  # vertices of each plane that are drawn
 
@@ -20,7 +19,11 @@ def shades(rows):
 
 def main(data, svg):
     octopus = Octopus(data)
-    num_vertices, num_poses, planes = octopus.num_vertices, octopus.num_poses, octopus.num_coefficients
+    num_vertices, num_poses, planes = (
+        octopus.num_vertices,
+        octopus.num_poses,
+        octopus.num_coefficients,
+    )
     with open(f"{data}/target.json") as file:
         chosen = next(c for c in json.load(file)["candidates"] if c["chosen"])
     num_components = chosen["components"]
@@ -30,10 +33,15 @@ def main(data, svg):
     rows_of = [[i * num_vertices + v for v in vertices] for i in range(planes)]
 
     figure = Figure(
-        900, 740, "The data matrix: svd takes rows of planes and vertices, cpca takes vertices", "data_matrix.py"
+        900,
+        740,
+        "The data matrix: svd takes rows of planes and vertices, cpca takes vertices",
+        "data_matrix.py",
     )
     # svd
-    figure.text(20, 28, "svd: a row is one coefficient i of one vertex v, a column is a pose", 15, bold=True)
+    figure.text(
+        20, 28, "svd: a row is one coefficient i of one vertex v, a column is a pose", 15, bold=True
+    )
     top, height = 70, 300
     per_plane = height / planes
     matrix, mean, components = [], [], []
@@ -43,13 +51,18 @@ def main(data, svg):
         mean += shades([[m] for _, m in values])
     for rows in rows_of:
         # All components of a plane on one scale: with unit RMS each, times its singular value.
-        components += shades(
-            [[paim["TCMP", k][r] for k in range(num_components)] for r in rows]
-        )
+        components += shades([[paim["TCMP", k][r] for k in range(num_components)] for r in rows])
     weights = [row[:] for row in octopus.directions[:num_components]]
     figure.heat(90, top, 240, height, matrix)
     figure.text(210, top - 12, f"X, drawn without μ; P = {num_poses}", 13, "middle")
-    for i, name in ((0, "i = 0"), (1, "1"), (2, "2"), (3, "3"), (4, "4"), (planes - 1, str(planes - 1))):
+    for i, name in (
+        (0, "i = 0"),
+        (1, "1"),
+        (2, "2"),
+        (3, "3"),
+        (4, "4"),
+        (planes - 1, str(planes - 1)),
+    ):
         figure.text(82, top + per_plane * (i + 0.5) + 5, name, 12, "end", SOFT)
     figure.text(82, top + height * 0.55, "planes", 12, "end", SOFT)
     figure.text(90, top + height + 22, f"C·V = {planes}·{num_vertices} rows", 13, colour=SOFT)
@@ -61,17 +74,30 @@ def main(data, svg):
     figure.text(482, top - 12, f"K = {num_components} components", 13, "middle")
     figure.text(552, top + height / 2 + 6, "·", 22, "middle")
     figure.heat(572, top + height / 2 - 50, 240, 100, shades(weights))
-    figure.text(692, top + height / 2 - 62, f"weights W [{num_components}][{num_poses}]", 13, "middle")
+    figure.text(
+        692, top + height / 2 - 62, f"weights W [{num_components}][{num_poses}]", 13, "middle"
+    )
     figure.lines(
-        572, top + height / 2 + 84,
-        ["A pose is the mean plus a weighted sum of K", f"columns. Each has {planes * num_vertices} values."],
-        13, colour=SOFT,
+        572,
+        top + height / 2 + 84,
+        [
+            "A pose is the mean plus a weighted sum of K",
+            f"columns. Each has {planes * num_vertices} values.",
+        ],
+        13,
+        colour=SOFT,
     )
 
     # cpca: vertices as points of C·P coordinates
     base = 440
     figure.line(20, base - 20, 880, base - 20, "#d0d0d0")
-    figure.text(20, base + 10, "cpca: the same values, a row is one vertex, a column one (i, p)", 15, bold=True)
+    figure.text(
+        20,
+        base + 10,
+        "cpca: the same values, a row is one vertex, a column one (i, p)",
+        15,
+        bold=True,
+    )
     top, height, width = base + 54, 200, 340
     shown = [num_vertices * (2 * n + 1) // 200 for n in range(100)]
     picture = []
@@ -90,7 +116,13 @@ def main(data, svg):
             row += [(values[p] - middle) / (2 * rms) for p in range(0, num_poses, 4)]
         picture.append(row)
     figure.heat(90, top, width, height, picture)
-    figure.text(90 + width / 2, top - 12, f"C·P = {planes}·{num_poses} = {planes * num_poses} columns", 13, "middle")
+    figure.text(
+        90 + width / 2,
+        top - 12,
+        f"C·P = {planes}·{num_poses} = {planes * num_poses} columns",
+        13,
+        "middle",
+    )
     figure.text(82, top + 14, "v = 0", 12, "end", SOFT)
     figure.text(82, top + height - 2, str(num_vertices - 1), 12, "end", SOFT)
     average = num_vertices / clusters
@@ -108,17 +140,22 @@ def main(data, svg):
     figure.text(474, slice_top + 56, "[V_g][1 + J]", 12, colour=SOFT)
     figure.text(874, slice_top + 56, "[1 + J][C·P]", 12, "end", SOFT)
     figure.lines(
-        474, slice_top + 84,
+        474,
+        slice_top + 84,
         [
             f"{clusters} clusters of {average:.0f} vertices on average. A vertex keeps",
             "its cluster and J coefficients. The basis rows of all clusters",
             "are a matrix over poses again, stored as with svd.",
         ],
-        13, colour=SOFT,
+        13,
+        colour=SOFT,
     )
     figure.lines(
-        90, top + height + 26,
-        [f"every {num_vertices // 100}th vertex and every 4th pose is drawn"], 12, colour=SOFT,
+        90,
+        top + height + 26,
+        [f"every {num_vertices // 100}th vertex and every 4th pose is drawn"],
+        12,
+        colour=SOFT,
     )
     figure.save(svg)
 

@@ -63,7 +63,10 @@ class EightRays:
         bake = Bake(f"{data}/wall.bake")
         pose = bake.pose(0)
         for i in range(4):
-            transfer, noise = pose["TRNF"][i * bake.num_vertices], pose["NOIS"][i * bake.num_vertices]
+            transfer, noise = (
+                pose["TRNF"][i * bake.num_vertices],
+                pose["NOIS"][i * bake.num_vertices],
+            )
             # Floats in the sampler, f16 in the file.
             assert abs(transfer - self.mean[i]) < 1e-6, (i, transfer, self.mean[i])
             assert abs(noise - self.half_difference[i]) < 5e-5, (i, noise, self.half_difference[i])

@@ -45,7 +45,8 @@ class Examples:
         c_a, c_b = rays.c
         a, b = rays.estimates[0][0], rays.estimates[1][0]
         count = round(c_a * RAYS)
-        return plain(f"""
+        return plain(
+            f"""
 half A has {RAYS} rays, {count} of them open: c_A = {c_a}       half B: c_B = {c_b}
 coefficient 0: λ₀ = 1, y₀ = {Y0:.4f}
 
@@ -53,7 +54,8 @@ t_A = c_B λ₀ y₀ + (1/{RAYS}) Σ (Vis − c_B) y₀ = {c_b} · {Y0:.4f} + ({
 t_B = c_A λ₀ y₀ + (1/{RAYS}) Σ (Vis − c_A) y₀ = {c_a} · {Y0:.4f} + ({c_b} − {c_a}) · {Y0:.4f} = {b:.4f}
 mean            (t_A + t_B) / 2 = {rays.mean[0]:.4f}     exact: {rays.exact[0]:.4f}
 half-difference (t_A − t_B) / 2 = {rays.half_difference[0]:.4f}     error: {number(rays.mean[0] - rays.exact[0])}
-""")
+"""
+        )
 
     def bounces(self):
         rho = 0.8
@@ -66,7 +68,9 @@ half-difference (t_A − t_B) / 2 = {rays.half_difference[0]:.4f}     error: {nu
             transfer = bake.pose(0)["TRNF"]
             mean = sum(transfer) / len(transfer) / Y0
             rows.append([bounces, number(added), number(sum_so_far), number(mean)])
-        return table(["bounces", "added by this bounce", "sum", "baked, mean over the vertices"], rows)
+        return table(
+            ["bounces", "added by this bounce", "sum", "baked, mean over the vertices"], rows
+        )
 
     def svd(self):
         positions = self.octopus.bake.rows("POSN")
@@ -86,8 +90,16 @@ half-difference (t_A − t_B) / 2 = {rays.half_difference[0]:.4f}     error: {nu
         text[0] = " " * 21 + "  ".join(f"{p:<3}" for p in poses) + "   μ       X′ = X − μ"
         text.append("")
         text.append("s = " + ", ".join(number(value) for value in s))
-        text.append("q_0 = (" + ", ".join(signed(value) for value in q[0]) + ")   u_0 = (" + ", ".join(signed(value) for value in u[0]) + ")")
-        kept = [[mean + s[0] * u[0][r] * value for value in q[0]] for r, (_, mean) in enumerate(rows)]
+        text.append(
+            "q_0 = ("
+            + ", ".join(signed(value) for value in q[0])
+            + ")   u_0 = ("
+            + ", ".join(signed(value) for value in u[0])
+            + ")"
+        )
+        kept = [
+            [mean + s[0] * u[0][r] * value for value in q[0]] for r, (_, mean) in enumerate(rows)
+        ]
         text.append("")
         text.append("with K = 1:")
         for v, row in zip(vertices, kept):
@@ -95,11 +107,15 @@ half-difference (t_A − t_B) / 2 = {rays.half_difference[0]:.4f}     error: {nu
         text.append("")
         theory = sum(s[1:]) / sum(s)
         energy = math.sqrt(dot(s[1:], s[1:]) / dot(s, s))
-        error = math.sqrt(sum((a - b) ** 2 for one, other in zip(x, kept) for a, b in zip(one, other)))
+        error = math.sqrt(
+            sum((a - b) ** 2 for one, other in zip(x, kept) for a, b in zip(one, other))
+        )
         size = math.sqrt(sum(dot(row, row) for row, _ in rows))
         assert abs(error / size - energy) < 1e-12
         text.append(f"theoretical error  ({s[1]:.4f} + {s[2]:.4f}) / {sum(s):.4f} = {theory:.3f}")
-        text.append(f"energy error       √(({s[1]:.4f}² + {s[2]:.4f}²) / {dot(s, s):.4f}) = {energy:.3f}")
+        text.append(
+            f"energy error       √(({s[1]:.4f}² + {s[2]:.4f}²) / {dot(s, s):.4f}) = {energy:.3f}"
+        )
         text.append(f"‖X′ − s_0 u_0 q_0ᵀ‖ / ‖X′‖ = {error:.4f} / {size:.4f} = {error / size:.3f}")
         return plain("\n".join(text))
 
@@ -113,10 +129,16 @@ half-difference (t_A − t_B) / 2 = {rays.half_difference[0]:.4f}     error: {nu
         rows = []
         for k in (0, 4, 8, 9, 10, 11, 46):
             signal = max(0.0, energy[k] - noise[k])
-            rows.append([
-                k, number(energy[k], 2), number(noise[k], 2), number(edge * noise[k], 2),
-                "yes" if energy[k] > edge * noise[k] else "no", number(signal / energy[k], 3),
-            ])
+            rows.append(
+                [
+                    k,
+                    number(energy[k], 2),
+                    number(noise[k], 2),
+                    number(edge * noise[k], 2),
+                    "yes" if energy[k] > edge * noise[k] else "no",
+                    number(signal / energy[k], 3),
+                ]
+            )
         above = sum(e > edge * n for e, n in zip(energy, noise))
         assert above == report["above_noise"]
         lines = [
@@ -132,12 +154,14 @@ half-difference (t_A − t_B) / 2 = {rays.half_difference[0]:.4f}     error: {nu
         energies = octopus.measure()
         band, k = 3, 4
         count = octopus.num_vertices
-        signal_lk = [max(0.0, e - n) for e, n in zip(energies["energy"][band], energies["noise"][band])]
+        signal_lk = [
+            max(0.0, e - n) for e, n in zip(energies["energy"][band], energies["noise"][band])
+        ]
         phi = signal_lk[k] / sum(signal_lk)
         psi = energies["noise"][band][k] / sum(energies["vertex_noise"][band])
-        order = sorted(range(count), key=lambda v: energies["vertex_noise"][band][v])
         by_signal = sorted(
-            range(count), key=lambda v: energies["vertex_energy"][band][v] - energies["vertex_noise"][band][v]
+            range(count),
+            key=lambda v: energies["vertex_energy"][band][v] - energies["vertex_noise"][band][v],
         )
         chosen = [by_signal[count - 40], by_signal[count * 9 // 10], by_signal[count // 2]]
         rows = []
@@ -146,25 +170,39 @@ half-difference (t_A − t_B) / 2 = {rays.half_difference[0]:.4f}     error: {nu
             signal = max(0.0, e - n) * phi
             of_noise = n * psi
             factor = signal / (signal + of_noise) if of_noise > 0 else 1.0
-            rows.append([v, number(e), number(n), f"{signal:.2e}", f"{of_noise:.2e}", number(factor, 3)])
-        report = self.report("auto")
-        return "\n".join([
-            f"Band l = {band}, component k = {k}: φ_lk = {phi:.4f}, ψ_lk = {psi:.4f}.",
-            "",
-            table(["vertex", "ε_vl", "η_vl", "signal", "noise", "factor f_vlk"], rows),
-        ])
+            rows.append(
+                [v, number(e), number(n), f"{signal:.2e}", f"{of_noise:.2e}", number(factor, 3)]
+            )
+        return "\n".join(
+            [
+                f"Band l = {band}, component k = {k}: φ_lk = {phi:.4f}, ψ_lk = {psi:.4f}.",
+                "",
+                table(["vertex", "ε_vl", "η_vl", "signal", "noise", "factor f_vlk"], rows),
+            ]
+        )
 
     def errors(self):
         report = self.report("auto")["transfer"]
         bake = self.report("octopus")
-        target = self.report("target")
         return table(
             ["figure", "relative to the bake's transfer"],
             [
-                ["the bake, estimated from D (`relative_noise`)", f"{100 * bake['relative_noise']:.2f} %"],
-                [f"`auto`: {report['components']} components, shrunk, expected", f"{100 * report['expected_error']:.2f} %"],
-                ["… of this: signal that was dropped", f"{100 * report['expected_truncation_error']:.2f} %"],
-                ["… noise that is left, and signal lost with the rest", f"{100 * report['expected_noise_error']:.2f} %"],
+                [
+                    "the bake, estimated from D (`relative_noise`)",
+                    f"{100 * bake['relative_noise']:.2f} %",
+                ],
+                [
+                    f"`auto`: {report['components']} components, shrunk, expected",
+                    f"{100 * report['expected_error']:.2f} %",
+                ],
+                [
+                    "… of this: signal that was dropped",
+                    f"{100 * report['expected_truncation_error']:.2f} %",
+                ],
+                [
+                    "… noise that is left, and signal lost with the rest",
+                    f"{100 * report['expected_noise_error']:.2f} %",
+                ],
             ],
         )
 
@@ -185,18 +223,26 @@ half-difference (t_A − t_B) / 2 = {rays.half_difference[0]:.4f}     error: {nu
         rows = []
         for v in chosen:
             q = 0 if abs(in_steps[v]) < 0.6 else round(in_steps[v])
-            rows.append([
-                v, signed(values[v], 5), signed(in_steps[v], 2), str(q).replace("-", "−"), signed(q * step - values[v], 5),
-            ])
+            rows.append(
+                [
+                    v,
+                    signed(values[v], 5),
+                    signed(in_steps[v], 2),
+                    str(q).replace("-", "−"),
+                    signed(q * step - values[v], 5),
+                ]
+            )
         quantised = [0 if abs(x) < 0.6 else round(x) for x in in_steps]
         zeros = sum(q == 0 for q in quantised)
         nearest = sum(round(x) == 0 for x in in_steps)
-        return "\n".join([
-            table(["vertex", "a_4, scene units", "in steps", "stored", "error"], rows),
-            "",
-            f"Δ = {step:.5f}. Of the {count} heights of this component {zeros} become zero; "
-            f"rounding to the nearest would make {nearest} zero.",
-        ])
+        return "\n".join(
+            [
+                table(["vertex", "a_4, scene units", "in steps", "stored", "error"], rows),
+                "",
+                f"Δ = {step:.5f}. Of the {count} heights of this component {zeros} become zero; "
+                f"rounding to the nearest would make {nearest} zero.",
+            ]
+        )
 
     def cpca(self):
         octopus = self.octopus
@@ -217,23 +263,28 @@ half-difference (t_A − t_B) / 2 = {rays.half_difference[0]:.4f}     error: {nu
             left = sum(x * x for x in s[j:])
             rows.append([j, number(left, 3), f"{100 * math.sqrt(left / whole):.1f} %", 3 * (j + 1)])
         j = 8
+
         # The vertex that the cluster's own fit leans on most: its share of the first directions.
         def leverage(v):
             return 1 / size + sum(u[k][v] ** 2 for k in range(j))
+
         def distance(v):
             return sum((s[k] * u[k][v]) ** 2 for k in range(j, size))
+
         by_leverage = sorted(range(size), key=leverage)
         examples = []
         for v in (by_leverage[0], by_leverage[-1]):
             h, d2 = leverage(v), distance(v)
             examples.append([members[v], number(h, 3), number(d2), number(d2 / (1 - h))])
-        return "\n".join([
-            table(["J", "squared error", "relative", "multiply-adds a vertex"], rows),
-            "",
-            f"With J = {j}, the members that this fit follows least and most:",
-            "",
-            table(["vertex", "leverage h", "squared distance", "counted as"], examples),
-        ])
+        return "\n".join(
+            [
+                table(["J", "squared error", "relative", "multiply-adds a vertex"], rows),
+                "",
+                f"With J = {j}, the members that this fit follows least and most:",
+                "",
+                table(["vertex", "leverage h", "squared distance", "counted as"], examples),
+            ]
+        )
 
     def search(self):
         rows = []
@@ -246,7 +297,9 @@ half-difference (t_A − t_B) / 2 = {rays.half_difference[0]:.4f}     error: {nu
             if c["chosen"]:
                 cells = [f"**{cell}**" for cell in cells]
             rows.append(cells)
-        return table(["codec", "components over time", "bytes, estimated", "multiply-adds a vertex"], rows)
+        return table(
+            ["codec", "components over time", "bytes, estimated", "multiply-adds a vertex"], rows
+        )
 
 
 def main(data, pages, mode="write"):

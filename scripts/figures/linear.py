@@ -22,7 +22,11 @@ def jacobi_svd(rows):
         largest = 0.0
         for i in range(m):
             for j in range(i + 1, m):
-                a, b, c = dot(working[i], working[i]), dot(working[j], working[j]), dot(working[i], working[j])
+                a, b, c = (
+                    dot(working[i], working[i]),
+                    dot(working[j], working[j]),
+                    dot(working[i], working[j]),
+                )
                 if c == 0.0 or a == 0.0 or b == 0.0:
                     continue
                 largest = max(largest, abs(c) / math.sqrt(a * b))

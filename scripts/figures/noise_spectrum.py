@@ -5,7 +5,7 @@ import math
 import sys
 
 from octopus import Octopus, effective_vertices, total
-from svg import BLUE, Figure, GREEN, INK, LIGHT_BLUE, ORANGE, SOFT
+from svg import BLUE, Figure, GREEN, LIGHT_BLUE, ORANGE, SOFT
 
 LEFT, TOP, WIDTH, HEIGHT = 90, 40, 780, 330
 LOW, HIGH = 3.0, 3000.0
@@ -23,7 +23,10 @@ def main(data, svg):
         assert above == json.load(file)["transfer"]["above_noise"]
 
     figure = Figure(
-        900, 430, "Energy of each component, of the noise along it, and the noise's edge", "noise_spectrum.py"
+        900,
+        430,
+        "Energy of each component, of the noise along it, and the noise's edge",
+        "noise_spectrum.py",
     )
 
     def x(k):
@@ -55,7 +58,9 @@ def main(data, svg):
     figure.circle(legend + 14, 101, 4.5, "#ffffff", BLUE, 2)
     figure.text(legend + 40, 106, f"the same, not above the edge: k ≥ {above}", 14)
     figure.line(legend, 128, legend + 28, 128, ORANGE, 2)
-    figure.text(legend + 40, 133, f"noise along component k, about {sum(noise) / len(noise):.1f}", 14)
+    figure.text(
+        legend + 40, 133, f"noise along component k, about {sum(noise) / len(noise):.1f}", 14
+    )
     figure.line(legend, 154, legend + 28, 154, GREEN, 2, "7 5")
     figure.text(legend + 40, 159, f"its edge, {edge:.3f} times as much", 14)
     factors = f"P = {num_poses}, ν = {nu:.0f}"

@@ -15,9 +15,7 @@ def _decompress(data, size):
     zstd = ctypes.CDLL(ctypes.util.find_library("zstd"))
     zstd.ZSTD_decompress.restype = ctypes.c_size_t
     out = ctypes.create_string_buffer(size)
-    written = zstd.ZSTD_decompress(
-        out, ctypes.c_size_t(size), data, ctypes.c_size_t(len(data))
-    )
+    written = zstd.ZSTD_decompress(out, ctypes.c_size_t(size), data, ctypes.c_size_t(len(data)))
     if written != size:
         raise ValueError("damaged Zstandard frame")
     return out.raw

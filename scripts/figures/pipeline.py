@@ -6,14 +6,18 @@ import sys
 from pathlib import Path
 
 from paim_files import Bake, Container
-from svg import BLUE, Figure, GREEN, INK, LIGHT_BLUE, LIGHT_GREEN, ORANGE, PALE, SOFT
+from svg import BLUE, Figure, GREEN, PALE, SOFT
 
 LEFT, BOX, RIGHT = 20, 230, 282
 TYPES = {0: "u8", 1: "u32", 2: "f16", 3: "f32", 4: "f64", 5: "i8", 6: "i16"}
 
 
 def kilobytes(num_bytes):
-    return f"{num_bytes / 1000:,.0f} kB".replace(",", " ") if num_bytes < 1e6 else f"{num_bytes / 1e6:.1f} MB"
+    return (
+        f"{num_bytes / 1000:,.0f} kB".replace(",", " ")
+        if num_bytes < 1e6
+        else f"{num_bytes / 1e6:.1f} MB"
+    )
 
 
 def section(container, tag, index=0):
@@ -51,7 +55,9 @@ def main(data, svg):
     pose, mesh = bake.pose(0), bake.mesh()
     paim_path = Path(f"{data}/target.paim")
     paim = Container(paim_path)
-    chosen = next(c for c in json.loads(Path(f"{data}/target.json").read_text())["candidates"] if c["chosen"])
+    chosen = next(
+        c for c in json.loads(Path(f"{data}/target.json").read_text())["candidates"] if c["chosen"]
+    )
     num_vertices, num_poses = bake.num_vertices, bake.num_poses
     num_triangles = mesh.sections["TRIS", 0][2][1]
     objs = sorted(Path(f"{data}/octopus").glob("*.obj"))
@@ -64,7 +70,12 @@ def main(data, svg):
     def last(tag):
         return max(index for name, index in paim.sections if name == tag)
 
-    figure = Figure(900, 770, "The pipeline from OBJ files to an error, with file names and array shapes", "pipeline.py")
+    figure = Figure(
+        900,
+        770,
+        "The pipeline from OBJ files to an error, with file names and array shapes",
+        "pipeline.py",
+    )
     chart = Chart(figure)
     chart.data(
         ["OBJ files", kilobytes(obj_bytes)],
@@ -104,7 +115,13 @@ def main(data, svg):
         ],
         58,
     )
-    chart.step("", ["search: clusters or not, how many components, which step", "then integers, prediction, packing, Zstandard"])
+    chart.step(
+        "",
+        [
+            "search: clusters or not, how many components, which step",
+            "then integers, prediction, packing, Zstandard",
+        ],
+    )
     chart.data(
         [paim_path.name.replace("target", "octopus"), kilobytes(paim_path.stat().st_size)],
         [

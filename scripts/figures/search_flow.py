@@ -3,13 +3,16 @@
 import json
 import sys
 
-from svg import BLUE, Figure, GREEN, INK, LIGHT_BLUE, LIGHT_GREEN, LIGHT_ORANGE, ORANGE, PALE, SOFT
+from svg import BLUE, Figure, GREEN, LIGHT_BLUE, LIGHT_GREEN, LIGHT_ORANGE, ORANGE, PALE, SOFT
 
 
 def diamond(figure, x, y, width, height, texts):
     figure.path(
         [(x, y - height / 2), (x + width / 2, y), (x, y + height / 2), (x - width / 2, y)],
-        ORANGE, 1.4, LIGHT_ORANGE, close=True,
+        ORANGE,
+        1.4,
+        LIGHT_ORANGE,
+        close=True,
     )
     for n, text in enumerate(texts):
         figure.text(x, y + 5 + (n - (len(texts) - 1) / 2) * 18, text, 13, "middle")
@@ -37,7 +40,13 @@ def main(data, svg):
         if text:
             figure.text(x + 10, (y0 + y1) / 2 + 5, text, 13, colour=SOFT)
 
-    box(14, 50, ["target: error τ of the transfer", "distance of positions: τ / 50 of the diagonal"], PALE, SOFT)
+    box(
+        14,
+        50,
+        ["target: error τ of the transfer", "distance of positions: τ / 50 of the diagonal"],
+        PALE,
+        SOFT,
+    )
     figure.text(note, 44, f"--max-error {100 * report['transfer_target']:.0f}%", 14, mono=True)
     down(64, 90)
     box(90, 50, ["components, without their noise", "as floats these have the error τ₀, measured"])
@@ -51,31 +60,59 @@ def main(data, svg):
     down(226, 256, "yes")
     box(256, 50, ["budget of squared error: (τ² − τ₀²) ‖x‖²", "what coding may add"])
     down(306, 336)
-    box(336, 92, [
-        "candidates, each with the largest step in the budget",
-        "svd: up to 6 numbers of components",
-        "cpca: 32 to 1024 clusters, up to 3 numbers each",
-        "geometry: up to 6 numbers of components",
-    ])
+    box(
+        336,
+        92,
+        [
+            "candidates, each with the largest step in the budget",
+            "svd: up to 6 numbers of components",
+            "cpca: 32 to 1024 clusters, up to 3 numbers each",
+            "geometry: up to 6 numbers of components",
+        ],
+    )
     figure.text(note, 366, f"{num_svd} of svd, {num_cpca} of cpca", 14)
     figure.text(note, 388, "sizes are estimates of fast packing", 13, colour=SOFT)
     down(428, 458)
-    box(458, 50, ["the best: the smallest, or by --prefer speed", "within 1 % of its size the fewest multiply-adds"])
-    figure.text(note, 480, f"{chosen['clusters']} clusters × {chosen['cluster_components']} components,", 14)
+    box(
+        458,
+        50,
+        [
+            "the best: the smallest, or by --prefer speed",
+            "within 1 % of its size the fewest multiply-adds",
+        ],
+    )
+    figure.text(
+        note, 480, f"{chosen['clusters']} clusters × {chosen['cluster_components']} components,", 14
+    )
     figure.text(note, 500, f"{chosen['multiply_adds']} multiply-adds a vertex", 14)
     down(508, 538)
-    box(538, 50, ["build the model and measure it against the bake", "all of it, after every rounding"])
+    box(
+        538,
+        50,
+        ["build the model and measure it against the bake", "all of it, after every rounding"],
+    )
     down(588, 614)
     diamond(figure, x, 654, 330, 80, ["within the targets,", "and less than 1.5 % below?"])
     # Back to building, with another step.
-    figure.path([(x + 165, 654), (note + 40, 654), (note + 40, 563), (left + wide + 4, 563)], ORANGE, 1.5, tip=True)
+    figure.path(
+        [(x + 165, 654), (note + 40, 654), (note + 40, 563), (left + wide + 4, 563)],
+        ORANGE,
+        1.5,
+        tip=True,
+    )
     figure.text(x + 178, 646, "no", 13, colour=SOFT)
     figure.text(note + 52, 590, "another step: finer if above,", 13)
     figure.text(note + 52, 608, "coarser if far below; up to 8 times", 13)
     figure.text(note + 52, 634, "never within: choose again for", 13, colour=SOFT)
     figure.text(note + 52, 652, "0.97, 0.93, 0.88 of τ", 13, colour=SOFT)
     down(694, 722, "yes")
-    box(722, 50, ["pack and write", "the measured errors are stated in the file"], LIGHT_GREEN, GREEN)
+    box(
+        722,
+        50,
+        ["pack and write", "the measured errors are stated in the file"],
+        LIGHT_GREEN,
+        GREEN,
+    )
     figure.text(note, 744, f"measured {percent(report['measured']['transfer_total_error'])},", 14)
     figure.text(note, 764, f"{report['size_bytes']:,} bytes".replace(",", " "), 14)
     figure.save(svg)

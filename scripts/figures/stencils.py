@@ -6,7 +6,7 @@ import math
 import sys
 
 from paim_files import Bake, Container
-from svg import BLUE, Figure, GREEN, INK, LIGHT_BLUE, LIGHT_GREEN, LIGHT_ORANGE, ORANGE, SOFT
+from svg import BLUE, Figure, GREEN, LIGHT_BLUE, LIGHT_GREEN, LIGHT_ORANGE, ORANGE, SOFT
 
 
 def latest_parents(triangles, num_vertices):
@@ -116,7 +116,14 @@ def draw(figure, patch, x0, y0, scale, chosen, colour, fill):
             figure.line(*place(u), *place(patch.v), colour, 3)
     else:
         for n, (a, b, c) in enumerate(patch.two):
-            figure.path([place(u) for u in (c, a, patch.v, b)], colour, 2.4, fill if n == 0 else "none", close=True, dash="" if n == 0 else "6 4")
+            figure.path(
+                [place(u) for u in (c, a, patch.v, b)],
+                colour,
+                2.4,
+                fill if n == 0 else "none",
+                close=True,
+                dash="" if n == 0 else "6 4",
+            )
             figure.line(*place(a), *place(b), colour, 1.2, "2 3")
     used = set(patch.parents[patch.v]) if chosen == "mean" else {u for p in patch.two for u in p}
     for u in sorted(near):
@@ -130,7 +137,9 @@ def draw(figure, patch, x0, y0, scale, chosen, colour, fill):
 def main(data, svg):
     patch = Patch(data)
     v, value = patch.v, patch.value
-    figure = Figure(900, 450, "The mean and the parallelogram prediction at one vertex", "stencils.py")
+    figure = Figure(
+        900, 450, "The mean and the parallelogram prediction at one vertex", "stencils.py"
+    )
     near = [patch.flat[u] for u in set(patch.corners(v))]
     left, right = min(x for x, _ in near), max(x for x, _ in near)
     top, bottom = min(y for _, y in near), max(y for _, y in near)
@@ -144,14 +153,35 @@ def main(data, svg):
     parents = [value[u] for u in patch.parents[v]]
     mean = (sum(parents) + 2) >> 2
     terms = " + ".join(signed(p) for p in parents)
-    figure.text(20, 374, f"⌊({terms} + 2) / 4⌋ = {signed(mean)}".replace("+ −", "− "), 14, mono=True, colour=BLUE)
+    figure.text(
+        20,
+        374,
+        f"⌊({terms} + 2) / 4⌋ = {signed(mean)}".replace("+ −", "− "),
+        14,
+        mono=True,
+        colour=BLUE,
+    )
     figure.text(20, 400, f"value {signed(value[v])}: residual {signed(value[v] - mean)}", 14)
     p, q = (value[a] + value[b] - value[c] for a, b, c in patch.two)
     two = (p + q + 1) >> 1
     for n, ((a, b, c), result) in enumerate(zip(patch.two, (p, q))):
         text = f"{signed(value[a])} + {signed(value[b])} − {signed(value[c])} = {signed(result)}"
-        figure.text(480, 374 + 24 * n, text.replace("+ −", "− ").replace("− −", "+ "), 14, mono=True, colour=GREEN)
-    figure.text(480, 424, f"⌊({signed(p)} + {signed(q)} + 1) / 2⌋ = {signed(two)}".replace("+ −", "− "), 14, mono=True, colour=GREEN)
+        figure.text(
+            480,
+            374 + 24 * n,
+            text.replace("+ −", "− ").replace("− −", "+ "),
+            14,
+            mono=True,
+            colour=GREEN,
+        )
+    figure.text(
+        480,
+        424,
+        f"⌊({signed(p)} + {signed(q)} + 1) / 2⌋ = {signed(two)}".replace("+ −", "− "),
+        14,
+        mono=True,
+        colour=GREEN,
+    )
     figure.text(755, 424, f"residual {signed(value[v] - two)}", 14)
     figure.text(20, 432, f"octopus, vertex {v}, height in steps", 12, colour=SOFT)
     figure.save(svg)

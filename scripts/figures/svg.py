@@ -58,7 +58,9 @@ class Figure:
     def add(self, markup):
         self.parts.append(markup)
 
-    def text(self, x, y, text, size=14, anchor="start", colour=INK, bold=False, mono=False, italic=False):
+    def text(
+        self, x, y, text, size=14, anchor="start", colour=INK, bold=False, mono=False, italic=False
+    ):
         width = _advance(text, size, mono, bold)
         left = x - {"start": 0.0, "middle": 0.5, "end": 1.0}[anchor] * width
         self.boxes.append((left, y - 0.76 * size, left + width, y + 0.22 * size, text))
@@ -79,15 +81,15 @@ class Figure:
             f"fill='{fill}' stroke='{stroke}' stroke-width='{thickness}'{dash}/>"
         )
 
-    def box(self, x, y, width, height, texts, fill=LIGHT_BLUE, stroke=BLUE, size=14, bold=True, radius=6):
+    def box(
+        self, x, y, width, height, texts, fill=LIGHT_BLUE, stroke=BLUE, size=14, bold=True, radius=6
+    ):
         """A box with centred lines; the first is bold."""
         self.rect(x, y, width, height, fill, stroke, radius)
         leading = 1.35 * size
         top = y + height / 2 - leading * (len(texts) - 1) / 2 + 0.36 * size
         for n, text in enumerate(texts):
-            self.text(
-                x + width / 2, top + n * leading, text, size, "middle", bold=bold and n == 0
-            )
+            self.text(x + width / 2, top + n * leading, text, size, "middle", bold=bold and n == 0)
 
     def line(self, x0, y0, x1, y1, colour=INK, thickness=1.2, dash="", tip=False):
         dash = f" stroke-dasharray='{dash}'" if dash else ""
