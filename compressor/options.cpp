@@ -217,8 +217,7 @@ void apply(const RawOptions& raw, CompressOptions& options) {
     options.bake.sampler = kind_of(raw.sampler, kSamplerKinds, &sampler_name);
     options.bake.streams = kind_of(raw.streams, kStreams, &streams_name);
     if (options.bake.rays % 2 != 0) {
-        throw_usage("--rays: expected an even number (two independent halves), got {}",
-                    options.bake.rays);
+        throw_usage("--rays: expected an even number (two halves), got {}", options.bake.rays);
     }
     options.encode.geometry = parse_components(raw.geometry_components, "--geometry-components");
     options.encode.transfer = parse_components(raw.transfer_components, "--transfer-components");

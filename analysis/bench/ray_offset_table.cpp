@@ -1,5 +1,5 @@
 // How many shadow rays go wrong for how far off the surface they start: the table of
-// docs/geometry.md.
+// docs/results/ray_offsets.md.
 // Based on: Carsten Wächter and Nikolaus Binder, A Fast and Robust Method for Avoiding
 //           Self-Intersection, Ray Tracing Gems, 2019 (one of the ways that are compared)
 //

@@ -1,4 +1,4 @@
-// How small and how fast clustered principal components are: the table of docs/equations.md.
+// How small and how fast clustered principal components are: the tables of docs/results/clusters.md.
 //   paim-cluster-study X.bake|VxPLANESxCOLUMNS [--curves] [--rounds MEANxAFFINE] [--projection D]
 //                      [--seed S] [CLUSTERSxCOMPONENTS[xASSUMED]]...
 // A size in place of a bake stands for synthetic points.

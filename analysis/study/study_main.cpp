@@ -32,7 +32,7 @@ std::unique_ptr<PoseSource> open_source(const std::vector<std::string>& inputs,
 
 void check_even(const char* option, uint32_t rays) {
     if (rays % 2 != 0) {
-        throw_usage("{}: expected an even number (two independent halves), got {}", option, rays);
+        throw_usage("{}: expected an even number (two halves), got {}", option, rays);
     }
 }
 

@@ -8,7 +8,7 @@
 
 namespace paim {
 
-// Measured and compared with other ways in docs/geometry.md.
+// Compared with other ways in docs/results/ray_offsets.md.
 struct RayOffsetRule {
     double of_edge = 1e-4;  // of the shortest edge round a vertex: small against detail
     double of_coordinate =

@@ -53,7 +53,10 @@ class SplitTracer {
 // unbiased for any c that does not come from those rays. c is the fraction of open rays in the
 // *other* half: open vertices (c = 1) get the closed form exactly, closed ones (c = 0) exactly
 // zero, and in between the unoccluded part, whose integral is known, carries no noise of its own.
-// Half the difference of the two estimates is the standard error of their mean.
+// Half the difference of the two estimates has mean 0, is uncorrelated with the error of their mean,
+// and has its variance, up to the covariance of the estimates: c of one half multiplies the rays of the
+// other, so that this is Cov(c, all_i / points)² >= 0, of second order in 1 / points. The noise that is
+// stated is too low by that (docs/algorithms/transfer.md).
 // halves       both, whether their sums were added up or (all open or all occluded) not
 // unoccluded   [C] the transfer if nothing is occluded; empty: c = 0
 // estimates    [2][C]

@@ -21,11 +21,13 @@ namespace paim {
 // Raised whenever the same options give other bytes, so that bakes of different builds do not mix.
 constexpr uint32_t kBakerVersion = 4;
 
-// Every vertex shoots two independent halves of its rays (half_sums.h). Their mean is the transfer,
-// half their difference its noise. With a fixed count all rays of a vertex are shot at once; with an
-// error target they are shot in batches, a third to a half of all before, until the noise of the vertex
-// as its neighbours tell it (noise_target.h) is below the target. Light that bounces is added to the halves
-// afterwards (bounces.h): the target is one for the light that comes straight from the sky.
+// Every vertex traces its rays in two halves with random numbers of their own (split_estimate.h). The
+// mean of their estimates is the transfer. Half their difference is its noise: one draw with the
+// variance of the error, up to O(1/N²), and uncorrelated with it. With a fixed count all rays of a
+// vertex are traced at once. With a noise target they are traced in batches, a third to a half of all
+// before, until the noise of its neighbours (noise_target.h) says that the vertex is below the target.
+// Light that bounces is added to the halves afterwards (bounces.h): the target is one for the light
+// that comes straight from the sky.
 class TransferBaker {
   public:
     // albedo   of the meshes to bake; counts only where light bounces

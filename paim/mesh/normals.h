@@ -14,7 +14,8 @@ namespace paim {
 // or all on one line (to the rounding of products).
 Vec3d face_normal(const Vec3f& a, const Vec3f& b, const Vec3f& c);
 
-// The normalised average of the unit normals of the faces round each vertex (E14 of the paper).
+// The normalised average of the unit normals of the faces round each vertex (eq. 14 of Cardoso and
+// Kry 2012).
 // positions  [V] scene units, finite
 // returns    [V] unit normals; zero where a vertex has no face of any area, or its faces cancel out
 // note       zero-area faces have no normal and do not count; a face that is there twice counts

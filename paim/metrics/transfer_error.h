@@ -58,7 +58,7 @@ class TransferErrorMeter {
 
     // Every plane of the bake once (checked). Planes in the same order give the same bits, on any
     // number of threads.
-    // noise    one independent draw of the bake's error (BakedPose::noise)
+    // noise    BakedPose::noise: one draw with the variance of the bake's error, uncorrelated with it
     // decoded  zero where the bands are not kept
     void add(uint32_t plane, const Plane& baked, const Plane& noise, const Plane& decoded);
 

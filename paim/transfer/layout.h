@@ -10,7 +10,7 @@
 namespace paim {
 
 enum class TransferKind : uint32_t {
-    diffuse = 0,  // albedo-free, divided by π (E1)
+    diffuse = 0,  // albedo-free, divided by π (docs/algorithms/transfer.md, E1)
 };
 
 // Transfer maps in_bands² coefficients of incident light to out_bands² coefficients of outgoing

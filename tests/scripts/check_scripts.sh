@@ -4,7 +4,8 @@
 #   check_scripts.sh SOURCE_DIR
 set -euo pipefail
 root=$1
-scripts=(demo check .ci/run scripts/install-packages tests/scripts/check_scripts.sh)
+scripts=(demo check .ci/run scripts/install-packages scripts/figures/make tests/scripts/check_scripts.sh
+    tests/scripts/check_links.sh)
 
 fail() {
     echo "check_scripts: $*" >&2

@@ -25,10 +25,11 @@ EncodedError expected_error_unshrunk(const ComponentNoise& noise, uint32_t num_c
 // signal) and bands (high ones have more noise); so their energies are modelled as a product of what
 // the vertex has in the band and the share of the component in the band:
 //
-//     signal(v, l, k) = max(0, E_vl − N_vl) · h_lk        h_lk = max(0, e_lk − d_lk) / Σ_k max(0, e_lk − d_lk)
-//     noise (v, l, k) = N_vl · q_lk                       q_lk = d_lk / Σ_v N_vl
+//     signal(v, l, k) = max(0, ε_vl − η_vl) · φ_lk      φ_lk = max(0, ε_lk − η_lk) / Σ_k max(0, ε_lk − η_lk)
+//     noise (v, l, k) = η_vl · ψ_lk                     ψ_lk = η_lk / Σ_v η_vl
 //
-// E and N are vertex_energy and vertex_noise, e and d energy and noise of ComponentNoise.
+// ε_vl, η_vl, ε_lk and η_lk are vertex_energy, vertex_noise, energy and noise of ComponentNoise
+// (docs/algorithms/noise.md).
 class Shrinkage {
   public:
     explicit Shrinkage(const ComponentNoise& noise);
@@ -51,9 +52,9 @@ class Shrinkage {
     uint32_t num_poses_;
     Eigen::Index num_above_noise_;
     double mean_noise_;
-    std::vector<double> signal_, noise_;  // [bands][V] E − N, which may be negative, and N
-    Eigen::MatrixXd signal_share_, noise_share_;  // [bands][K]
-    Eigen::VectorXd component_signal_;  // [K] e − d over all bands, which may be negative
+    std::vector<double> signal_, noise_;  // [bands][V] ε_vl − η_vl, which may be negative, and η_vl
+    Eigen::MatrixXd signal_share_, noise_share_;  // [bands][K] φ_lk, ψ_lk
+    Eigen::VectorXd component_signal_;  // [K] ε_lk − η_lk over all bands, which may be negative
 };
 
 }  // namespace paim

@@ -45,7 +45,7 @@ QuantisedStill quantise_still(const EncodeProblem& problem, double transfer_erro
     const double room = transfer_error * transfer_error - best.total() * best.total();
     double transfer_budget = std::max(0.0, room) * energy;
     double distance_budget = distance * distance * exact.mesh->topology.num_vertices;
-    // Rounding and noise are uncorrelated, but only on average.
+    // The budget takes rounding and noise for uncorrelated. They are, but only on average.
     constexpr int kMaxRounds = 8;
     constexpr double kSmaller = 0.95;
     Asset asset = problem.shell;

@@ -53,8 +53,9 @@ struct BakedPose {
     std::vector<float> positions;  // [3][V] scene units
     std::vector<float> normals;    // [3][V]
     std::vector<float> transfer;   // [planes][V]
-    // [planes][V] one draw of the transfer's error: half the difference of its two independent
-    // halves, which has the mean (0) and the variance of that error. Files hold it as f16.
+    // [planes][V] half the difference of the two estimates whose mean is the transfer. It is one draw
+    // with the mean (0) and the variance of the transfer's error, and uncorrelated with it
+    // (docs/algorithms/transfer.md). Files hold it as f16.
     std::vector<float> noise;
     PoseStatistics statistics;
 };

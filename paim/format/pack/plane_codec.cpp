@@ -1,7 +1,7 @@
 // Planes of small integers as bytes.
 //
-// The contents of the frame: the planes' headers, all digits, the planes with the same magnitude one
-// after the other, then gaps, low and high bytes of all exceptions.
+// The contents of the Zstandard frame are: the headers of all planes; the packed symbols of all planes,
+// grouped by magnitude; the gaps of all escapes, their low bytes and their high bytes.
 #include "paim/format/pack/plane_codec.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace paim {
 namespace {
 
 constexpr size_t kHeaderBytes = 6;
-// What a byte and a plane's exceptions may take, of each point.
+// The most bytes that a value can take: one of symbols, three of its escape.
 constexpr uint64_t kMaxBytesPerValue = 4;
 
 using Counts = std::array<uint32_t, 256>;
@@ -30,30 +30,29 @@ Counts count_bytes(std::span<const uint8_t> bytes) {
     return counts;
 }
 
-// About how many bits an entropy coder without memory makes of bytes that are so frequent, its table
-// included.
+// About how many bits a memoryless entropy coder makes of bytes with these counts, with its table.
 double cost_bits(const Counts& counts) {
-    constexpr double kTableBits = 5.0;  // a symbol
+    constexpr double kTableBits = 5.0;  // for each byte value that occurs
     double total = 0.0, bits = 0.0;
-    size_t num_symbols = 0;
+    size_t num_used = 0;
     for (const uint32_t count : counts) {
         if (count == 0) continue;
         total += count;
         bits += kTableBits - count * std::log2(count);
-        ++num_symbols;
+        ++num_used;
     }
-    if (num_symbols <= 1) return 16.0 * static_cast<double>(num_symbols);
-    // Huffman codes have at least one bit a symbol where there are two of them.
+    if (num_used <= 1) return 16.0 * static_cast<double>(num_used);
+    // A Huffman code of two or more byte values has at least one bit each.
     return std::max(bits + total * std::log2(total), total);
 }
 
 double cost_bits(const PackedPlane& plane) {
-    return cost_bits(count_bytes(plane.digits)) + cost_bits(count_bytes(plane.gaps)) +
+    return cost_bits(count_bytes(plane.symbols)) + cost_bits(count_bytes(plane.gaps)) +
            cost_bits(count_bytes(plane.lows)) + cost_bits(count_bytes(plane.highs));
 }
 
-// About how many bits residuals take, however they are packed: numbers up to 31 in zigzag are symbols,
-// larger ones share a symbol with those of the same first three bits, and the others are as they are.
+// About how many bits residuals take, however they are packed. Zigzag numbers up to 31 count as
+// themselves. Larger ones are grouped by their first three bits, and their other bits are plain.
 template <typename Integer>
 double entropy_bits(std::span<const Integer> residuals) {
     constexpr uint32_t kSmall = 32;
@@ -92,11 +91,11 @@ PackedPlane best_plane(std::span<const Integer> values, const PlanePredictor& pr
     least = std::numeric_limits<double>::infinity();
     for (const uint8_t magnitude : kMagnitudes) {
         PackedPlane plane = pack(prediction, magnitude, std::span<const Integer>(residuals));
-        // And what a little more time is worth, so that few exceptions are chosen before many.
-        constexpr double kBitsPerByte = 0.2, kBitsPerException = 0.4;
+        // Decoding time has a price, so that fewer bytes and escapes win between equals.
+        constexpr double kBitsPerByte = 0.2, kBitsPerEscape = 0.4;
         const double bits = cost_bits(plane) +
-                            kBitsPerByte * static_cast<double>(plane.digits.size()) +
-                            kBitsPerException * static_cast<double>(plane.gaps.size());
+                            kBitsPerByte * static_cast<double>(plane.symbols.size()) +
+                            kBitsPerEscape * static_cast<double>(plane.gaps.size());
         if (bits < least) {
             least = bits;
             best = std::move(plane);
@@ -106,7 +105,7 @@ PackedPlane best_plane(std::span<const Integer> values, const PlanePredictor& pr
     return best;
 }
 
-// Bytes, and where their statistics change so much that new tables pay.
+// Bytes, and the places where their statistics change so much that a new table pays.
 class Contents {
   public:
     void append(std::span<const uint8_t> some) {
@@ -115,7 +114,7 @@ class Contents {
         Counts both = counts;
         for (size_t j = 0; j < both.size(); ++j) both[j] += counts_[j];
         const double bits = cost_bits(counts), bits_of_both = cost_bits(both);
-        // A block takes a while to begin: about as long as so many bytes.
+        // Starting a block takes as much decoding time as about 25 bytes.
         constexpr double kBlockBits = 8.0 * 25.0;
         if (bits_ + bits + kBlockBits < bits_of_both) {
             block_ends.push_back(bytes.size());
@@ -141,25 +140,25 @@ void append_header(const PlaneHeader& header, std::vector<uint8_t>& bytes) {
         static_cast<uint8_t>(static_cast<uint32_t>(header.prediction) | (header.wide ? 4u : 0u)));
     bytes.push_back(header.magnitude);
     for (int shift = 0; shift < 32; shift += 8) {
-        bytes.push_back(static_cast<uint8_t>(header.num_exceptions >> shift));
+        bytes.push_back(static_cast<uint8_t>(header.num_escapes >> shift));
     }
 }
 
-// False if no plane has such a header.
+// False if it is not the header of a plane.
 bool parse_header(const uint8_t* bytes, size_t num_points, bool has_mesh, PlaneHeader& header) {
     header.prediction = static_cast<Prediction>(bytes[0] & 3u);
     header.wide = (bytes[0] & 4u) != 0;
     header.magnitude = bytes[1];
-    header.num_exceptions = 0;
-    for (int j = 0; j < 4; ++j) header.num_exceptions |= uint32_t{bytes[2 + j]} << (8 * j);
+    header.num_escapes = 0;
+    for (int j = 0; j < 4; ++j) header.num_escapes |= uint32_t{bytes[2 + j]} << (8 * j);
     return bytes[0] < 8 && header.prediction <= Prediction::parallelograms &&
            (header.prediction == Prediction::none || has_mesh) &&
            std::find(kMagnitudes.begin(), kMagnitudes.end(), header.magnitude) !=
                kMagnitudes.end() &&
-           header.num_exceptions <= num_points;
+           header.num_escapes <= num_points;
 }
 
-// The contents of a section's frame as planes to undo; false if they are none.
+// Splits the contents of a section's frame into planes; false if they are not planes.
 template <typename Integer>
 bool parse(std::span<const uint8_t> contents, const StoredPlanes<Integer>& section, bool has_mesh,
            std::vector<PlaneSource<Integer>>& planes) {
@@ -184,19 +183,19 @@ bool parse(std::span<const uint8_t> contents, const StoredPlanes<Integer>& secti
     for (const uint8_t magnitude : kMagnitudes) {
         for (PlaneSource<Integer>& plane : mine) {
             if (plane.header.magnitude == magnitude &&
-                !take(digit_bytes(magnitude, num_points), plane.digits)) {
+                !take(symbol_bytes(magnitude, num_points), plane.symbols)) {
                 return false;
             }
         }
     }
     for (PlaneSource<Integer>& plane : mine) {
-        if (!take(plane.header.num_exceptions, plane.gaps)) return false;
+        if (!take(plane.header.num_escapes, plane.gaps)) return false;
     }
     for (PlaneSource<Integer>& plane : mine) {
-        if (!take(plane.header.num_exceptions, plane.lows)) return false;
+        if (!take(plane.header.num_escapes, plane.lows)) return false;
     }
     for (PlaneSource<Integer>& plane : mine) {
-        if (plane.header.wide && !take(plane.header.num_exceptions, plane.highs)) return false;
+        if (plane.header.wide && !take(plane.header.num_escapes, plane.highs)) return false;
     }
     return place == contents.size();
 }
@@ -215,7 +214,7 @@ std::vector<uint8_t> encode(std::span<const Integer> values, size_t num_planes,
     contents.append(headers);
     for (const uint8_t magnitude : kMagnitudes) {
         for (const PackedPlane& plane : planes) {
-            if (plane.header.magnitude == magnitude) contents.append(plane.digits);
+            if (plane.header.magnitude == magnitude) contents.append(plane.symbols);
         }
     }
     for (const PackedPlane& plane : planes) contents.append(plane.gaps);

@@ -14,21 +14,21 @@ namespace paim {
 
 // values     [planes][N], integers
 // predictor  of N points, or without a mesh
-// Every plane is predicted and packed in the way that seems smallest. The same bytes for the same
-// input on any number of threads.
+// Each plane gets the prediction and the packing that are estimated to be the smallest. The same
+// input gives the same bytes on any number of threads.
 std::vector<uint8_t> encode_planes(const StoredValues& values, size_t num_planes,
                                    const PlanePredictor& predictor, Effort effort = Effort::small);
 
 // Planes in a file, and where they go.
 template <typename Integer>
 struct StoredPlanes {
-    std::span<const uint8_t> bytes;  // the stored section, whatever it is
+    std::span<const uint8_t> bytes;  // the stored section; may be anything
     size_t num_planes = 0;           // at least 1
     std::span<Integer> out;          // [planes][N]
 };
 
-// Fills every `out`; false for bytes that are not such planes, or whose values are not in the
-// symmetrical range of the integers. Planes are undone side by side, kPlanesAtOnce of them best.
+// Fills every `out`. False for bytes that are not such planes, and for values outside the symmetric
+// range of the integers. Planes are reconstructed side by side; kPlanesAtOnce of them is fastest.
 // Memory grows with the sizes of `out` alone.
 template <typename Integer>
 bool decode_planes(std::span<const StoredPlanes<Integer>> sections, const PlanePredictor& predictor,

@@ -1,10 +1,10 @@
 // Planes from packed residuals: many planes at once.
 //
-// A value depends on values before it in its plane, so that a plane alone is a chain of additions
-// that wait for one another. Here a row has the values of many planes at a vertex, and rows are
-// predicted from rows. Digits are unpacked and transposed into rows, exceptions are added to rows
-// where they are, and rows transposed back into planes, in tiles that stay in the first-level cache.
-// Rows hold values with their highest bit turned: then means of two are what vector units have.
+// A value depends on earlier values of its plane, so a single plane is a chain of additions that wait
+// for one another. Here a row holds the values of many planes at one vertex, and rows are predicted
+// from rows. Symbols are unpacked and transposed into rows, escapes are added to the rows, and rows
+// are transposed back into planes, in tiles that stay in the first-level cache. Rows hold values with
+// the highest bit flipped: unsigned means of two are an instruction of the vector units.
 #include "paim/format/pack/plane_reconstruct.h"
 
 #if defined(__SSE2__)
@@ -28,7 +28,7 @@ constexpr size_t kVectorBytes = 16;
 typedef uint8_t Bytes __attribute__((vector_size(kVectorBytes)));
 typedef uint16_t Words __attribute__((vector_size(kVectorBytes)));
 
-// Of so many integers, one a plane, as a row has them.
+// A vector of a row: one integer of each of kLanes planes.
 template <typename Integer>
 struct Lanes {
     using Lane = std::make_unsigned_t<Integer>;
@@ -96,7 +96,7 @@ __attribute__((always_inline)) inline Vector interleave_high(const Vector& a, co
 }
 #endif
 
-// As many vectors as each has lanes: rows become columns, a bit of the row's number at a time.
+// Rows become columns, one bit of the row's number at a time. As many vectors as each has lanes.
 template <typename Vector, size_t kSize>
 __attribute__((always_inline)) inline void transpose(Vector (&m)[kSize]) {
     Vector from[kSize];
@@ -112,7 +112,7 @@ __attribute__((always_inline)) inline void transpose(Vector (&m)[kSize]) {
     }
 }
 
-// Without prediction, a plane is what is packed.
+// A plane without prediction: its values are its residuals.
 template <typename Integer>
 bool copy_plane(const PlaneSource<Integer>& plane, size_t num_points) {
     using Lane = typename Lanes<Integer>::Lane;
@@ -120,38 +120,38 @@ bool copy_plane(const PlaneSource<Integer>& plane, size_t num_points) {
     Integer tile[kTileValues + kTilePadding];
     for (size_t first = 0; first < num_points && header.magnitude > 0; first += kTileValues) {
         const size_t count = std::min(kTileValues, num_points - first);
-        unpack_digits(header.magnitude, plane.digits, first, count, tile);
+        unpack_symbols(header.magnitude, plane.symbols, first, count, tile);
         std::copy_n(tile, count, plane.out + first);
     }
     if (header.magnitude == 0) std::fill_n(plane.out, num_points, Integer{0});
     auto* const values = reinterpret_cast<Lane*>(plane.out);
-    Exceptions exceptions(header, plane.gaps, plane.lows, plane.highs);
-    exceptions.add_until(num_points, [values](size_t n) -> Lane& { return values[n]; });
+    Escapes escapes(header, plane.gaps, plane.lows, plane.highs);
+    escapes.add_until(num_points, [values](size_t n) -> Lane& { return values[n]; });
     Lane any_lowest = 0;
-    for (size_t n = 0; n < num_points && header.num_exceptions + header.magnitude > 0; ++n) {
+    for (size_t n = 0; n < num_points && header.num_escapes + header.magnitude > 0; ++n) {
         any_lowest = static_cast<Lane>(any_lowest | (values[n] == Lanes<Integer>::kHighest));
     }
-    return exceptions.done() && any_lowest == 0;
+    return escapes.done() && any_lowest == 0;
 }
 
-// Undoes up to kLanes · kVectors predicted planes, of which those that are means come first.
+// Reconstructs up to kLanes · kVectors predicted planes. Planes predicted by means come first.
 template <typename Integer, size_t kVectors>
-class Undo {
+class Reconstruction {
   public:
     using Vector = typename Lanes<Integer>::Vector;
     using Lane = typename Lanes<Integer>::Lane;
     static constexpr size_t kLanes = Lanes<Integer>::kLanes;
 
-    // Values of planes at a vertex.
+    // Values of all planes at a vertex.
     struct alignas(kVectorBytes* kVectors) Row {
         Vector vectors[kVectors];
     };
 
-    Undo(std::span<const PlaneSource<Integer>> planes, const PlanePredictor& predictor,
-         size_t num_points, Buffer& rows)
+    Reconstruction(std::span<const PlaneSource<Integer>> planes, const PlanePredictor& predictor,
+                   size_t num_points, Buffer& rows)
         : planes_(planes),
           num_points_(num_points),
-          // Nobody's, then one a vertex, then what completes the last block.
+          // A row of zeros for missing neighbours, one row a vertex, and padding of the last block.
           rows_(reinterpret_cast<Row*>(rows.resize((1 + num_points + kLanes) * sizeof(Row)))),
           parents_(predictor.parents()) {
         PAIM_CHECK_EQ(parents_.size(), num_points);
@@ -159,9 +159,9 @@ class Undo {
         size_t num_means = 0;
         for (size_t j = 0; j < planes.size(); ++j) {
             const PlaneSource<Integer>& plane = planes[j];
-            exceptions_[j] = Exceptions(plane.header, plane.gaps, plane.lows, plane.highs);
+            escapes_[j] = Escapes(plane.header, plane.gaps, plane.lows, plane.highs);
             num_means += plane.header.prediction == Prediction::mean;
-            if (plane.header.magnitude > 0) has_digits_[j / kLanes] = true;
+            if (plane.header.magnitude > 0) has_symbols_[j / kLanes] = true;
         }
         num_mean_vectors_ = (num_means + kLanes - 1) / kLanes;
         is_mixed_ = num_means < planes.size() && num_means % kLanes != 0;
@@ -181,16 +181,16 @@ class Undo {
     }
 
   private:
-    // Residuals of the tile into rows.
+    // Unpacks the residuals of the tile into rows.
     __attribute__((noinline)) void read(size_t first, size_t count) {
         Row* const rows = rows_ + 1 + first;
         for (size_t j = 0; j < planes_.size(); ++j) {
             if (const uint8_t magnitude = planes_[j].header.magnitude; magnitude > 0) {
-                unpack_digits(magnitude, planes_[j].digits, first, count, tile_[j]);
+                unpack_symbols(magnitude, planes_[j].symbols, first, count, tile_[j]);
             }
         }
         for (size_t k = 0; k < kVectors; ++k) {
-            if (!has_digits_[k]) {
+            if (!has_symbols_[k]) {
                 for (size_t n = 0; n < count; ++n) rows[n].vectors[k] = Vector{};
                 continue;
             }
@@ -208,14 +208,14 @@ class Undo {
         auto* const lanes = reinterpret_cast<Lane*>(rows_);
         for (size_t j = 0; j < planes_.size(); ++j) {
             Lane* const column = lanes + kLanes * kVectors + j;
-            exceptions_[j].add_until(first + count, [column](size_t n) -> Lane& {
+            escapes_[j].add_until(first + count, [column](size_t n) -> Lane& {
                 return column[kLanes * kVectors * n];
             });
         }
     }
 
-    // Predicts rows from rows: the first kMeans vectors by means, the last kSlopes by parallelograms,
-    // and one that is both by what each lane wants.
+    // Predicts rows from rows: the first kMeans vectors by means, the last kSlopes by
+    // parallelograms. A vector that belongs to both has a prediction for each lane.
     template <size_t kMeans, size_t kSlopes>
     __attribute__((noinline)) void add(size_t first, size_t count) {
         static_assert(kMeans + kSlopes == kVectors || kMeans + kSlopes == kVectors + 1);
@@ -258,7 +258,7 @@ class Undo {
         }
     }
 
-    // The one of all add()s that has so many vectors of means.
+    // Calls the add() for this number of vectors of means.
     template <size_t kMeans = 0>
     void add_some(size_t first, size_t count) {
         if constexpr (kMeans < kVectors) {
@@ -324,7 +324,7 @@ class Undo {
 
     bool finished() const {
         for (size_t j = 0; j < planes_.size(); ++j) {
-            if (!exceptions_[j].done()) return false;
+            if (!escapes_[j].done()) return false;
         }
         for (size_t j = 0; j < kLanes; ++j) {
             if (any_lowest_[j] != 0) return false;
@@ -337,13 +337,13 @@ class Undo {
     Row* rows_;
     std::span<const PlanePredictor::Parents> parents_;
     std::span<const PlanePredictor::Parallelograms> parallelograms_;
-    size_t num_mean_vectors_ = 0;  // of rows, the first ones
-    bool is_mixed_ = false;        // whether some lanes of the last of these are no means
-    bool has_digits_[kVectors] = {};
-    Vector means_{};  // of a mixed vector: every bit of the lanes that are
+    size_t num_mean_vectors_ = 0;  // the first vectors of a row are predicted by means
+    bool is_mixed_ = false;        // some lanes of the last of these are parallelograms
+    bool has_symbols_[kVectors] = {};
+    Vector means_{};  // all bits set in the lanes of a mixed vector that are means
     Vector any_lowest_{};
-    Exceptions exceptions_[kLanes * kVectors];
-    Integer tile_[kLanes * kVectors][kTileValues + kTilePadding] = {};  // digits
+    Escapes escapes_[kLanes * kVectors];
+    Integer tile_[kLanes * kVectors][kTileValues + kTilePadding] = {};  // symbols
 };
 
 }  // namespace
@@ -351,7 +351,7 @@ class Undo {
 template <typename Integer>
 bool reconstruct_planes(std::span<PlaneSource<Integer>> planes, const PlanePredictor& predictor,
                         size_t num_points, Buffer& rows) {
-    // Whoever has digits beside others, and whoever is predicted in one way.
+    // Planes with the same prediction together, and among these first those without symbols.
     std::stable_sort(planes.begin(), planes.end(), [](const auto& a, const auto& b) {
         const auto rank = [](const PlaneHeader& header) {
             return 2 * static_cast<int>(header.prediction) + (header.magnitude > 0);
@@ -367,10 +367,11 @@ bool reconstruct_planes(std::span<PlaneSource<Integer>> planes, const PlanePredi
         }
         const size_t count = std::min(4 * kLanes, planes.size() - first);
         const std::span<const PlaneSource<Integer>> some = planes.subspan(first, count);
-        const bool good =
-            count <= kLanes       ? Undo<Integer, 1>(some, predictor, num_points, rows).run()
-            : count <= 2 * kLanes ? Undo<Integer, 2>(some, predictor, num_points, rows).run()
-                                  : Undo<Integer, 4>(some, predictor, num_points, rows).run();
+        const bool good = count <= kLanes
+                              ? Reconstruction<Integer, 1>(some, predictor, num_points, rows).run()
+                          : count <= 2 * kLanes
+                              ? Reconstruction<Integer, 2>(some, predictor, num_points, rows).run()
+                              : Reconstruction<Integer, 4>(some, predictor, num_points, rows).run();
         if (!good) return false;
         first += count;
     }

@@ -14,20 +14,20 @@ namespace paim {
 template <typename Integer>
 struct PlaneSource {
     PlaneHeader header;  // valid
-    // Any bytes: [digit_bytes()]; of each exception, see PackedPlane.
-    const uint8_t* digits = nullptr;
+    // Any bytes. symbols [symbol_bytes()]; the others [num_escapes], as in PackedPlane.
+    const uint8_t* symbols = nullptr;
     const uint8_t* gaps = nullptr;
     const uint8_t* lows = nullptr;
     const uint8_t* highs = nullptr;
     Integer* out = nullptr;  // [N]
 };
 
-// Every plane's `out` = what PlanePredictor::add() makes of its residuals. False if an exception lies
-// outside of its plane or a value is the lowest of its integers, which files do not use: what is out
-// then is anything.
-// planes     are taken in the order that suits, so that it may become another
+// Every plane's `out` = what PlanePredictor::add() makes of its residuals. False if an escape lies
+// outside its plane or a value is the lowest of its integers, which files do not use; `out` then
+// holds anything.
+// planes     are reordered
 // predictor  of N points, unless no plane is predicted
-// rows       to work in: up to 64 bytes a point
+// rows       scratch memory: up to 64 bytes a point
 template <typename Integer>
 bool reconstruct_planes(std::span<PlaneSource<Integer>> planes, const PlanePredictor& predictor,
                         size_t num_points, Buffer& rows);

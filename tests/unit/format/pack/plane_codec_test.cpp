@@ -109,26 +109,43 @@ TEST(PlanePredictor, ChainsFollowTheOneBefore) {
     }
 }
 
-// Digits that share bytes, the first one the highest, and exceptions: gaps, zigzag.
+// Packed symbols, the first one in the highest place, and escapes: gaps, zigzag.
 TEST(PlanePacking, IsWhatTheDocumentsSay) {
     std::vector<int16_t> residuals{1, -1, 0, 0, 1, 0, 0, 3};
     PackedPlane plane = pack(Prediction::none, 1, std::span<const int16_t>(residuals));
-    EXPECT_EQ(plane.digits, (std::vector<uint8_t>{2 * 81 + 0 + 9 + 3 + 2, 81 + 27 + 18 + 3 + 1}));
+    EXPECT_EQ(plane.symbols, (std::vector<uint8_t>{2 * 81 + 0 + 9 + 3 + 2, 81 + 27 + 18 + 3 + 1}));
     EXPECT_EQ(plane.gaps, (std::vector<uint8_t>{7}));
     EXPECT_EQ(plane.lows, (std::vector<uint8_t>{4}));
     EXPECT_FALSE(plane.header.wide);
     residuals.assign(600, 0);
     residuals[0] = -1;
-    residuals[256] = 2;    // 255 between: no exception of 0
+    residuals[256] = 2;    // 255 between: no escape of 0
     residuals[599] = 300;  // 342 between: one of 0 after 255, and 86 more
     plane = pack(Prediction::none, 0, std::span<const int16_t>(residuals));
-    EXPECT_TRUE(plane.digits.empty());
+    EXPECT_TRUE(plane.symbols.empty());
     EXPECT_EQ(plane.gaps, (std::vector<uint8_t>{0, 255, 255, 86}));
     EXPECT_EQ(plane.lows, (std::vector<uint8_t>{1, 4, 0, 600 & 255}));
     EXPECT_EQ(plane.highs, (std::vector<uint8_t>{0, 0, 0, 2}));
-    plane = pack(Prediction::none, kByteDigits, std::span<const int16_t>(residuals).last(1));
-    EXPECT_EQ(plane.digits, (std::vector<uint8_t>{254}));
+    plane = pack(Prediction::none, kByteSymbols, std::span<const int16_t>(residuals).last(1));
+    EXPECT_EQ(plane.symbols, (std::vector<uint8_t>{254}));
     EXPECT_EQ(plane.lows, (std::vector<uint8_t>{(2 * (300 - 127)) & 255}));
+}
+
+// The bytes that docs/algorithms/quantisation.md draws.
+TEST(PlanePacking, PacksTheExampleOfTheDocuments) {
+    using Bytes = std::vector<uint8_t>;
+    const std::vector<int16_t> narrow{1, 0, -1, 0, 6, -1};
+    PackedPlane plane = pack(Prediction::none, 1, std::span<const int16_t>(narrow));
+    EXPECT_EQ(plane.symbols, (Bytes{0xc2, 0x28}));
+    EXPECT_EQ(plane.gaps, (Bytes{0x04}));
+    EXPECT_EQ(plane.lows, (Bytes{0x0a}));
+    EXPECT_FALSE(plane.header.wide);
+    const std::vector<int16_t> wide{302, -2, 0, -699, 0, -1};
+    plane = pack(Prediction::none, 2, std::span<const int16_t>(wide));
+    EXPECT_EQ(plane.symbols, (Bytes{0x66, 0x0b}));
+    EXPECT_EQ(plane.gaps, (Bytes{0x00, 0x02}));
+    EXPECT_EQ(plane.lows, (Bytes{0x58, 0x71}));
+    EXPECT_EQ(plane.highs, (Bytes{0x02, 0x05}));
 }
 
 // Planes whose magnitudes go from 0 to `limit`, each another way.
@@ -230,12 +247,12 @@ TEST(PlaneCodec, AnswersDamageWithFalseOrOtherNumbers) {
     for (const uint8_t byte : {0x50, 0x2a, 0x4d, 0x18, 0, 0, 0, 0}) passed_over.push_back(byte);
     EXPECT_FALSE(decode_planes(passed_over, 4, predictor, std::span(out)));
     EXPECT_FALSE(zstd_decompress(std::span(passed_over).last(8), {}));
-    // −128 is no value, although eight bits hold it: digit −127 and an exception of −1.
+    // −128 is no value, although eight bits hold it: symbol −127 and an escape of −1.
     std::vector<uint8_t> lowest(6 + 64, 0);
-    lowest[1] = kByteDigits;
+    lowest[1] = kByteSymbols;
     lowest[6] = 253;  // −127
     EXPECT_TRUE(decode_planes(zstd_compress(lowest), 1, predictor, std::span(out).first(64)));
-    lowest[2] = 1;  // exception
+    lowest[2] = 1;  // escape
     lowest.insert(lowest.end(), {0, 1});
     for (const uint8_t prediction : {0, 1, 2}) {
         lowest[0] = prediction;
@@ -243,7 +260,7 @@ TEST(PlaneCodec, AnswersDamageWithFalseOrOtherNumbers) {
     }
 }
 
-// Every header that is none, and exceptions that do not fit.
+// Every header that is none, and escapes that do not fit.
 TEST(PlaneCodec, RefusesOtherHeaders) {
     const PlanePredictor predictor(grid(8));
     std::vector<int8_t> out(64);
@@ -267,7 +284,7 @@ TEST(PlaneCodec, RefusesOtherHeaders) {
         const auto a = static_cast<uint8_t>(magnitude);
         const bool is = std::find(kMagnitudes.begin(), kMagnitudes.end(), a) != kMagnitudes.end();
         if (is) {
-            EXPECT_TRUE(decodes({0, a, 0, 0, 0, 0}, std::vector<uint8_t>(digit_bytes(a, 64))));
+            EXPECT_TRUE(decodes({0, a, 0, 0, 0, 0}, std::vector<uint8_t>(symbol_bytes(a, 64))));
             continue;
         }
         for (const size_t size : {0, 13, 22, 32, 64}) {
@@ -324,17 +341,17 @@ TEST(CacheOrder, IsAPermutationThatKeepsTheMesh) {
     EXPECT_TRUE(cache_order({4, {}}).topology.triangles.empty());
 }
 
-// Two planes of six values as docs/format.md has them: digits by their size, then gaps, low bytes and
-// high bytes of all planes.
+// Two planes of six values, laid out as in docs/format.md: packed symbols, then the gaps, low bytes and
+// high bytes of the escapes of both planes. An escape may add to any symbol, as the one of −699 does.
 TEST(PlaneCodec, ReadsAFrameWrittenByHand) {
     const std::vector<uint8_t> contents{
-        0x00, 1,    1, 0, 0, 0,  // no prediction, digits up to 1, one exception
-        0x04, 2,    2, 0, 0, 0,  // exceptions are wide, digits up to 2, two of them
+        0x00, 1,    1, 0, 0, 0,  // no prediction, symbols up to 1, one escape
+        0x04, 2,    2, 0, 0, 0,  // escapes are wide, symbols up to 2, two of them
         194,  40,                // 1 0 −1 0 1, −1: 2 1 0 1 2 and 0 1 1 1 1 in base 3
         102,  86,                // 2 −2 0, 1 0 −1: 4 0 2 and 3 2 1 in base 5
         4,                       // value 4
         0,    2,                 // values 0 and 3
-        10,                      // 5 more than its digit
+        10,                      // 5 more than its symbol
         0x58, 0x77,              // 300 more, 700 less: zigzag 600 and 1399
         0x02, 0x05};
     std::vector<int16_t> values(12);

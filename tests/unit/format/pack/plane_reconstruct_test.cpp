@@ -102,13 +102,13 @@ struct Plane {
     PackedPlane packed;
 
     PlaneSource<Integer> source(Integer* out) const {
-        return {packed.header,      packed.digits.data(), packed.gaps.data(),
-                packed.lows.data(), packed.highs.data(),  out};
+        return {packed.header,      packed.symbols.data(), packed.gaps.data(),
+                packed.lows.data(), packed.highs.data(),   out};
     }
 };
 
 template <typename Integer>
-Plane<Integer> random_plane(Prediction prediction, uint8_t largest_digit, double magnitude,
+Plane<Integer> random_plane(Prediction prediction, uint8_t largest_symbol, double magnitude,
                             const SlowPredictor<Integer>& slow, RandomStream& random) {
     constexpr auto kLowest = std::numeric_limits<Integer>::min();
     Plane<Integer> plane;
@@ -123,7 +123,7 @@ Plane<Integer> random_plane(Prediction prediction, uint8_t largest_digit, double
         residuals[v] = residual;
         plane.values[v] = static_cast<Integer>(predicted + residual);
     }
-    plane.packed = pack(prediction, largest_digit, std::span<const Integer>(residuals));
+    plane.packed = pack(prediction, largest_symbol, std::span<const Integer>(residuals));
     return plane;
 }
 
@@ -159,11 +159,11 @@ void expect_every_way(uint32_t num_points) {
     const SlowPredictor<Integer> slow(topology);
     std::vector<Plane<Integer>> planes;
     for (const Prediction prediction : kPredictions) {
-        for (const uint8_t largest_digit : kMagnitudes) {
+        for (const uint8_t largest_symbol : kMagnitudes) {
             for (const double magnitude :
                  {0.0, 1.0, 4.0, 120.0, 0.99 * std::numeric_limits<Integer>::max()}) {
                 planes.push_back(
-                    random_plane<Integer>(prediction, largest_digit, magnitude, slow, random));
+                    random_plane<Integer>(prediction, largest_symbol, magnitude, slow, random));
             }
         }
     }
@@ -203,10 +203,10 @@ void expect_any_number(uint32_t most) {
     const SlowPredictor<Integer> slow(topology);
     std::vector<Plane<Integer>> means, slopes;
     for (uint32_t j = 0; j < most; ++j) {
-        const uint8_t largest_digit = kMagnitudes[j * j % kMagnitudes.size()];
-        means.push_back(random_plane(Prediction::mean, largest_digit, 100.0, slow, random));
+        const uint8_t largest_symbol = kMagnitudes[j * j % kMagnitudes.size()];
+        means.push_back(random_plane(Prediction::mean, largest_symbol, 100.0, slow, random));
         slopes.push_back(
-            random_plane(Prediction::parallelograms, largest_digit, 100.0, slow, random));
+            random_plane(Prediction::parallelograms, largest_symbol, 100.0, slow, random));
     }
     for (uint32_t count = 1; count <= most; ++count) {
         for (const uint32_t num_means : {0u, 1u, count / 3, count / 2, count - 1, count}) {
@@ -242,7 +242,8 @@ void expect_exact_means() {
             plane.values = residuals;
             plane.values.push_back(slow.predict(Prediction::mean, num_parents, residuals.data()));
             residuals.push_back(0);
-            plane.packed = pack(Prediction::mean, kByteDigits, std::span<const Integer>(residuals));
+            plane.packed =
+                pack(Prediction::mean, kByteSymbols, std::span<const Integer>(residuals));
             planes.push_back(std::move(plane));
         }
         expect_values(planes, predictor, num_parents + 1);
@@ -267,15 +268,15 @@ TEST(PlaneUndo, JudgesAnyBytesAsTheSlowReferenceDoes) {
         };
         PlaneHeader header{kPredictions[trial % 3], below(2.0) == 1,
                            kMagnitudes[below(kMagnitudes.size())], below(8.0)};
-        std::vector<uint8_t> digits(digit_bytes(header.magnitude, 30));
-        for (uint8_t& byte : digits) byte = below(256.0);
-        std::vector<uint8_t> gaps(header.num_exceptions), lows(gaps), highs(gaps);
+        std::vector<uint8_t> symbols(symbol_bytes(header.magnitude, 30));
+        for (uint8_t& byte : symbols) byte = below(256.0);
+        std::vector<uint8_t> gaps(header.num_escapes), lows(gaps), highs(gaps);
         for (uint8_t& gap : gaps) gap = below(8.0);
         for (uint8_t& low : lows) low = below(256.0);
         for (uint8_t& high : highs) high = below(256.0);
 
         std::vector<int8_t> values(30 + kTilePadding);
-        unpack_digits(header.magnitude, digits.data(), 0, 30, values.data());
+        unpack_symbols(header.magnitude, symbols.data(), 0, 30, values.data());
         bool good = true;
         size_t place = 0;
         for (size_t j = 0; j < gaps.size() && good; ++j, ++place) {
@@ -293,8 +294,8 @@ TEST(PlaneUndo, JudgesAnyBytesAsTheSlowReferenceDoes) {
         good = good && std::find(values.begin(), values.end(), -128) == values.end();
 
         std::vector<int8_t> out(30);
-        PlaneSource<int8_t> plane{header,      digits.data(), gaps.data(),
-                                  lows.data(), highs.data(),  out.data()};
+        PlaneSource<int8_t> plane{header,      symbols.data(), gaps.data(),
+                                  lows.data(), highs.data(),   out.data()};
         Buffer rows;
         ASSERT_EQ(reconstruct_planes(std::span(&plane, 1), predictor, 30, rows), good) << trial;
         if (good) {
