@@ -102,6 +102,30 @@ TEST(Bounces, AreTheDenseMatrixApplied) {
     }
 }
 
+// Rows are kept until their bytes reach the limit; the others are made again for every bounce. Five
+// vertices are less than one piece of work, so that the first rows are the ones that are kept.
+TEST(Bounces, KeepAsManyRowsAsTheLimitAllows) {
+    RandomScene random;
+    size_t num_made = 0;
+    random.scene.make_row = [&](size_t /*v*/, size_t /*half*/, TransportRow& row) {
+        ++num_made;
+        row.assign(3, {1, 0.1f});
+    };
+    constexpr uint64_t kRowBytes = 3 * sizeof(HitWeight);
+    constexpr uint32_t kBounces = 3;
+    constexpr size_t kRows = 2 * kOwn;
+    for (const size_t num_kept : {size_t{0}, size_t{1}, size_t{4}, kRows}) {
+        // The limit is reached by the last row that is kept, and may be passed by a part of it.
+        for (const uint64_t past : {uint64_t{0}, kRowBytes - 1}) {
+            if (num_kept == 0 && past > 0) continue;
+            num_made = 0;
+            std::array<std::vector<float>, 2> halves = random.direct;
+            add_bounces(random.scene, kBounces, halves, false, num_kept * kRowBytes - past);
+            EXPECT_EQ(num_made, num_kept + kBounces * (kRows - num_kept)) << num_kept;
+        }
+    }
+}
+
 TEST(Bounces, OfNoneLeaveTheTransfer) {
     RandomScene random;
     random.scene.layout.channels = 1;

@@ -95,6 +95,27 @@ TEST(EnvironmentLight, BearsALittleBelowZeroAndKeepsIt) {
     EXPECT_EQ(error_of(Image(2, 2)), "no error");  // night is black
 }
 
+// A row at a pole is a smaller part of the sphere than one at the equator: values below zero count
+// by solid angle, sin θ at the row's centre. Ones, and one row of −x whose share x sin θ / Σ others
+// is just below or above the 5 % that are allowed.
+TEST(EnvironmentLight, WeighsValuesBelowZeroBySolidAngle) {
+    constexpr int kHeight = 8;
+    const auto row_weight = [](int y) { return std::sin(kPi * (y + 0.5) / kHeight); };
+    double all = 0.0;
+    for (int y = 0; y < kHeight; ++y) all += row_weight(y);
+    for (const int row : {0, 3, 4, 7}) {
+        const double limit = 0.05 * (all - row_weight(row)) / row_weight(row);
+        const auto error_of_share = [&](double share_of_limit) {
+            Image image(6, kHeight, Vec3f(1, 1, 1));
+            const auto value = static_cast<float>(-share_of_limit * limit);
+            for (int x = 0; x < 6; ++x) image.at(x, row) = Vec3f::Constant(value);
+            return error_of(image);
+        };
+        EXPECT_EQ(error_of_share(0.99), "no error") << row;
+        EXPECT_NE(error_of_share(1.01).find("values below zero sum to"), std::string::npos) << row;
+    }
+}
+
 TEST(EnvironmentLight, RadianceInterpolatesPixelCentres) {
     Image image(8, 4);
     for (int y = 0; y < 4; ++y) {

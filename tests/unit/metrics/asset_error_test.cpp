@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <vector>
 
 #include "analysis/bench/made_up_identity.h"
@@ -20,8 +21,9 @@ constexpr uint32_t kVertices = 4;
 
 class AssetErrorTest : public testing::Test {
   protected:
-    // A bake of random numbers for the asset's meshes.
-    BakeReader write_bake(const Asset& asset, const TransferLayout& layout, uint32_t num_poses) {
+    // A bake for the asset's meshes: poses 0 … num_poses − 1, then what stands still.
+    BakeReader write_bake(const Asset& asset, const TransferLayout& layout, uint32_t num_poses,
+                          const std::function<BakedPose()>& make_pose) {
         std::vector<BakeIdentity::Source> poses;
         for (uint32_t p = 0; p < num_poses; ++p) poses.push_back({"pose", p});
         const CodedMesh& moving = asset.moving();
@@ -31,6 +33,15 @@ class AssetErrorTest : public testing::Test {
         std::filesystem::remove_all(directory);
         if (asset.still() != nullptr) identity.scenery.push_back({"still", 0});
         const BakeWriter writer(directory, identity, moving.topology, moving.albedo);
+        for (uint32_t p = 0; p < num_poses; ++p) writer.write_pose(p, make_pose());
+        if (asset.still() != nullptr) {
+            writer.write_scenery({asset.still()->topology, asset.still()->albedo, make_pose()});
+        }
+        return BakeReader(directory);
+    }
+
+    // The same of random numbers.
+    BakeReader write_bake(const Asset& asset, const TransferLayout& layout, uint32_t num_poses) {
         RandomStream random(5);
         const auto fill = [&](size_t count, double size) {
             std::vector<float> values(count);
@@ -49,11 +60,7 @@ class AssetErrorTest : public testing::Test {
             pose.statistics.noise_rms.assign(layout.in_bands, 0.1);
             return pose;
         };
-        for (uint32_t p = 0; p < num_poses; ++p) writer.write_pose(p, random_pose());
-        if (const CodedMesh* still = asset.still()) {
-            writer.write_scenery({still->topology, still->albedo, random_pose()});
-        }
-        return BakeReader(directory);
+        return write_bake(asset, layout, num_poses, random_pose);
     }
 
     // What differs, by the player's decoder: Σ w (t̂ − y)² / Σ w y², and the same of positions.
@@ -178,6 +185,52 @@ TEST_F(AssetErrorTest, MeasuresWhatStandsStill) {
         const std::vector<NamedError> named = named_errors(error);
         EXPECT_EQ(named.back().name, "scenery_position_worst");
         EXPECT_EQ(named.back().value, error.still->geometry.worst());
+    }
+}
+
+// One vertex is decoded as it was baked, with all of its noise; the others are decoded as nothing.
+// Where the noise is all that vertex's own, what is decoded adds it, and where it is another's, what is
+// decoded has none of it: E‖t̂ − t‖² = ‖t̂ − y‖² ± ‖d‖². Files have vertices in another order.
+TEST_F(AssetErrorTest, TakesNoiseInTheOrderOfTheFile) {
+    const TransferLayout layout{TransferKind::diffuse, 1, 1};
+    const Asset as_baked = make_example_asset(1, 1, 2, 1);
+    const CacheOrder order = cache_order(as_baked.moving().topology);
+    ASSERT_NE(order.old_vertex, (std::vector<uint32_t>{0, 1, 2, 3}));
+    for (uint32_t noisy = 0; noisy < kVertices; ++noisy) {
+        float sign = 1.0f;
+        const BakeReader bake = write_bake(as_baked, layout, 2, [&] {
+            BakedPose pose;
+            pose.positions.assign(3 * kVertices, 0.5f);
+            pose.normals.assign(3 * kVertices, 0.0f);
+            pose.transfer.assign(kVertices, 2.0f + sign);  // 3, then 1
+            pose.noise.assign(kVertices, 0.0f);
+            pose.noise[noisy] = sign;
+            pose.statistics.transfer_rms = {1.0};
+            pose.statistics.noise_rms = {1.0};
+            sign = -sign;
+            return pose;
+        });
+        for (uint32_t decoded = 0; decoded < kVertices; ++decoded) {
+            Asset asset = as_baked;
+            asset.vertex_order = VertexOrder::cache;
+            asset.moving().topology = order.topology;
+            std::vector<float> mean(kVertices, 0.0f), component(kVertices, 0.0f);
+            for (size_t v = 0; v < kVertices; ++v) {
+                if (order.old_vertex[v] != decoded) continue;
+                mean[v] = 2.0f;
+                component[v] = 1.0f;
+            }
+            LowRank& matrix = asset.moving().transfer->matrix;
+            matrix.mean = mean;
+            matrix.components = {component};
+            matrix.weights = {1.0f, -1.0f};
+            const TransferError error = measure_asset(asset, bake, BandPower::flat(1)).transfer;
+            // ‖y‖² = 4 (3² + 1²), of which three vertices are lost; ‖d‖² = 2. Roundings of a few numbers.
+            EXPECT_NEAR(error.deviation, std::sqrt(30.0 / 40.0), 1e-14);
+            EXPECT_NEAR(error.bake_noise, std::sqrt(2.0 / 40.0), 1e-14);
+            EXPECT_NEAR(error.error, std::sqrt((decoded == noisy ? 32.0 : 28.0) / 40.0), 1e-14)
+                << decoded << " " << noisy;
+        }
     }
 }
 

@@ -252,6 +252,27 @@ TEST(TransferError, FindsTheWorstVertexAndPose) {
     EXPECT_NEAR(error.worst_pose_deviation, std::sqrt(5.0 / 9.0), 1e-15);
 }
 
+// Two vertices, two poses, two bands; natural light gives band 1 a quarter of band 0. Without it, the
+// other vertex and the other pose would be the worst.
+TEST(TransferError, WeighsTheWorstVertexAndPoseByTheLight) {
+    Animation a{{TransferKind::diffuse, 2, 1}, 2, MatrixXf(8, 2), MatrixXf::Zero(8, 2), {}};
+    a.baked.setConstant(2.0f);  // ‖y‖²_w = 4 · 4 · (1 + 3/4) = 28
+    a.decoded = a.baked;
+    a.decoded(0, 0) += 2.0f;  // band 0, vertex 0, pose 0: 4
+    a.decoded(3, 1) += 3.0f;  // band 1, vertex 1, pose 1: 9, or 9/4 under this light
+    const TransferError natural = measure(a, BandPower::natural(), every_pose(2));
+    EXPECT_EQ(natural.worst_vertex, 0u);
+    EXPECT_EQ(natural.worst_pose, 0u);
+    // Relative to the RMS of two vertices, or poses. Roundings of a few numbers.
+    EXPECT_NEAR(natural.worst_vertex_deviation, std::sqrt(4.0 / 14.0), 1e-15);
+    EXPECT_NEAR(natural.worst_pose_deviation, std::sqrt(4.0 / 14.0), 1e-15);
+    const TransferError flat = measure(a, BandPower::flat(2), every_pose(2));
+    EXPECT_EQ(flat.worst_vertex, 1u);
+    EXPECT_EQ(flat.worst_pose, 1u);
+    EXPECT_NEAR(flat.worst_vertex_deviation, std::sqrt(9.0 / 32.0), 1e-15);
+    EXPECT_NEAR(flat.worst_pose_deviation, std::sqrt(9.0 / 32.0), 1e-15);
+}
+
 TEST(TransferError, OfNumbersThatAreNoneIsNone) {
     Animation a = random_animation({TransferKind::diffuse, 1, 1}, 4, 3);
     a.decoded(2, 1) = std::numeric_limits<float>::quiet_NaN();

@@ -2,8 +2,11 @@
 #include "compressor/encode/noise/component_noise.h"
 
 #include <gtest/gtest.h>
+#include <Eigen/QR>
 
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include "compressor/encode/noise/rank_selection.h"
 #include "compressor/encode/noise/shrinkage.h"
@@ -167,6 +170,120 @@ TEST_F(KnownNoise, StillDataHasNoSignalToKeep) {
         measure((0.1 * (sigma_.asDiagonal() * gaussian(kRows, kPoses, 6))).cast<float>());
     EXPECT_EQ(measured.num_above_noise, 0u);
     EXPECT_EQ(choose_components({}, measured, 0.01), 0u);
+}
+
+// Vertices with noise n_v count as (Σ n_v)² / Σ n_v² of equal noise.
+TEST(ComponentNoise, CountsIndependentVertices) {
+    ComponentNoise noise;
+    noise.layout = {TransferKind::diffuse, 2, 1};
+    noise.num_vertices = 3;
+    noise.vertex_noise = {1, 2, 0, 0, 1, 0};  // two bands: 1, 3 and 0 of both
+    EXPECT_DOUBLE_EQ(noise.num_independent(), 16.0 / 10.0);
+    noise.vertex_noise.assign(6, 0.0);
+    EXPECT_EQ(noise.num_independent(), 0.0);
+    EXPECT_EQ(ComponentNoise().num_independent(), 0.0);
+}
+
+// Four vertices, each with the same noise, and noise that is the same along all of four components:
+// the edge is (1 + √((5 − 1) / 4))² = 4 times that. Energies are just above or just below it.
+TEST(ComponentNoise, EndsAtTheEdgeOfPureNoise) {
+    constexpr Index kColumns = 5, kComponents = kColumns - 1;
+    MatrixXd hadamard(4, 4);  // rows and columns of length 2, orthogonal
+    hadamard << 1, 1, 1, 1, 1, -1, 1, -1, 1, 1, -1, -1, 1, -1, -1, 1;
+    // Orthonormal, without the constant.
+    MatrixXd basis = gaussian(kColumns, kColumns, 1);
+    basis.col(0).setOnes();
+    PrincipalComponents components;
+    components.v = (basis.householderQr().householderQ() * MatrixXd::Identity(kColumns, kColumns))
+                       .rightCols(kComponents);
+    components.singular_values = {4.0, 3.0, 2.0, 1.0};
+    components.num_rows = 4;
+    const MatrixXf noise = (hadamard * components.v.transpose()).cast<float>();
+    // Far more than the floats' rounding, far less than the 12 % that one pose more would make.
+    constexpr double kClose = 1e-4;
+    const auto count = [&](const std::vector<int>& sides) {
+        MatrixXd factors = hadamard;
+        for (Index k = 0; k < kComponents; ++k) {
+            factors.col(k) *= std::sqrt(4.0 * (1.0 + kClose * sides[static_cast<size_t>(k)]));
+        }
+        const MatrixXf transfer = (factors * components.v.transpose()).cast<float>();
+        const ComponentNoise measured = measure_component_noise(
+            MatrixRows(transfer), MatrixRows(noise), {TransferKind::diffuse, 1, 1}, components);
+        EXPECT_NEAR(measured.num_independent(), 4.0, 1e-5);
+        EXPECT_NEAR(measured.noise_of(0), 4.0, 1e-5);
+        return measured.num_above_noise;
+    };
+    EXPECT_EQ(count({1, 1, 1, 1}), 4u);
+    EXPECT_EQ(count({1, 1, -1, 1}), 2u);  // up to the first that is below
+    EXPECT_EQ(count({-1, 1, 1, 1}), 0u);
+}
+
+// The risk is an unbiased estimate of the squared error that is left: with d values of which the noise
+// n is known, 4 n²/d E is what Stein's term adds, and an n that is itself a sum of m draws adds
+// 4 n²/m E. Equal components, so that one factor is that of all of them and nothing is modelled.
+// One component of 33 values, then three of 11.
+TEST(Shrinkage, ExpectsTheErrorThatManyDrawsHave) {
+    constexpr uint32_t kBand = 5;  // 11 coefficients
+    constexpr size_t kValues = 33;
+    constexpr size_t kDraws = 66;  // of the noise: as many as twice the values
+    constexpr int kTrials = 80'000;
+    for (const uint32_t channels : {3u, 1u}) {
+        const Index num_components = channels == 3 ? 1 : 3;
+        ComponentNoise noise;
+        noise.layout = {TransferKind::diffuse, kBand + 1, channels};
+        noise.num_vertices = 1;
+        noise.num_poses = static_cast<uint32_t>(kDraws / (11 * channels)) + 1;
+        noise.num_above_noise = static_cast<uint32_t>(num_components);
+        noise.mean_noise = 1000.0;  // so that estimates below zero are not taken for zero
+        noise.energy = MatrixXd::Zero(kBand + 1, num_components);
+        noise.noise = noise.energy;
+        noise.vertex_energy.assign(kBand + 1, 0.0);
+        noise.vertex_noise.assign(kBand + 1, 0.0);
+        RandomStream random(17);
+        const auto normal = [&] {
+            const double radius = std::sqrt(-2.0 * std::log(1.0 - random.uniform()));
+            return radius * std::cos(2.0 * kPi * random.uniform());
+        };
+        // Unit noise on values of 1: E is about twice n.
+        double sum = 0.0, squares = 0.0, sum_of_ratio = 0.0;
+        for (int trial = 0; trial < kTrials; ++trial) {
+            std::array<double, kValues> values;
+            double energy = 0.0;
+            for (double& value : values) {
+                value = 1.0 + normal();
+                energy += value * value;
+            }
+            double estimate = 0.0;
+            for (size_t j = 0; j < kDraws; ++j) {
+                const double draw = normal();
+                estimate += draw * draw * kValues / kDraws;
+            }
+            noise.vertex_energy.back() = energy;
+            noise.vertex_noise.back() = estimate;
+            for (Index k = 0; k < num_components; ++k) {
+                const double share = 1.0 / static_cast<double>(num_components);
+                noise.energy(kBand, k) = share * energy;
+                noise.noise(kBand, k) = share * estimate;
+            }
+            const Shrinkage shrinkage(noise);
+            const double factor = shrinkage.factor(kBand, 0, 0);
+            double error = 0.0;
+            for (const double value : values) error += std::pow(factor * value - 1.0, 2.0);
+            const double expected =
+                shrinkage.expected_error(static_cast<uint32_t>(num_components)).noise - 1000.0;
+            const double difference = expected - error;
+            sum += difference / kTrials;
+            squares += difference * difference / kTrials;
+            sum_of_ratio += kValues * kValues / energy / kTrials;
+        }
+        // Five standard errors, and what the estimated n² is too large by, 1 + 2/m, in both terms.
+        const double standard_error = std::sqrt(squares / kTrials);
+        const double bias = 8.0 / kDraws * (1.0 / kValues + 1.0 / kDraws) * sum_of_ratio;
+        EXPECT_LT(std::abs(sum), bias + 5.0 * standard_error) << channels;
+        // The smaller term is that of m draws: half of it would show, twice over.
+        EXPECT_LT(bias + 5.0 * standard_error, 0.5 * 0.5 * 4.0 / kDraws * sum_of_ratio)
+            << "else this would not say much";
+    }
 }
 
 TEST_F(KnownNoise, DoesNotDependOnThreads) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "compressor/encode/quantise/quantise.h"
 #include "compressor/encode/search/target_encode.h"
 #include "paim/base/error.h"
 #include "paim/format/paim/paim_read.h"
@@ -65,6 +66,51 @@ TEST_F(QuantiseStill, IsWithinTheTargetWithNoiseOfItsOwn) {
     EXPECT_GT(measured.still->transfer.bake_noise, 0.02);
     EXPECT_LE(measured.still->transfer.total(), 0.08);
     EXPECT_GT(measured.still->transfer.total(), 0.07);
+}
+
+// Steps are chosen by a sum in steps. Floats round what is decoded once more, by up to 2^-24 · 2^15 of
+// a fine step, which may be too much. Targets just below an error that was measured, but not below
+// what the sum says of the same steps, are such that the first steps are too coarse.
+TEST_F(QuantiseStill, IsMadeFinerWhereMeasuringFindsItTooCoarse) {
+    const BakeReader bake = this->bake(0.0);
+    EncodeTarget target;
+    target.transfer_error = 0.02;
+    target.spectrum = BandPower::flat(4);
+    const EncodeProblem problem = read_problem(bake, options_, target);
+    const CodedMesh exact = *exact_still(problem).mesh;
+    const auto mean_of = [&](const LowRank& matrix) {
+        ScaledFactors factors;
+        factors.num_points = exact.topology.num_vertices;
+        factors.num_planes = matrix.num_planes;
+        factors.mean = matrix.mean_floats();
+        factors.weights.resize(0, 1);  // one pose
+        return factors;
+    };
+    const ScaledFactors transfer = mean_of(exact.transfer->matrix);
+    const ScaledFactors positions = mean_of(exact.positions);
+    double energy = 0.0;
+    for (const float t : transfer.mean) energy += double{t} * double{t};
+    uint32_t num_transfers = 0, num_positions = 0;
+    for (double error = 1e-4; error < 1e-3; error *= 1.2) {
+        const double distance = error;
+        const QuantisedStill first = quantise_still(problem, error, distance);
+        EXPECT_LE(first.error->transfer.total(), error);
+        EXPECT_LE(first.error->geometry.rms(), distance);
+        const double less = first.error->transfer.total() * (1.0 - 1e-8);
+        const double nearer = first.error->geometry.rms() * (1.0 - 1e-8);
+        const QuantisedStill second = quantise_still(problem, less, nearer);
+        EXPECT_LE(second.error->transfer.total(), less);
+        EXPECT_LE(second.error->geometry.rms(), nearer);
+        const auto sum_of = [](const ScaledFactors& factors, const LowRank& matrix) {
+            const std::vector<double> alike(factors.num_planes, 1.0);
+            return quantised_error(factors, {double{matrix.steps[0]}, 0, alike});
+        };
+        num_transfers += sum_of(transfer, first.mesh->transfer->matrix) < less * less * energy;
+        num_positions += sum_of(positions, first.mesh->positions) <
+                         nearer * nearer * exact.topology.num_vertices;
+    }
+    EXPECT_GT(num_transfers, 0u) << "else this would not say much";
+    EXPECT_GT(num_positions, 0u) << "else this would not say much";
 }
 
 TEST_F(QuantiseStill, IsRefusedByNameWhereItsNoiseIsTooLarge) {

@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
 #include <fstream>
 #include <iterator>
+#include <utility>
 
 #include "compressor/encode/memory/memory_plan.h"
+#include "compressor/encode/search/encoded_file.h"
 #include "compressor/encode/search/problem.h"
 #include "paim/base/error.h"
 #include "paim/base/parallel.h"
@@ -331,6 +334,41 @@ TEST_F(TargetEncode, FloatsMeetTheTargetToo) {
                   summary.error.transfer.total());
         EXPECT_EQ(summary.chosen().components, asset.moving().transfer->matrix.num_components);
     }
+}
+
+// Floats that are chosen by an estimate may need a component more once they are measured, and with it
+// more than the decode cost that was asked for. The first target that an estimate meets with one
+// component fewer is where that happens, if anywhere.
+TEST_F(TargetEncode, RefusesDecodeCostsThatOnlyEstimatesMeet) {
+    const BakeReader bake = this->bake({.noise = 0.02});
+    options_.precision = Precision::f32;
+    EncodeTarget costly = target(bake, 0.05);
+    const EncodeProblem problem = read_problem(bake, options_, costly);
+    TargetFiles files(problem, options_, costly);
+    uint32_t num_found = 0, estimated_before = 0;
+    for (double error = 1.01 * problem.least_error(); error < 0.5; error *= 1.002) {
+        std::string reason;
+        const auto draft = files.draft(error, reason);
+        ASSERT_TRUE(draft) << reason;
+        const uint32_t estimated = draft->candidates.at(0).multiply_adds;
+        if (std::exchange(estimated_before, estimated) == estimated) continue;
+        const auto file = files.meet(error, reason);
+        ASSERT_TRUE(file) << reason;
+        const uint32_t measured = file->candidates.at(0).multiply_adds;
+        if (measured == estimated) continue;
+        ++num_found;
+        EXPECT_GT(measured, estimated);
+        costly.transfer_error = error;
+        costly.decode_cost = estimated;
+        expect_refused(bake, costly, ExitCode::threshold_exceeded,
+                       fmt::format("takes {} multiply-adds a vertex, --max-decode-cost allows {}",
+                                   measured, estimated));
+        costly.decode_cost = measured;
+        EXPECT_EQ(encode(bake, costly).chosen().multiply_adds, measured);
+        std::filesystem::remove(output_);
+        costly.decode_cost.reset();
+    }
+    EXPECT_GT(num_found, 0u) << "else this would not say much";
 }
 
 TEST_F(TargetEncode, KeepsNoiseWhereAskedTo) {
