@@ -12,7 +12,7 @@
 #include "paim/codec/sequence_bounds.h"
 #include "paim/format/container/container_reader.h"
 #include "paim/format/container/sections.h"
-#include "paim/format/paim/paim_file.h"
+#include "player/read_model.h"
 
 namespace paim::player {
 
@@ -97,7 +97,7 @@ Beginning inspect_beginning(const std::filesystem::path& path) {
 
 LoadedModel read_beginning(const std::filesystem::path& path, const Beginning& beginning) {
     LoadedModel loaded;
-    loaded.model = read_paim(path, {.progressive = true});
+    loaded.model = read_model(path, {.progressive = true});
     loaded.progress = beginning.progress();
     loaded.progress.components = num_components(loaded.model);
     // More may have come since the look.

@@ -8,10 +8,10 @@
 
 #include "paim/base/error.h"
 #include "paim/codec/sequence_bounds.h"
-#include "paim/format/paim/paim_file.h"
 #include "paim/image/exr.h"
 #include "paim/light/environment.h"
 #include "paim/light/sky.h"
+#include "player/read_model.h"
 
 namespace paim::player {
 
@@ -34,7 +34,7 @@ void lower_limit(const char* option, const char* what, uint32_t& limit, uint32_t
 Scene load_scene(Options& options) {
     if (options.progressive) return make_scene(options, load_beginning(options.model_path));
     LoadedModel loaded;
-    loaded.model = read_paim(options.model_path);
+    loaded.model = read_model(options.model_path);
     loaded.bounds = sequence_bounds(loaded.model);
     std::error_code ignored;
     loaded.progress.size_bytes = std::filesystem::file_size(options.model_path, ignored);

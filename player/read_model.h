@@ -1,0 +1,20 @@
+// Reads an animation in the player's unit of length.
+#pragma once
+
+#include <filesystem>
+
+#include "paim/codec/model.h"
+#include "paim/format/paim/paim_file.h"
+
+namespace paim::player {
+
+// read_paim(), then scale_to_unit(). Errors as read_paim()'s.
+Model read_model(const std::filesystem::path& path, const ReadOptions& options = {});
+
+// Multiplies every position of the model and its scenery by one power of two, so that the largest
+// coordinate of the mean pose is about 1. This is exact, and every camera is placed by the bounds of
+// the model, so that pictures stay the same; but meshes of any size can then be drawn with the single
+// precision of cameras, depths and GPUs. All prefixes of a file get the same scale.
+void scale_to_unit(Model& model);
+
+}  // namespace paim::player
