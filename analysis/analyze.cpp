@@ -95,8 +95,8 @@ void analyze(const AnalyzeOptions& options) {
     ensure_directory(options.output);
 
     const Asset asset = encode_everything(bake, options.output);
-    const Stage stage(bake, lights, stage_camera(bake, options.azimuth_rad, options.elevation_rad),
-                      options.size_pixels, options.num_poses);
+    const Stage stage(bake, lights, options.azimuth_rad, options.elevation_rad, options.size_pixels,
+                      options.num_poses);
     std::vector<Curve> curves = plan_curves(bake, asset, options.components, options.bands);
     cli::Progress progress("measuring", "images", num_points(curves) * stage.poses().size(), quiet);
     const std::vector<Image> references =

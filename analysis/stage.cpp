@@ -10,8 +10,8 @@
 #include "paim/image/exr.h"
 #include "paim/light/environment.h"
 #include "paim/light/sky.h"
-#include "paim/mesh/bounds.h"
 #include "paim/mesh/planes.h"
+#include "paim/mesh/unit_scale.h"
 #include "paim/render/render.h"
 #include "paim/shade/shade.h"
 
@@ -36,32 +36,57 @@ std::vector<NamedLight> load_lights(const std::vector<std::filesystem::path>& en
     return lights;
 }
 
-Camera stage_camera(const BakeReader& bake, double azimuth_rad, double elevation_rad) {
+namespace {
+
+Bounds bounds_of_poses(const BakeReader& bake) {
     Bounds bounds;
+    std::vector<float> planes(size_t{3} * bake.identity().num_vertices);
     for (uint32_t p = 0; p < bake.num_poses(); ++p) {
-        std::vector<float> planes(size_t{3} * bake.identity().num_vertices);
         bake.read_position_rows(p, 0, planes.size(), planes.data());
         bounds.extend(from_planes(planes));
     }
-    if (bake.scenery()) {
+    return bounds;
+}
+
+float scale_of(const Bounds& bounds) {
+    if (bounds.empty()) return 1.0f;
+    const float largest =
+        std::max(bounds.lower.cwiseAbs().maxCoeff(), bounds.upper.cwiseAbs().maxCoeff());
+    return unit_scale(static_cast<double>(largest));
+}
+
+std::vector<float> scaled(std::vector<float> values, float scale) {
+    for (float& value : values) value *= scale;
+    return values;
+}
+
+}  // namespace
+
+Camera Stage::camera(double azimuth_rad, double elevation_rad) const {
+    Bounds bounds = pose_bounds_;
+    bounds.lower *= scale_;
+    bounds.upper *= scale_;
+    if (bake_.scenery()) {
         Bounds still;
-        still.extend(from_planes(bake.scenery()->pose.positions));
+        still.extend(from_planes(scaled(bake_.scenery()->pose.positions, scale_)));
         bounds = framed_bounds(bounds, still);
     }
     return frame_bounds(bounds, 1.0f, static_cast<float>(azimuth_rad),
                         static_cast<float>(elevation_rad));
 }
 
-Stage::Stage(const BakeReader& bake, std::vector<NamedLight> lights, const Camera& camera,
-             int size_pixels, uint32_t num_poses)
+Stage::Stage(const BakeReader& bake, std::vector<NamedLight> lights, double azimuth_rad,
+             double elevation_rad, int size_pixels, uint32_t num_poses)
     : bake_(bake),
       lights_(std::move(lights)),
-      camera_(camera),
       size_pixels_(size_pixels),
+      pose_bounds_(bounds_of_poses(bake)),
+      scale_(scale_of(pose_bounds_)),
+      camera_(camera(azimuth_rad, elevation_rad)),
       topology_(bake.topology()) {
     if (bake.scenery()) {
         topology_.append(bake.scenery()->topology);
-        still_positions_ = from_planes(bake.scenery()->pose.positions);
+        still_positions_ = from_planes(scaled(bake.scenery()->pose.positions, scale_));
     }
     const uint32_t count = std::min(num_poses, bake.num_poses());
     for (uint32_t j = 0; j < count; ++j) {
@@ -70,7 +95,7 @@ Stage::Stage(const BakeReader& bake, std::vector<NamedLight> lights, const Camer
 }
 
 std::vector<Image> Stage::render_pose(const DecodedPose& pose) const {
-    std::vector<Vec3f> positions = from_planes(pose.positions);
+    std::vector<Vec3f> positions = from_planes(scaled(pose.positions, scale_));
     positions.insert(positions.end(), still_positions_.begin(), still_positions_.end());
     std::vector<std::vector<Vec3f>> radiance(lights_.size());
     for (size_t j = 0; j < lights_.size(); ++j) {

@@ -10,6 +10,7 @@
 #include "paim/format/bake/bake_directory.h"
 #include "paim/image/image.h"
 #include "paim/light/light.h"
+#include "paim/mesh/bounds.h"
 #include "paim/shade/camera.h"
 
 namespace paim {
@@ -27,9 +28,10 @@ std::vector<NamedLight> load_lights(const std::vector<std::filesystem::path>& en
 // Renders baked or decoded poses of one character under several lights, against black.
 class Stage {
   public:
-    // num_poses poses, evenly spaced, are measured.
-    Stage(const BakeReader& bake, std::vector<NamedLight> lights, const Camera& camera,
-          int size_pixels, uint32_t num_poses);
+    // num_poses poses, evenly spaced, are measured. The camera sees the whole sequence from this
+    // direction (frame_bounds()).
+    Stage(const BakeReader& bake, std::vector<NamedLight> lights, double azimuth_rad,
+          double elevation_rad, int size_pixels, uint32_t num_poses);
 
     const std::vector<NamedLight>& lights() const { return lights_; }
     const std::vector<uint32_t>& poses() const { return poses_; }
@@ -38,16 +40,18 @@ class Stage {
     std::vector<Image> render_pose(const DecodedPose& pose) const;
 
   private:
+    Camera camera(double azimuth_rad, double elevation_rad) const;
+
     const BakeReader& bake_;
     std::vector<NamedLight> lights_;
-    Camera camera_;
     int size_pixels_;
+    Bounds pose_bounds_;  // of all poses, scene units
+    // Of what is rendered: cameras of huge scenes would stand beyond the range of floats.
+    float scale_;
+    Camera camera_;  // of the scaled scene
     std::vector<uint32_t> poses_;
-    Topology topology_;  // of the poses and, after them, of what stands still
-    std::vector<Vec3f> still_positions_;
+    Topology topology_;                   // of the poses and, after them, of what stands still
+    std::vector<Vec3f> still_positions_;  // scaled
 };
-
-// Camera that sees the whole sequence.
-Camera stage_camera(const BakeReader& bake, double azimuth_rad, double elevation_rad);
 
 }  // namespace paim

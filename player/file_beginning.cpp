@@ -12,8 +12,7 @@
 #include "paim/codec/sequence_bounds.h"
 #include "paim/format/container/container_reader.h"
 #include "paim/format/container/sections.h"
-#include "paim/format/paim/paim_read.h"
-#include "paim/format/paim/paim_write.h"
+#include "player/read_asset.h"
 
 namespace paim::player {
 
@@ -98,7 +97,7 @@ Beginning inspect_beginning(const std::filesystem::path& path) {
 
 LoadedAsset read_beginning(const std::filesystem::path& path, const Beginning& beginning) {
     LoadedAsset loaded;
-    loaded.asset = std::make_shared<const Asset>(read_paim(path, {.prefix = true}));
+    loaded.asset = read_asset(path, {.prefix = true});
     loaded.progress = beginning.progress();
     loaded.progress.components = num_components(loaded.asset->moving());
     // More may have come since the look.

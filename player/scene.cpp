@@ -8,11 +8,10 @@
 
 #include "paim/base/error.h"
 #include "paim/codec/sequence_bounds.h"
-#include "paim/format/paim/paim_read.h"
-#include "paim/format/paim/paim_write.h"
 #include "paim/image/exr.h"
 #include "paim/light/environment.h"
 #include "paim/light/sky.h"
+#include "player/read_asset.h"
 
 namespace paim::player {
 
@@ -35,7 +34,7 @@ void lower_limit(const char* option, const char* what, uint32_t& limit, uint32_t
 Scene load_scene(Options& options) {
     if (options.progressive) return make_scene(options, load_beginning(options.model_path));
     LoadedAsset loaded;
-    loaded.asset = std::make_shared<const Asset>(read_paim(options.model_path));
+    loaded.asset = read_asset(options.model_path);
     loaded.bounds = sequence_bounds(*loaded.asset);
     std::error_code ignored;
     loaded.progress.size_bytes = std::filesystem::file_size(options.model_path, ignored);

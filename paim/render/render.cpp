@@ -12,6 +12,7 @@ std::vector<Image> render_images(const Topology& topology, std::span<const Vec3f
                                  std::span<const std::vector<Vec3f>> radiance, const Camera& camera,
                                  int width, int height) {
     for (const auto& values : radiance) PAIM_CHECK_EQ(values.size(), positions.size());
+    PAIM_CHECK(camera.eye.allFinite());
     const RayScene scene(topology, positions);
     const float aspect = static_cast<float>(width) / static_cast<float>(height);
     std::vector<Image> images(radiance.size(), Image(width, height));

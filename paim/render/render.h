@@ -13,6 +13,7 @@ namespace paim {
 
 // Renders one pose under several lights: its geometry is built and hit once.
 // positions  [V] scene units
+// camera     its eye finite, which frame_bounds() makes it for coordinates below about 2^120
 // radiance   [lights][V] linear RGB
 // returns    [lights] width × height images, black where the mesh is not
 std::vector<Image> render_images(const Topology& topology, std::span<const Vec3f> positions,

@@ -14,6 +14,7 @@
 #include "paim/base/check.h"
 #include "paim/base/error.h"
 #include "paim/mesh/normals.h"
+#include "paim/mesh/unit_scale.h"
 #include "paim/trace/embree.h"
 
 namespace paim {
@@ -80,16 +81,13 @@ RTCRay make_ray(const Vec3f& origin, const Vec3f& direction) {
     return ray;
 }
 
-// A power of two that brings the largest coordinate to 1/2 … 1, where Embree's arithmetic is at
-// home: it loses hits beyond about 1e±18. Multiplying by it is exact, so that nothing else changes.
-float unit_scale(std::span<const Vec3f> positions, std::span<const Vec3f> more_positions) {
+// What Embree's coordinates are multiplied by: it loses hits beyond about 1e±18.
+float embree_scale(std::span<const Vec3f> positions, std::span<const Vec3f> more_positions) {
     float largest = 0.0f;
     for (const auto points : {positions, more_positions}) {
         for (const Vec3f& x : points) largest = std::max(largest, x.cwiseAbs().maxCoeff());
     }
-    int exponent = 0;
-    std::frexp(largest, &exponent);
-    return largest > 0.0f ? std::ldexp(1.0f, std::clamp(-exponent, -126, 126)) : 1.0f;
+    return unit_scale(static_cast<double>(largest));
 }
 
 // Triangles without area as points, which no ray hits. Of those that are lines, rounding may leave
@@ -143,7 +141,7 @@ RayScene::RayScene(const Topology& topology, std::span<const Vec3f> positions,
     impl_->scene = rtcNewScene(impl_->device.handle());
     rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(impl_->scene, RTC_BUILD_QUALITY_HIGH);
-    impl_->scale = unit_scale(positions, scenery_positions);
+    impl_->scale = embree_scale(positions, scenery_positions);
     impl_->attach(0, topology, positions);
     impl_->attach(1, scenery, scenery_positions);
     impl_->first_triangle[1] = static_cast<uint32_t>(topology.triangles.size());

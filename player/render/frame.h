@@ -14,6 +14,8 @@ struct Background {
     Vec3f color = Vec3f::Zero();  // linear radiance
 };
 
+// Lengths are in the model's unit. Cameras and depths take squares of them in single precision, so
+// that the model has to be of about unit size (player/read_model.h).
 struct Frame {
     double time = 0.0;  // in poses
     DecodeLimits limits;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -84,6 +85,48 @@ TEST_F(PlayTest, SnapshotIsThePictureOfTheLibrary) {
     const Difference difference = compare(expected, read_exr(out("a.exr")));
     EXPECT_LE(difference.mean_relative, 1e-3);
     EXPECT_LE(difference.fraction_off, 0.005);
+}
+
+// To the byte: scaling by powers of two is exact, and the player undoes it before anything else.
+TEST_F(PlayTest, PicturesDoNotDependOnTheSize) {
+    TestModelOptions still;
+    still.geometry_components = still.transfer_components = 0;
+    const Model beside = make_test_model(still);
+    std::vector<float> positions = beside.geometry.mean.floats();
+    for (size_t v = 0; v < beside.topology.num_vertices; ++v) positions[v] += 1.2f;
+    struct Case {
+        Precision precision;
+        std::vector<std::string> arguments;
+    };
+    for (const Case& c : {Case{Precision::f32, {}},
+                          Case{Precision::f32, {"--camera", "100,40,2.5", "--progressive"}},
+                          Case{Precision::i16, {"--camera", "-30,-20"}}}) {
+        TestModelOptions options;
+        options.precision = c.precision;
+        Model model = make_test_model(options);
+        model.scenery = {beside.topology, beside.albedo, StillPlanes(positions),
+                         StillPlanes(beside.transfer.mean.floats())};
+        std::vector<std::string> arguments{"--snapshot", out("a.exr"), "--size", "64x48"};
+        arguments.insert(arguments.end(), c.arguments.begin(), c.arguments.end());
+        Image unscaled;
+        for (const int exponent : {0, -90, -70, 70, 90, 124}) {
+            Model scaled = model;
+            scale_model(scaled, exponent);
+            write_paim(file_, scaled);
+            const ToolResult result = play(arguments);
+            ASSERT_EQ(result.exit_code, 0) << result.err;
+            const Image image = read_exr(out("a.exr"));
+            if (exponent == 0) unscaled = image;
+            EXPECT_TRUE(image.pixels == unscaled.pixels) << exponent;
+        }
+        // The mesh is there to be seen.
+        arguments.insert(arguments.end(), {"--background", "black"});
+        ASSERT_EQ(play(arguments).exit_code, 0);
+        const Image seen = read_exr(out("a.exr"));
+        const auto num_seen = std::count_if(seen.pixels.begin(), seen.pixels.end(),
+                                            [](const Vec3f& pixel) { return !pixel.isZero(0.0f); });
+        EXPECT_GT(num_seen, 64 * 48 / 50);
+    }
 }
 
 TEST_F(PlayTest, SnapshotsAreRepeatableAndPngsWritten) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "paim/base/seed.h"
 #include "paim/codec/mesh_decoder.h"
@@ -236,6 +237,27 @@ Asset make_test_model(const TestModelOptions& options) {
         model.moving().albedo.values = {Vec3f(0.9f, 0.6f, 0.3f)};
     }
     return model;
+}
+
+void scale_model(Model& model, int exponent) {
+    const auto scale = [&](std::vector<float>& values) {
+        for (float& value : values) value = std::ldexp(value, exponent);
+    };
+    const auto scale_values = [&](StoredValues& values) {
+        if (!values.holds_floats()) return;
+        std::vector<float> floats = values.floats();
+        scale(floats);
+        values = StoredValues(std::move(floats));
+    };
+    LowRankMatrix& geometry = model.geometry;
+    scale(geometry.steps);
+    if (geometry.steps.empty()) {
+        scale_values(geometry.mean);
+        scale(geometry.weights);
+    }
+    scale(model.scenery.positions.steps);
+    if (model.scenery.positions.steps.empty()) scale_values(model.scenery.positions.values);
+    model.origin *= std::ldexp(1.0, exponent);
 }
 
 LightCoefficients make_test_light(int bands) {

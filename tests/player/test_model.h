@@ -30,6 +30,9 @@ struct TestModelOptions {
 // differ little and pixels at triangle edges do not decide a comparison.
 Asset make_test_model(const TestModelOptions& options);
 
+// Multiplies all positions, of the scenery as well, by 2^exponent.
+void scale_model(Model& model, int exponent);
+
 // Random coefficients whose constant part outweighs the rest, so that radiance is mostly positive.
 LightCoefficients make_test_light(int bands);
 
