@@ -10,6 +10,7 @@
 #include <span>
 
 #include "compressor/bake/bake_sequence.h"
+#include "compressor/encode/memory/measuring_memory.h"
 #include "compressor/encode/memory/memory_plan.h"
 #include "compressor/encode/state_errors.h"
 #include "compressor/encode_report.h"

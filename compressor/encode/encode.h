@@ -6,39 +6,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <limits>
-#include <span>
-#include <string>
 
-#include "compressor/encode/noise/rank_selection.h"
-#include "paim/codec/model.h"
+#include "compressor/encode/options.h"
 #include "paim/format/bake/bake_directory.h"
 
 namespace paim {
-
-// What becomes of the bake's noise in the transfer's components.
-enum class NoiseTreatment : uint32_t {
-    shrink,  // components are scaled down by what of them is noise (shrinkage.h)
-    keep,    // they are those of the bake, noise and all
-};
-
-struct EncodeOptions {
-    ComponentChoice geometry;
-    ComponentChoice transfer;
-    // What `automatic` keeps the energy error below.
-    double automatic_geometry_error = 0.01;
-    double automatic_transfer_error = 0.01;
-    uint32_t bands = std::numeric_limits<uint32_t>::max();  // more than the bake has means all
-    NoiseTreatment noise =
-        NoiseTreatment::shrink;  // `all` transfer components are always kept whole
-    Precision precision = Precision::f32;
-    uint64_t memory_bytes =
-        1'000'000'000;  // that the process stays below; the bytes do not depend on it
-    // The file will be measured (state_errors.h): it is not written if memory does not suffice for that.
-    bool measure = false;
-    float frames_per_second = 24.0f;
-    std::string name;
-};
 
 struct EncodeSummary {
     uint32_t geometry_components = 0;

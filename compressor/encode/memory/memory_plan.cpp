@@ -5,10 +5,11 @@
 #include <bit>
 
 #include "compressor/encode/noise/component_noise.h"
-#include "compressor/encode/svd/principal_components.h"
+#include "compressor/encode/svd/projected_blocks.h"
 #include "compressor/encode/svd/tsqr.h"
 #include "paim/base/error.h"
 #include "paim/base/parallel.h"
+#include "paim/format/bake/bake_directory.h"
 
 namespace paim {
 

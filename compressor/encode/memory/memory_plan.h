@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <string>
 
-#include "compressor/encode/encode.h"
+#include "compressor/encode/options.h"
 
 namespace paim {
+
+class BakeReader;
 
 // What encoding's memory depends on. Rows are streamed; vertices matter for albedo and for noise.
 struct EncodeSize {

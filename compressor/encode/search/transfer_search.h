@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "compressor/encode/options.h"
 #include "compressor/encode/quantise/clustered_quantise.h"
 #include "compressor/encode/search/problem.h"
-#include "compressor/encode/search/rate_target.h"
 
 namespace paim {
 

@@ -3,8 +3,6 @@
 //           Kry 2012
 #pragma once
 
-#include <functional>
-#include <span>
 #include <vector>
 
 #include "compressor/encode/data/row_source.h"
@@ -35,21 +33,5 @@ PrincipalComponents principal_components(const RowSource& rows,
 // so that components have unit RMS. returns [K][P]
 std::vector<float> component_weights(const PrincipalComponents& components, uint32_t num_components,
                                      uint64_t num_rows);
-
-// Blocks that for_each_encoded_block() works on before it hands them on in order; at most that
-// many.
-constexpr uint32_t kMaxBlocksWaiting = 16;
-
-// What a block of rows becomes: its mean and its rows of the first K components (unit RMS).
-struct EncodedRows {
-    std::vector<float> mean;                     // [rows of the block]
-    std::vector<std::vector<float>> components;  // [K][rows of the block]
-};
-
-// Calls on_block for consecutive blocks of rows, in order, from one thread.
-void for_each_encoded_block(const RowSource& rows, const PrincipalComponents& components,
-                            uint32_t num_components,
-                            const std::function<void(EncodedRows&)>& on_block,
-                            uint32_t num_in_flight = kMaxInFlight);
 
 }  // namespace paim
