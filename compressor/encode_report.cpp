@@ -43,6 +43,11 @@ ordered_json encode_json(const EncodeSummary& summary) {
     transfer["more_rays_would_help"] = more_rays_would_help(summary);
     json["transfer"] = std::move(transfer);
     json["size_bytes"] = summary.size_bytes;
+    if (summary.measured) {
+        for (const NamedError& error : named_errors(*summary.measured)) {
+            json["measured"][error.name] = error.value;
+        }
+    }
     return json;
 }
 
@@ -58,6 +63,13 @@ std::string encode_text(const std::string& file, const EncodeSummary& summary) {
         "noise{})\n",
         100.0 * summary.expected_error(), 100.0 * summary.expected_truncation_error,
         100.0 * summary.expected_noise_error, summary.shrunk ? ", shrunk" : "");
+    if (summary.measured) {
+        const GeometryError& geometry = summary.measured->geometry;
+        text += fmt::format(
+            "  measured: transfer {:.3g} %, RMS distance {:.3g} ({:.2g} % of the diagonal)\n",
+            100.0 * summary.measured->transfer.total(), geometry.rms(),
+            100.0 * geometry.relative_rms());
+    }
     return text;
 }
 

@@ -12,7 +12,6 @@
 #include "compressor/bake/bake_sequence.h"
 #include "compressor/encode/memory/measuring_memory.h"
 #include "compressor/encode/memory/memory_plan.h"
-#include "compressor/encode/state_errors.h"
 #include "compressor/encode_report.h"
 #include "compressor/io/obj_files.h"
 #include "compressor/io/obj_sequence.h"
@@ -249,31 +248,13 @@ ordered_json encode_to(const CompressOptions& options, const std::filesystem::pa
     const EncodeSummary summary = encode(reader, encode_options, options.output,
                                          [&](uint64_t rows) { encoding.advance(rows); });
     encoding.finish();
-    std::optional<ModelError> error;
-    if (options.encode.measure) {
-        error =
-            state_errors(options.output, reader, BandPower::flat(reader.identity().layout.bands),
-                         encode_options.memory_bytes);
-    }
     ordered_json json;
     json["paim"] = options.output.string();
     json["num_vertices"] = reader.identity().num_vertices;
     json["num_poses"] = reader.num_poses();
     json.update(encode_json(summary));
-    if (error) {
-        for (const NamedError& named : named_errors(*error)) {
-            json["measured"][named.name] = named.value;
-        }
-        json["size_bytes"] = std::filesystem::file_size(options.output);
-    }
     if (options.json) return json;
     fmt::print("{}", encode_text(options.output.string(), summary));
-    if (error) {
-        fmt::print(
-            "  measured: transfer {:.3g} %, RMS distance {:.3g} ({:.2g} % of the diagonal)\n",
-            100.0 * error->transfer.total(), error->geometry.rms(),
-            100.0 * error->geometry.relative_rms());
-    }
     if (more_rays_would_help(summary)) {
         fmt::print(stderr,
                    "note: most of the error is bake noise: more rays would help more than more "

@@ -6,9 +6,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 
 #include "compressor/encode/options.h"
 #include "paim/format/bake/bake_directory.h"
+#include "paim/metrics/model_error.h"
 
 namespace paim {
 
@@ -33,19 +35,24 @@ struct EncodeSummary {
         return std::hypot(expected_truncation_error, expected_noise_error);
     }
     uint64_t size_bytes = 0;
+    std::optional<ModelError> measured;  // with EncodeOptions::measure; under flat light
 };
 
-// Rows that encode() reads: every one twice, those of the transfer and of its noise once more.
+// How many rows encode() reads: every row twice, and rows of the transfer and of its noise once
+// more.
 uint64_t num_rows_to_read(const BakeReader& bake, const EncodeOptions& options);
 
-// Error (unsupported), saying what is needed, if this bake cannot be encoded in options.memory_bytes.
+// Error (unsupported), saying what is needed, if options.memory_bytes are too few for this bake.
 void check_memory(const BakeReader& bake, const EncodeOptions& options);
 
-// Encodes and writes, all or nothing. Memory grows with P², the topology and V · bands, not
-// with V · P.
+// Encodes and writes, all or nothing. Memory grows with P², the topology and V · bands, not with
+// V · P. With options.measure the file is then measured against the bake and rewritten with its
+// errors (state_errors.h), which holds the whole model in memory; if that fails to be written, the
+// file stays complete, without its errors.
 // bake     verified (BakeReader::verify_all)
 // on_rows  called with a number of rows whenever they have been read, from any thread
-// Errors: unsupported as check_memory(), or as check_measuring_memory() where that is asked for; bad input for a bake that changes meanwhile; output failed.
+// Errors: unsupported if options.memory_bytes are too few to encode, or to measure, before anything
+// is written; bad input if the bake changes meanwhile; output failed.
 EncodeSummary encode(const BakeReader& bake, const EncodeOptions& options,
                      const std::filesystem::path& output,
                      const std::function<void(uint64_t)>& on_rows = {});

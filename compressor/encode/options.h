@@ -35,7 +35,7 @@ struct EncodeOptions {
     Precision precision = Precision::f32;
     // The process stays below this. The bytes of the file do not depend on it.
     uint64_t memory_bytes = 1'000'000'000;
-    // encode() does not write a file that there is no memory to measure (state_errors.h).
+    // encode() measures the file and states its errors in it. encode_to_target() always does.
     bool measure = false;
     float frames_per_second = 24.0f;
     std::string name;
