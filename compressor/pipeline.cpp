@@ -42,10 +42,7 @@ void check_encoding_memory(const CompressOptions& options, const BakeInput& inpu
     size.num_threads = static_cast<uint64_t>(max_parallelism());
     size.num_vertices = poses.topology().num_vertices;
     size.bands = layout.bands;
-    const uint64_t num_still_values = 6 + 2 * uint64_t{layout.num_planes()};
-    size.scenery_bytes = num_still_values * scenery.topology.num_vertices * sizeof(float) +
-                         scenery.topology.triangles.size() * sizeof(Triangle) +
-                         scenery.albedo.values.size() * sizeof(Vec3f);
+    size.scenery_bytes = scenery_bytes(scenery.topology, scenery.albedo, layout);
     const std::string what = options.output.string();
     choose_num_in_flight(encode_size(size, options.encode), options.encode.memory_bytes, what);
     if (options.encode.measure && !options.target) {

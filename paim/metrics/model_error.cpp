@@ -95,6 +95,15 @@ ModelError measure_animation(const Model& model, const BakeReader& bake,
             {}};
 }
 
+uint64_t measure_animation_bytes(uint64_t num_vertices, uint64_t num_poses, uint64_t num_components,
+                                 uint64_t num_basis_rows, uint64_t num_threads) {
+    // The components of a plane as floats; the directions that the decoder can follow are the
+    // constant and these components.
+    return (kPlanesMeasured * num_vertices + num_basis_rows) * num_poses * sizeof(float) +
+           num_vertices * num_components * sizeof(float) +
+           TransferErrorMeter::scratch_bytes(num_poses, num_components + 1, num_threads);
+}
+
 ModelError measure_model(const Model& model, const BakeReader& bake, const BandPower& spectrum) {
     ModelError error = measure_animation(model, bake, spectrum);
     if (bake.scenery()) error.scenery = measure_scenery(model, bake, spectrum);

@@ -32,6 +32,16 @@ ModelError measure_animation(const Model& model, const BakeReader& bake, const B
 // The same with the scenery, where there is any.
 ModelError measure_model(const Model& model, const BakeReader& bake, const BandPower& spectrum);
 
+// Planes [V][P] of floats that measure_animation() holds at once: of the bake, of its noise, and
+// decoded, the last twice more while it is decoded.
+constexpr uint64_t kPlanesMeasured = 5;
+
+// Memory of measure_animation() in addition to the model, for codec svd, and for cpca with the rows
+// of the bases of all clusters.
+// num_components  of the transfer
+uint64_t measure_animation_bytes(uint64_t num_vertices, uint64_t num_poses, uint64_t num_components,
+                                 uint64_t num_basis_rows, uint64_t num_threads);
+
 // One figure of an error, by the name that files and reports have for it (docs/metrics.md).
 struct NamedError {
     std::string name;

@@ -4,18 +4,18 @@
 #include <algorithm>
 
 #include "paim/base/error.h"
+#include "paim/metrics/model_error.h"
 
 namespace paim {
 
 uint64_t measuring_memory_bytes(uint64_t file_bytes, uint64_t num_vertices, uint64_t num_poses,
                                 uint64_t scenery_bytes) {
     // Half floats become floats in memory, and the bytes that are read are in memory together with
-    // the values that are made of them. A plane over all poses is there six times: the bake, its
-    // noise, the decoded plane and as much again while it is decoded.
+    // the values that are made of them. One plane more than is measured is room for the doubles of
+    // its rows. The scenery is there as baked, in the order of the file, and decoded.
     const uint64_t plane_bytes = sizeof(float) * num_vertices * num_poses;
-    // The scenery three times: as baked, in the file's order, and decoded.
-    return std::max(3 * file_bytes, kProgramBytes + 2 * file_bytes) + 6 * plane_bytes +
-           3 * scenery_bytes;
+    return std::max(3 * file_bytes, kProgramBytes + 2 * file_bytes) +
+           (kPlanesMeasured + 1) * plane_bytes + 3 * scenery_bytes;
 }
 
 void check_measuring_memory(uint64_t file_bytes, uint64_t num_vertices, uint64_t num_poses,

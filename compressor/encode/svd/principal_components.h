@@ -29,6 +29,11 @@ struct PrincipalComponents {
 PrincipalComponents principal_components(const RowSource& rows,
                                          uint32_t num_in_flight = kMaxInFlight);
 
+// Memory that the result holds for P columns: V.
+constexpr uint64_t principal_components_bytes(uint64_t num_columns) {
+    return num_columns * num_columns * sizeof(double);
+}
+
 // Weights of the first num_components components as the .paim holds them: W_kp = s_k V_pk / √rows,
 // so that components have unit RMS. returns [K][P]
 std::vector<float> component_weights(const PrincipalComponents& components, uint32_t num_components,

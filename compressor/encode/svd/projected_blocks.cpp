@@ -59,4 +59,13 @@ void for_each_encoded_block(const RowSource& rows, const PrincipalComponents& co
     }
 }
 
+uint64_t encoded_blocks_bytes(uint64_t num_columns, uint64_t num_components,
+                              uint32_t num_in_flight) {
+    const uint64_t block =
+        rows_per_block(static_cast<uint32_t>(num_columns)) * (num_components + 1) * sizeof(float);
+    const uint64_t done = std::min<uint64_t>(num_in_flight, kMaxBlocksWaiting) * block;
+    return LeftVectors::scratch_bytes(num_columns, num_components) +
+           std::max(triangular_factor_bytes(num_components, num_in_flight), done);
+}
+
 }  // namespace paim

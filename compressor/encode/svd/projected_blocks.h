@@ -26,4 +26,9 @@ void for_each_encoded_block(const RowSource& rows, const PrincipalComponents& co
                             const std::function<void(EncodedRows&)>& on_block,
                             uint32_t num_in_flight = kMaxInFlight);
 
+// Memory of for_each_encoded_block() for P columns and K components, in addition to the rows at
+// work: the left singular vectors, and either their factors or the blocks that are done.
+uint64_t encoded_blocks_bytes(uint64_t num_columns, uint64_t num_components,
+                              uint32_t num_in_flight);
+
 }  // namespace paim
