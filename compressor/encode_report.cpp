@@ -9,6 +9,7 @@ using nlohmann::ordered_json;
 
 namespace {
 
+// Of geometry or transfer.
 ordered_json part_json(uint32_t components, uint32_t rank, double theory, double energy) {
     ordered_json json;
     json["components"] = components;
@@ -27,8 +28,22 @@ std::string part_text(const char* part, uint32_t components, uint32_t rank, doub
 
 }  // namespace
 
-ordered_json encode_json(const EncodeSummary& summary) {
+ordered_json errors_json(const AssetError& error) {
     ordered_json json;
+    for (const NamedError& named : named_errors(error)) json[named.name] = named.value;
+    return json;
+}
+
+bool EncodeReport::more_rays_would_help() const {
+    return summary.expected_noise_error > summary.expected_truncation_error;
+}
+
+ordered_json report_json(const EncodeReport& report) {
+    const EncodeSummary& summary = report.summary;
+    ordered_json json;
+    json["paim"] = report.paim.string();
+    json["num_vertices"] = report.num_vertices;
+    json["num_poses"] = report.num_poses;
     json["bands"] = summary.bands;
     json["geometry"] = part_json(summary.geometry_components, summary.geometry_rank,
                                  summary.geometry_theory_error, summary.geometry_energy_error);
@@ -40,14 +55,16 @@ ordered_json encode_json(const EncodeSummary& summary) {
     transfer["expected_error"] = summary.expected_error();
     transfer["expected_truncation_error"] = summary.expected_truncation_error;
     transfer["expected_noise_error"] = summary.expected_noise_error;
-    transfer["more_rays_would_help"] = more_rays_would_help(summary);
+    transfer["more_rays_would_help"] = report.more_rays_would_help();
     json["transfer"] = std::move(transfer);
     json["size_bytes"] = summary.size_bytes;
+    if (summary.measured) json["measured"] = errors_json(*summary.measured);
     return json;
 }
 
-std::string encode_text(const std::string& file, const EncodeSummary& summary) {
-    std::string text = fmt::format("{}: {:.2f} MB, {} bands\n", file,
+std::string report_text(const EncodeReport& report) {
+    const EncodeSummary& summary = report.summary;
+    std::string text = fmt::format("{}: {:.2f} MB, {} bands\n", report.paim.string(),
                                    static_cast<double>(summary.size_bytes) / 1e6, summary.bands);
     text += part_text("geometry", summary.geometry_components, summary.geometry_rank,
                       summary.geometry_theory_error, summary.geometry_energy_error);
@@ -58,11 +75,13 @@ std::string encode_text(const std::string& file, const EncodeSummary& summary) {
         "noise{})\n",
         100.0 * summary.expected_error(), 100.0 * summary.expected_truncation_error,
         100.0 * summary.expected_noise_error, summary.shrunk ? ", shrunk" : "");
+    if (!summary.measured) return text;
+    const GeometryError& geometry = summary.measured->geometry;
+    text += fmt::format(
+        "  measured: transfer {:.3g} %, RMS distance {:.3g} ({:.2g} % of the diagonal)\n",
+        100.0 * summary.measured->transfer.total(), geometry.rms(),
+        100.0 * geometry.relative_rms());
     return text;
-}
-
-bool more_rays_would_help(const EncodeSummary& summary) {
-    return summary.expected_noise_error > summary.expected_truncation_error;
 }
 
 }  // namespace paim

@@ -3,19 +3,29 @@
 
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
 #include <string>
 
 #include "compressor/encode/encode.h"
 
 namespace paim {
 
-nlohmann::ordered_json encode_json(const EncodeSummary& summary);
+struct EncodeReport {
+    std::filesystem::path paim;
+    uint32_t num_vertices = 0, num_poses = 0;
+    EncodeSummary summary;
+
+    // Whether most of the expected error is the noise of the bake, so that more rays would help
+    // more than more components.
+    bool more_rays_would_help() const;
+};
+
+nlohmann::ordered_json report_json(const EncodeReport& report);
 
 // Lines, each ended.
-std::string encode_text(const std::string& file, const EncodeSummary& summary);
+std::string report_text(const EncodeReport& report);
 
-// Whether most of the error that is expected is the bake's noise, so that more rays would help more than
-// more components.
-bool more_rays_would_help(const EncodeSummary& summary);
+// The figures of named_errors(), by name.
+nlohmann::ordered_json errors_json(const AssetError& error);
 
 }  // namespace paim

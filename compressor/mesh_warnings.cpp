@@ -1,4 +1,4 @@
-// What paim-compress says about odd meshes.
+// What paim-compress says about what is odd in a mesh.
 #include "compressor/mesh_warnings.h"
 
 #include <fmt/format.h>
@@ -63,6 +63,10 @@ std::vector<std::string> static_mesh_warnings(const std::string& file, const Top
     kinds.push_back({pose.zero_area_faces, "faces have no area", kNoArea});
     kinds.push_back({pose.coincident_faces, "faces lie exactly on another", kCoincident});
     return lines(file, kinds);
+}
+
+void print_warnings(const std::vector<std::string>& warnings) {
+    for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
 }
 
 nlohmann::ordered_json mesh_json(const TopologyReport& report, const PoseReport& total) {

@@ -1,4 +1,4 @@
-// What paim-compress says about odd meshes, in words and as JSON.
+// What paim-compress says about what is odd in a mesh, in words and as JSON.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -10,15 +10,18 @@
 
 namespace paim {
 
-// One line for each kind that is there, with what it means for the light.
+// One line for each kind of oddity that was found, with its consequence for the light.
 std::vector<std::string> mesh_warnings(const TopologyReport& report);
 
-// The same of counts over all poses.
+// The same for counts over all poses.
 std::vector<std::string> mesh_warnings(const PoseReport& total);
 
-// Both of a mesh that stands still; lines begin with its file.
+// Both for a mesh of the scenery; lines begin with its file.
 std::vector<std::string> static_mesh_warnings(const std::string& file, const TopologyReport& report,
                                               const PoseReport& pose);
+
+// Each as a line on stderr.
+void print_warnings(const std::vector<std::string>& warnings);
 
 // All counts, zeros too.
 nlohmann::ordered_json mesh_json(const TopologyReport& report, const PoseReport& total);

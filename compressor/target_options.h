@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "compressor/encode/search/rate_target.h"
+#include "compressor/encode/options.h"
 
 namespace paim {
 

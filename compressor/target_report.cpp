@@ -1,16 +1,67 @@
-// What paim-compress says of a file that was made to meet a target.
+// What paim-compress says of a file that meets a target.
 #include "compressor/target_report.h"
 
 #include <fmt/format.h>
 
+#include "compressor/encode_report.h"
 #include "paim/metrics/rates.h"
 
 namespace paim {
 
 using nlohmann::ordered_json;
 
-ordered_json target_json(const TargetSummary& summary) {
+namespace {
+
+std::string candidates_text(const std::vector<Candidate>& candidates) {
+    std::string text =
+        "    codec  components  clusters x components  transfer kB  multiply-adds per vertex\n";
+    for (const Candidate& candidate : candidates) {
+        const std::string clusters =
+            candidate.clusters == 0
+                ? "-"
+                : fmt::format("{} x {}", candidate.clusters, candidate.cluster_components);
+        text += fmt::format("  {} {:<5}  {:>10}  {:>21}  {:>11.1f}  {:>24}\n",
+                            candidate.chosen ? '>' : ' ', candidate.codec, candidate.components,
+                            clusters, static_cast<double>(candidate.bytes) / 1e3,
+                            candidate.multiply_adds);
+    }
+    return text;
+}
+
+std::string transfer_text(const TargetSummary& summary) {
+    const TransferError& transfer = summary.error.transfer;
+    return fmt::format(
+        "  transfer: {:.3g} % measured, {:.3g} % allowed, {:.2g} % at best with these components; "
+        "from the bake: worst vertex {:.3g} %, worst pose {:.3g} %\n",
+        100.0 * transfer.total(), 100.0 * summary.transfer_target, 100.0 * summary.best_achievable,
+        100.0 * transfer.worst_vertex_deviation, 100.0 * transfer.worst_pose_deviation);
+}
+
+std::string geometry_text(const TargetSummary& summary) {
+    const GeometryError& geometry = summary.error.geometry;
+    return fmt::format(
+        "  geometry: {} components, RMS distance {:.3g} measured, {:.3g} allowed ({:.2g} % of the "
+        "diagonal), worst {:.3g}; KG {:.3g} %, E_RMS {:.3g}\n",
+        summary.geometry_components, geometry.rms(), summary.geometry_target,
+        100.0 * geometry.relative_rms(), geometry.worst(), geometry.kg_error(), geometry.e_rms());
+}
+
+std::string scenery_text(const MeshError& scenery) {
+    return fmt::format(
+        "  scenery: transfer {:.3g} % measured, worst vertex {:.3g} %; RMS distance {:.3g}, worst "
+        "{:.3g}\n",
+        100.0 * scenery.transfer.total(), 100.0 * scenery.transfer.worst_vertex_deviation,
+        scenery.geometry.rms(), scenery.geometry.worst());
+}
+
+}  // namespace
+
+ordered_json report_json(const TargetReport& report) {
+    const TargetSummary& summary = report.summary;
     ordered_json json;
+    json["paim"] = report.paim.string();
+    json["num_vertices"] = summary.num_vertices;
+    json["num_poses"] = summary.num_poses;
     const Candidate& chosen = summary.chosen();
     json["codec"] = chosen.codec;
     json["bands"] = chosen.bands;
@@ -27,9 +78,7 @@ ordered_json target_json(const TargetSummary& summary) {
     json["transfer_target"] = summary.transfer_target;
     json["geometry_target"] = summary.geometry_target;
     json["best_transfer_error"] = summary.best_achievable;
-    for (const NamedError& error : named_errors(summary.error)) {
-        json["measured"][error.name] = error.value;
-    }
+    json["measured"] = errors_json(summary.error);
     json["candidates"] = ordered_json::array();
     for (const Candidate& candidate : summary.candidates) {
         json["candidates"].push_back({{"codec", candidate.codec},
@@ -43,42 +92,14 @@ ordered_json target_json(const TargetSummary& summary) {
     return json;
 }
 
-std::string target_text(const std::string& file, const TargetSummary& summary) {
-    const TransferError& transfer = summary.error.transfer;
-    const GeometryError& geometry = summary.error.geometry;
+std::string report_text(const TargetReport& report) {
+    const TargetSummary& summary = report.summary;
     std::string text = fmt::format(
-        "{}: {:.1f} kB, {:.2f} bits a vertex and pose\n", file,
+        "{}: {:.1f} kB, {:.2f} bits per vertex and pose\n", report.paim.string(),
         static_cast<double>(summary.size_bytes) / 1e3,
         bits_per_vertex_per_pose(summary.size_bytes, summary.num_vertices, summary.num_poses));
-    text += "    codec  components  clusters x components  transfer kB  multiply-adds a vertex\n";
-    for (const Candidate& candidate : summary.candidates) {
-        const std::string clusters =
-            candidate.clusters == 0
-                ? "-"
-                : fmt::format("{} x {}", candidate.clusters, candidate.cluster_components);
-        text += fmt::format("  {} {:<5}  {:>10}  {:>21}  {:>11.1f}  {:>22}\n",
-                            candidate.chosen ? '>' : ' ', candidate.codec, candidate.components,
-                            clusters, static_cast<double>(candidate.bytes) / 1e3,
-                            candidate.multiply_adds);
-    }
-    text += fmt::format(
-        "  transfer: {:.3g} % measured, {:.3g} % allowed, {:.2g} % at best with these components; "
-        "from the bake: worst vertex {:.3g} %, "
-        "worst pose {:.3g} %\n",
-        100.0 * transfer.total(), 100.0 * summary.transfer_target, 100.0 * summary.best_achievable,
-        100.0 * transfer.worst_vertex_deviation, 100.0 * transfer.worst_pose_deviation);
-    text += fmt::format(
-        "  geometry: {} components, RMS distance {:.3g} measured, {:.3g} allowed ({:.2g} % of the "
-        "diagonal), worst {:.3g}; KG {:.3g} %, E_RMS {:.3g}\n",
-        summary.geometry_components, geometry.rms(), summary.geometry_target,
-        100.0 * geometry.relative_rms(), geometry.worst(), geometry.kg_error(), geometry.e_rms());
-    if (!summary.error.still) return text;
-    const MeshError& still = *summary.error.still;
-    text += fmt::format(
-        "  scenery: transfer {:.3g} % measured, worst vertex {:.3g} %; RMS distance {:.3g}, worst "
-        "{:.3g}\n",
-        100.0 * still.transfer.total(), 100.0 * still.transfer.worst_vertex_deviation,
-        still.geometry.rms(), still.geometry.worst());
+    text += candidates_text(summary.candidates) + transfer_text(summary) + geometry_text(summary);
+    if (summary.error.still) text += scenery_text(*summary.error.still);
     return text;
 }
 

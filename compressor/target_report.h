@@ -1,17 +1,23 @@
-// What paim-compress says of a file that was made to meet a target.
+// What paim-compress says of a file that meets a target, to people and to programs.
 #pragma once
 
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
 #include <string>
 
 #include "compressor/encode/search/target_encode.h"
 
 namespace paim {
 
-nlohmann::ordered_json target_json(const TargetSummary& summary);
+struct TargetReport {
+    std::filesystem::path paim;
+    TargetSummary summary;
+};
 
-// Lines, each ended: what was compared, what was chosen and why, and what was measured.
-std::string target_text(const std::string& file, const TargetSummary& summary);
+nlohmann::ordered_json report_json(const TargetReport& report);
+
+// Lines, each ended: the candidates, which of them was chosen, and the errors that were measured.
+std::string report_text(const TargetReport& report);
 
 }  // namespace paim

@@ -4,7 +4,7 @@
 #include <random>
 
 #include "analysis/bench/ratio.h"
-#include "compressor/encode/svd/principal_components.h"
+#include "compressor/encode/svd/projected_blocks.h"
 #include "paim/base/check.h"
 
 namespace paim::bench {

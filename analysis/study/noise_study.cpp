@@ -10,6 +10,7 @@
 #include "analysis/study/studies.h"
 #include "compressor/encode/encode.h"
 #include "compressor/encode/noise/component_noise.h"
+#include "compressor/encode/noise/rank_selection.h"
 #include "compressor/encode/noise/shrinkage.h"
 #include "compressor/encode/svd/principal_components.h"
 #include "paim/metrics/pose_space.h"

@@ -9,11 +9,13 @@
 #include "compressor/encode/data/bake_rows.h"
 #include "compressor/encode/data/still_part.h"
 #include "compressor/encode/data/provenance.h"
+#include "compressor/encode/memory/measuring_memory.h"
 #include "compressor/encode/memory/memory_plan.h"
 #include "compressor/encode/noise/component_noise.h"
+#include "compressor/encode/noise/rank_selection.h"
 #include "compressor/encode/noise/shrinkage.h"
 #include "compressor/encode/state_errors.h"
-#include "compressor/encode/svd/principal_components.h"
+#include "compressor/encode/svd/projected_blocks.h"
 #include "paim/base/file.h"
 #include "paim/codec/svd/svd_transfer.h"
 #include "paim/format/paim/paim_write.h"
@@ -23,7 +25,29 @@ namespace paim {
 
 namespace {
 
-// Everything about a part but its mean and components, which are streamed later.
+// The asset without positions and transfer of the part that moves.
+Asset asset_shell(const BakeReader& bake, const EncodeOptions& options) {
+    Asset asset;
+    asset.origin = bake.identity().origin;
+    asset.frames_per_second = options.frames_per_second;
+    asset.name = options.name;
+    CodedMesh mesh;
+    mesh.topology = bake.topology();
+    mesh.albedo = bake.albedo();
+    mesh.layout = bake.identity().layout.with_bands(options.bands);
+    auto still = still_part(bake, mesh.layout.in_bands);
+    asset.moving() = std::move(mesh);
+    if (still) asset.parts.push_back(std::move(*still));
+    return asset;
+}
+
+// Both parts of a bake as components, and the noise in those of the transfer.
+struct Decomposition {
+    PrincipalComponents geometry, transfer;
+    ComponentNoise noise;
+};
+
+// A part without its mean and components, which are streamed later.
 LowRank start_matrix(const BakeReader& bake, const RowSource& rows,
                            const PrincipalComponents& components, uint32_t num_components,
                            const EncodeOptions& options) {
@@ -38,7 +62,7 @@ LowRank start_matrix(const BakeReader& bake, const RowSource& rows,
     return matrix;
 }
 
-// shrinkage  of the components, or none
+// shrinkage  applied to the components, or none
 void stream(PaimWriter& writer, Attribute attribute, const RowSource& rows,
             const PrincipalComponents& components, uint32_t num_components,
             const Shrinkage* shrinkage, uint32_t num_in_flight) {
@@ -54,7 +78,7 @@ void stream(PaimWriter& writer, Attribute attribute, const RowSource& rows,
     for_each_encoded_block(rows, components, num_components, append, num_in_flight);
 }
 
-// Σ of squares of the bake's transfer in the first bands, over all rows and poses.
+// Sum of squares of the bake's transfer in the bands of the layout, over all rows and poses.
 double transfer_energy(const BakeReader& bake, const PoseStatistics& total,
                        const TransferLayout& layout) {
     const std::vector<double>& rms = total.transfer_rms;
@@ -65,12 +89,90 @@ double transfer_energy(const BakeReader& bake, const PoseStatistics& total,
     return energy * bake.identity().num_vertices * bake.num_poses();
 }
 
+// All but the size and what is measured.
+EncodeSummary summarise(const BakeReader& bake, const EncodeOptions& options,
+                        const Decomposition& parts, const Shrinkage& shrinkage,
+                        const PoseStatistics& total) {
+    const auto& [geometry, transfer, noise] = parts;
+    EncodeSummary summary;
+    summary.geometry_components =
+        choose_components(options.geometry, geometry.singular_values, geometry.rank(),
+                          options.automatic_geometry_error);
+    summary.transfer_components =
+        choose_components(options.transfer, noise, options.automatic_transfer_error);
+    summary.geometry_rank = geometry.rank();
+    summary.transfer_rank = transfer.rank();
+    summary.bands = noise.layout.in_bands;
+    summary.geometry_theory_error =
+        theory_error(geometry.singular_values, summary.geometry_components);
+    summary.transfer_theory_error =
+        theory_error(transfer.singular_values, summary.transfer_components);
+    summary.geometry_energy_error =
+        energy_error(geometry.singular_values, summary.geometry_components);
+    summary.transfer_energy_error =
+        energy_error(transfer.singular_values, summary.transfer_components);
+    summary.transfer_above_noise = noise.num_above_noise;
+    summary.transfer_signal_error = signal_error(noise, summary.transfer_components);
+    summary.shrunk = options.noise == NoiseTreatment::shrink &&
+                     options.transfer.kind != ComponentChoice::Kind::all;
+    const EncodedError error = summary.shrunk
+                                   ? shrinkage.expected_error(summary.transfer_components)
+                                   : expected_error_unshrunk(noise, summary.transfer_components);
+    if (const double energy = transfer_energy(bake, total, noise.layout); energy > 0.0) {
+        summary.expected_truncation_error = std::sqrt(error.truncation / energy);
+        summary.expected_noise_error = std::sqrt(error.noise / energy);
+    }
+    return summary;
+}
+
 std::string provenance(const BakeIdentity& identity, const PoseStatistics& total,
                        const EncodeSummary& summary) {
     auto json = nlohmann::ordered_json::parse(bake_provenance(identity, total));
     json["noise"] = summary.shrunk ? "shrink" : "keep";
     json["expected_transfer_error"] = summary.expected_error();
     return json.dump();
+}
+
+// Returns everything but what is measured. Its own memory is free again when it returns.
+EncodeSummary encode_unmeasured(const BakeReader& bake, const EncodeOptions& options,
+                                const std::filesystem::path& output,
+                                const std::function<void(uint64_t)>& on_rows) {
+    const uint32_t in_flight = choose_num_in_flight(
+        encode_size(bake, options), options.memory_bytes, bake.directory().string());
+    Asset asset = asset_shell(bake, options);
+    CodedMesh& mesh = asset.moving();
+    const GeometryRows baked_geometry(bake);
+    const TransferRows baked_transfer(bake, mesh.layout.in_bands);
+    const TransferRows baked_noise(bake, mesh.layout.in_bands, TransferRows::Content::noise);
+    const ReportingRows geometry_rows(baked_geometry, on_rows);
+    const ReportingRows transfer_rows(baked_transfer, on_rows);
+    const ReportingRows noise_rows(baked_noise, on_rows);
+    Decomposition parts;
+    parts.geometry = principal_components(geometry_rows, in_flight);
+    parts.transfer = principal_components(transfer_rows, in_flight);
+    parts.noise =
+        measure_component_noise(transfer_rows, noise_rows, mesh.layout, parts.transfer, in_flight);
+    const Shrinkage shrinkage(parts.noise);
+    const PoseStatistics total = bake.total_statistics();
+    EncodeSummary summary = summarise(bake, options, parts, shrinkage, total);
+    asset.provenance_json = provenance(bake.identity(), total, summary);
+    mesh.positions =
+        start_matrix(bake, geometry_rows, parts.geometry, summary.geometry_components, options);
+    mesh.transfer = SvdTransfer(
+        start_matrix(bake, transfer_rows, parts.transfer, summary.transfer_components, options));
+    summary.size_bytes = paim_size_bytes(asset);
+    if (options.measure) {
+        check_measuring_memory(summary.size_bytes, mesh.topology.num_vertices, asset.num_poses(),
+                               bake_size(bake).scenery_bytes, options.memory_bytes,
+                               output.string());
+    }
+    PaimWriter writer(output, asset);
+    stream(writer, Attribute::geometry, geometry_rows, parts.geometry, summary.geometry_components,
+           nullptr, in_flight);
+    stream(writer, Attribute::transfer, transfer_rows, parts.transfer, summary.transfer_components,
+           summary.shrunk ? &shrinkage : nullptr, in_flight);
+    writer.commit();
+    return summary;
 }
 
 }  // namespace
@@ -88,80 +190,13 @@ void check_memory(const BakeReader& bake, const EncodeOptions& options) {
 EncodeSummary encode(const BakeReader& bake, const EncodeOptions& options,
                      const std::filesystem::path& output,
                      const std::function<void(uint64_t)>& on_rows) {
-    const uint32_t in_flight = choose_num_in_flight(
-        encode_size(bake, options), options.memory_bytes, bake.directory().string());
     remove_abandoned_files(std::filesystem::absolute(output).parent_path(),
                            output.filename().string() + ".");
-    Asset asset;
-    asset.origin = bake.identity().origin;
-    asset.frames_per_second = options.frames_per_second;
-    asset.name = options.name;
-    const TransferLayout layout = bake.identity().layout.with_bands(options.bands);
-    if (auto still = still_part(bake, layout.in_bands)) asset.parts.push_back(std::move(*still));
-    CodedMesh& mesh = asset.moving();
-    mesh.topology = bake.topology();
-    mesh.albedo = bake.albedo();
-    mesh.layout = layout;
-
-    const GeometryRows baked_geometry(bake);
-    const TransferRows baked_transfer(bake, mesh.layout.in_bands);
-    const ReportingRows geometry_rows(baked_geometry, on_rows);
-    const TransferRows baked_noise(bake, mesh.layout.in_bands, TransferRows::Content::noise);
-    const ReportingRows transfer_rows(baked_transfer, on_rows);
-    const ReportingRows noise_rows(baked_noise, on_rows);
-    const PrincipalComponents geometry = principal_components(geometry_rows, in_flight);
-    const PrincipalComponents transfer = principal_components(transfer_rows, in_flight);
-    const ComponentNoise noise =
-        measure_component_noise(transfer_rows, noise_rows, mesh.layout, transfer, in_flight);
-    const Shrinkage shrinkage(noise);
-
-    EncodeSummary summary;
-    summary.geometry_components =
-        choose_components(options.geometry, geometry.singular_values, geometry.rank(),
-                          options.automatic_geometry_error);
-    summary.transfer_components =
-        choose_components(options.transfer, noise, options.automatic_transfer_error);
-    summary.geometry_rank = geometry.rank();
-    summary.transfer_rank = transfer.rank();
-    summary.bands = mesh.layout.in_bands;
-    summary.geometry_theory_error =
-        theory_error(geometry.singular_values, summary.geometry_components);
-    summary.transfer_theory_error =
-        theory_error(transfer.singular_values, summary.transfer_components);
-    summary.geometry_energy_error =
-        energy_error(geometry.singular_values, summary.geometry_components);
-    summary.transfer_energy_error =
-        energy_error(transfer.singular_values, summary.transfer_components);
-    summary.transfer_above_noise = noise.num_above_noise;
-    summary.transfer_signal_error = signal_error(noise, summary.transfer_components);
-    summary.shrunk = options.noise == NoiseTreatment::shrink &&
-                     options.transfer.kind != ComponentChoice::Kind::all;
-    const EncodedError error = summary.shrunk
-                                   ? shrinkage.expected_error(summary.transfer_components)
-                                   : expected_error_unshrunk(noise, summary.transfer_components);
-    const PoseStatistics total = bake.total_statistics();
-    if (const double energy = transfer_energy(bake, total, mesh.layout); energy > 0.0) {
-        summary.expected_truncation_error = std::sqrt(error.truncation / energy);
-        summary.expected_noise_error = std::sqrt(error.noise / energy);
-    }
-    asset.provenance_json = provenance(bake.identity(), total, summary);
-    mesh.positions =
-        start_matrix(bake, geometry_rows, geometry, summary.geometry_components, options);
-    mesh.transfer = SvdTransfer(
-        start_matrix(bake, transfer_rows, transfer, summary.transfer_components, options));
-
-    if (options.measure) {
-        check_measuring_memory(paim_size_bytes(asset), mesh.topology.num_vertices,
-                               asset.num_poses(), bake_size(bake).scenery_bytes,
-                               options.memory_bytes, output.string());
-    }
-    PaimWriter writer(output, asset);
-    stream(writer, Attribute::geometry, geometry_rows, geometry, summary.geometry_components,
-           nullptr, in_flight);
-    stream(writer, Attribute::transfer, transfer_rows, transfer, summary.transfer_components,
-           summary.shrunk ? &shrinkage : nullptr, in_flight);
-    writer.commit();
-    summary.size_bytes = paim_size_bytes(asset);
+    EncodeSummary summary = encode_unmeasured(bake, options, output, on_rows);
+    if (!options.measure) return summary;
+    summary.measured = state_errors(output, bake, BandPower::flat(bake.identity().layout.in_bands),
+                                    options.memory_bytes);
+    summary.size_bytes = std::filesystem::file_size(output);
     return summary;
 }
 

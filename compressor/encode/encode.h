@@ -6,39 +6,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <limits>
-#include <span>
-#include <string>
+#include <optional>
 
-#include "compressor/encode/noise/rank_selection.h"
-#include "paim/codec/asset.h"
+#include "compressor/encode/options.h"
 #include "paim/format/bake/bake_directory.h"
+#include "paim/metrics/asset_error.h"
 
 namespace paim {
-
-// What becomes of the bake's noise in the transfer's components.
-enum class NoiseTreatment : uint32_t {
-    shrink,  // components are scaled down by what of them is noise (shrinkage.h)
-    keep,    // they are those of the bake, noise and all
-};
-
-struct EncodeOptions {
-    ComponentChoice geometry;
-    ComponentChoice transfer;
-    // What `automatic` keeps the energy error below.
-    double automatic_geometry_error = 0.01;
-    double automatic_transfer_error = 0.01;
-    uint32_t bands = std::numeric_limits<uint32_t>::max();  // more than the bake has means all
-    NoiseTreatment noise =
-        NoiseTreatment::shrink;  // `all` transfer components are always kept whole
-    Precision precision = Precision::f32;
-    uint64_t memory_bytes =
-        1'000'000'000;  // that the process stays below; the bytes do not depend on it
-    // The file will be measured (state_errors.h): it is not written if memory does not suffice for that.
-    bool measure = false;
-    float frames_per_second = 24.0f;
-    std::string name;
-};
 
 struct EncodeSummary {
     uint32_t geometry_components = 0;
@@ -61,19 +35,24 @@ struct EncodeSummary {
         return std::hypot(expected_truncation_error, expected_noise_error);
     }
     uint64_t size_bytes = 0;
+    std::optional<AssetError> measured;  // with EncodeOptions::measure; under flat light
 };
 
-// Rows that encode() reads: every one twice, those of the transfer and of its noise once more.
+// How many rows encode() reads: every row twice, and rows of the transfer and of its noise once
+// more.
 uint64_t num_rows_to_read(const BakeReader& bake, const EncodeOptions& options);
 
-// Error (unsupported), saying what is needed, if this bake cannot be encoded in options.memory_bytes.
+// Error (unsupported), saying what is needed, if options.memory_bytes are too few for this bake.
 void check_memory(const BakeReader& bake, const EncodeOptions& options);
 
-// Encodes and writes, all or nothing. Memory grows with P², the topology and V · bands, not
-// with V · P.
+// Encodes and writes, all or nothing. Memory grows with P², the topology and V · bands, not with
+// V · P. With options.measure the file is then measured against the bake and rewritten with its
+// errors (state_errors.h), which holds the whole model in memory; if that fails to be written, the
+// file stays complete, without its errors.
 // bake     verified (BakeReader::verify_all)
 // on_rows  called with a number of rows whenever they have been read, from any thread
-// Errors: unsupported as check_memory(), or as check_measuring_memory() where that is asked for; bad input for a bake that changes meanwhile; output failed.
+// Errors: unsupported if options.memory_bytes are too few to encode, or to measure, before anything
+// is written; bad input if the bake changes meanwhile; output failed.
 EncodeSummary encode(const BakeReader& bake, const EncodeOptions& options,
                      const std::filesystem::path& output,
                      const std::function<void(uint64_t)>& on_rows = {});

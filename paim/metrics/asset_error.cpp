@@ -102,6 +102,15 @@ MeshError measure_part(const Asset& asset, size_t number, const BakeReader& bake
             measure_geometry(mesh, baked, old_vertex)};
 }
 
+uint64_t measure_part_bytes(uint64_t num_vertices, uint64_t num_poses, uint64_t num_components,
+                                 uint64_t num_points, uint64_t num_threads) {
+    // The components of a plane as floats; the directions that the decoder can follow are the
+    // constant and these components.
+    return (kPlanesMeasured * num_vertices + num_points) * num_poses * sizeof(float) +
+           num_vertices * num_components * sizeof(float) +
+           TransferErrorMeter::scratch_bytes(num_poses, num_components + 1, num_threads);
+}
+
 AssetError measure_asset(const Asset& asset, const BakeReader& bake, const BandPower& spectrum) {
     const auto still_vertices = [](const Topology* topology) -> uint64_t {
         return topology == nullptr ? 0 : topology->num_vertices;

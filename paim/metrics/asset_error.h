@@ -37,6 +37,16 @@ MeshError measure_part(const Asset& asset, size_t number, const BakeReader& bake
 // The same of all parts. Errors, in addition: one of the two has a part that the other does not.
 AssetError measure_asset(const Asset& asset, const BakeReader& bake, const BandPower& spectrum);
 
+// Planes [V][P] of floats that measure_part() holds at once: of the bake, of its noise, and decoded, the
+// last twice more while it is decoded.
+constexpr uint64_t kPlanesMeasured = 5;
+
+// Memory of measure_part() in addition to the asset.
+// num_components  of the transfer
+// num_points      of codecs whose points are not the vertices; 0 where they are
+uint64_t measure_part_bytes(uint64_t num_vertices, uint64_t num_poses, uint64_t num_components,
+                            uint64_t num_points, uint64_t num_threads);
+
 // One figure of an error, by the name that files and reports have for it (docs/metrics.md).
 struct NamedError {
     std::string name;

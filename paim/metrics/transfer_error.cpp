@@ -154,6 +154,14 @@ void TransferErrorMeter::add(uint32_t plane, const Plane& baked, const Plane& no
     }
 }
 
+uint64_t TransferErrorMeter::scratch_bytes(uint64_t num_poses, uint64_t num_kept,
+                                           uint64_t num_threads) {
+    // Of each block its three sums; of each thread the rows and their factors.
+    return (uint64_t{kBlocksAtOnce} * 3 * (num_kept + 1) * uint64_t{kNumClasses} +
+            num_threads * uint64_t{kRowsAtOnce} * 6 * num_poses) *
+           sizeof(double);
+}
+
 TransferError TransferErrorMeter::result() const {
     PAIM_CHECK(std::find(added_.begin(), added_.end(), false) == added_.end());
     TransferError result;

@@ -68,6 +68,10 @@ class TransferErrorMeter {
     // How much of the noise is let through is measured apart for rows of which about as much is.
     static constexpr Eigen::Index kNumClasses = 25;
 
+    // Memory of add() and of the sums over the rows of its blocks.
+    // num_kept  K'
+    static uint64_t scratch_bytes(uint64_t num_poses, uint64_t num_kept, uint64_t num_threads);
+
   private:
     // Sums over rows of products of scores along the kept directions and, last, of all that is left
     // of the rows beside these, [K' + 1][kNumClasses].

@@ -9,6 +9,7 @@
 #include "compressor/bake/bake_sequence.h"
 #include "paim/codec/mesh_decoder.h"
 #include "paim/format/paim/paim_read.h"
+#include "paim/metrics/asset_error.h"
 #include "paim/metrics/singular_value_error.h"
 #include "poses/octopus.h"
 #include "tests/temporary_directory.h"
@@ -199,6 +200,33 @@ TEST_F(Encode, PosesThatAreAllTheSameNeedNoneAndLoseNothing) {
         EXPECT_EQ(theory_error(asset.moving().transfer->matrix.singular_values, 0), 0.0);
         EXPECT_EQ(energy_error(asset.moving().positions.singular_values, 0), 0.0);
     }
+}
+
+// A caller who asks for it gets a file that states its errors, from encode() alone.
+TEST_F(Encode, MeasuresAndStatesTheErrorsIfAsked) {
+    EncodeOptions options;
+    options.transfer = first(2);
+    const BakeReader bake(directory_ / "x.bake");
+    EXPECT_FALSE(encode(bake, options, directory_ / "x.paim").measured);
+    options.measure = true;
+    const EncodeSummary summary = encode(bake, options, directory_ / "x.paim");
+    ASSERT_TRUE(summary.measured);
+    EXPECT_EQ(summary.size_bytes, std::filesystem::file_size(directory_ / "x.paim"));
+    const Asset asset = read_paim(directory_ / "x.paim");
+    const ErrorStatement stated = read_error_statement(asset, directory_ / "x.paim");
+    EXPECT_EQ(stated.band_power, "flat");
+    // The same file measured again: the same operations in the same order, so the same bits.
+    const AssetError again = measure_asset(asset, bake, BandPower::flat(4));
+    const std::vector<NamedError> expected = named_errors(again);
+    const std::vector<NamedError> returned = named_errors(*summary.measured);
+    ASSERT_EQ(stated.errors.size(), expected.size());
+    ASSERT_EQ(returned.size(), expected.size());
+    for (size_t j = 0; j < expected.size(); ++j) {
+        EXPECT_EQ(stated.errors[j].name, expected[j].name);
+        EXPECT_EQ(stated.errors[j].value, expected[j].value) << expected[j].name;
+        EXPECT_EQ(returned[j].value, expected[j].value) << expected[j].name;
+    }
+    EXPECT_GT(again.transfer.deviation, 0.0);  // components were dropped
 }
 
 }  // namespace

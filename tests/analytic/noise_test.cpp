@@ -9,7 +9,7 @@
 #include "compressor/encode/noise/component_noise.h"
 #include "compressor/encode/noise/rank_selection.h"
 #include "compressor/encode/noise/shrinkage.h"
-#include "compressor/encode/svd/principal_components.h"
+#include "compressor/encode/svd/projected_blocks.h"
 #include "poses/octopus.h"
 #include "poses/shapes.h"
 #include "tests/analytic/bias.h"

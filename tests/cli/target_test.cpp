@@ -134,7 +134,7 @@ TEST_F(Target, IsTheSameOnAnyNumberOfThreads) {
 TEST_F(Target, SaysWhatWasComparedAndWhy) {
     const ToolResult result = try_to_encode({"--max-error", "5%"});
     EXPECT_EQ(result.exit_code, 0);
-    for (const char* part : {"multiply-adds a vertex", "  > ", "measured, 5 % allowed", "at best",
+    for (const char* part : {"multiply-adds per vertex", "  > ", "measured, 5 % allowed", "at best",
                              "worst vertex", "of the diagonal", "KG", "E_RMS"}) {
         EXPECT_TRUE(contains(result.out, part)) << part << " in " << result.out;
     }

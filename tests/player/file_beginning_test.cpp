@@ -6,7 +6,7 @@
 #include "paim/base/error.h"
 #include "paim/codec/sequence_bounds.h"
 #include "tests/player/growing_file.h"
-#include "tests/player/test_model.h"
+#include "tests/player/test_asset.h"
 #include "tests/temporary_directory.h"
 
 namespace paim::player {
@@ -22,10 +22,10 @@ TEST(LoadProgress, IsSaidInWords) {
 TEST(FileBeginning, GrowsFromNothingToAll) {
     const TemporaryDirectory directory;
     const auto path = directory / "a.paim";
-    TestModelOptions options;
+    TestAssetOptions options;
     options.num_rings = 3;
-    const Asset model = make_test_model(options);
-    GrowingFile file(path, model);
+    const Asset asset = make_test_asset(options);
+    GrowingFile file(path, asset);
     const uint64_t num_bytes = file.bytes.size();
     EXPECT_EQ(inspect_beginning(path).size_bytes, 0u);
     size_t held = 0;  // prefixes
@@ -45,11 +45,11 @@ TEST(FileBeginning, GrowsFromNothingToAll) {
     EXPECT_EQ(held, file.prefixes.size());
     EXPECT_TRUE(has_table);
 
-    const LoadedModel loaded = load_beginning(path);
-    EXPECT_TRUE(loaded.model.complete);
+    const LoadedAsset loaded = load_beginning(path);
+    EXPECT_TRUE(loaded.asset->complete);
     EXPECT_EQ(loaded.progress, (LoadProgress{num_bytes, num_bytes, 8, 8}));
-    EXPECT_EQ(loaded.bounds.lower, sequence_bounds(model).lower);
-    EXPECT_EQ(loaded.bounds.upper, sequence_bounds(model).upper);
+    EXPECT_EQ(loaded.bounds.lower, sequence_bounds(asset).lower);
+    EXPECT_EQ(loaded.bounds.upper, sequence_bounds(asset).upper);
 }
 
 TEST(FileBeginning, TellsDamageFromWhatIsMissing) {
@@ -72,11 +72,11 @@ TEST(FileBeginning, TellsDamageFromWhatIsMissing) {
     std::filesystem::create_directory(path);
     expect_error("expected a regular file");
 
-    GrowingFile header(directory / "b.paim", make_test_model({}));
+    GrowingFile header(directory / "b.paim", make_test_asset({}));
     header.bytes[12] ^= 1;  // of its kind
     header.grow_to(64);
     EXPECT_THROW(inspect_beginning(directory / "b.paim"), Error);
-    GrowingFile table(directory / "c.paim", make_test_model({}));
+    GrowingFile table(directory / "c.paim", make_test_asset({}));
     table.bytes[64] ^= 1;
     table.grow_to(127);
     EXPECT_TRUE(inspect_beginning(directory / "c.paim").prefixes.empty());

@@ -15,10 +15,10 @@ namespace paim::player {
 
 class GrowingFile {
   public:
-    // Of the .paim that the model makes, no byte is at `path` yet. Needs `path`.whole, too.
-    GrowingFile(const std::filesystem::path& path, const Asset& model) : path_(path) {
+    // Of the .paim that the asset makes, no byte is at `path` yet. Needs `path`.whole, too.
+    GrowingFile(const std::filesystem::path& path, const Asset& asset) : path_(path) {
         const std::filesystem::path whole = path.string() + ".whole";
-        write_paim(whole, model);
+        write_paim(whole, asset);
         bytes = read_file(whole, uint64_t{1} << 30);
         prefixes = read_prefixes(whole);
     }

@@ -19,7 +19,7 @@
 #include "paim/mesh/planes.h"
 #include "tests/cli/run_tool.h"
 #include "tests/player/ray_cast.h"
-#include "tests/player/test_model.h"
+#include "tests/player/test_asset.h"
 #include "tests/player/x_server.h"
 #include "tests/temporary_directory.h"
 
@@ -29,12 +29,12 @@ namespace {
 class PlayTest : public testing::Test {
   protected:
     PlayTest() {
-        // No test depends on the display of whoever runs it.
+        // No test depends on the display of the person who runs it.
         ::unsetenv("DISPLAY");
         ::unsetenv("WAYLAND_DISPLAY");
-        TestModelOptions options;  // 5 bands, 3 + 5 components, 6 poses
-        model_ = make_test_model(options);
-        write_paim(file_, model_);
+        TestAssetOptions options;  // 5 bands, 3 + 5 components, 6 poses
+        asset_ = make_test_asset(options);
+        write_paim(file_, asset_);
     }
 
     ToolResult play(std::vector<std::string> arguments) const {
@@ -55,22 +55,22 @@ class PlayTest : public testing::Test {
 
     TemporaryDirectory directory_;
     std::filesystem::path file_ = directory_ / "ball.paim";
-    Asset model_;
+    Asset asset_;
 };
 
 // The picture by the library alone: default camera, built-in sky.
-Image expected_picture(const Asset& model, double time, double rotation_rad, int width, int height,
+Image expected_picture(const Asset& asset, double time, double rotation_rad, int width, int height,
                        const Vec3f& background) {
     DecodedPose pose;
-    make_decoder(model)->decode(time, {}, pose);
-    const LightCoefficients light =
-        turn_about_y(EnvironmentLight(make_sky())
-                         .coefficients(static_cast<int>(model.moving().layout.in_bands)),
-                     rotation_rad);
-    const Camera camera = frame_bounds(sequence_bounds(model),
+    const CodedMesh& mesh = asset.moving();
+    MeshDecoder(mesh).decode(time, {}, pose);
+    const LightCoefficients light = turn_about_y(
+        EnvironmentLight(make_sky()).coefficients(static_cast<int>(mesh.layout.in_bands)),
+        rotation_rad);
+    const Camera camera = frame_bounds(sequence_bounds(asset),
                                        static_cast<float>(width) / static_cast<float>(height));
-    return ray_cast(model.moving().topology, from_planes(pose.positions),
-                    vertex_radiance(model, time, {}, light), camera, width, height, background);
+    return ray_cast(mesh.topology, from_planes(pose.positions),
+                    vertex_radiance(mesh, time, {}, light), camera, width, height, background);
 }
 
 TEST_F(PlayTest, SnapshotIsThePictureOfTheLibrary) {
@@ -80,7 +80,7 @@ TEST_F(PlayTest, SnapshotIsThePictureOfTheLibrary) {
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(result.out, "");
     const Image expected = downsample(
-        expected_picture(model_, 1.5, -40.0 * kPi / 180.0, 360, 240, Vec3f(0.1f, 0.2f, 0.3f)), 3);
+        expected_picture(asset_, 1.5, -40.0 * kPi / 180.0, 360, 240, Vec3f(0.1f, 0.2f, 0.3f)), 3);
     // EXR stays linear, whatever the exposure. The limits are those the player promises.
     const Difference difference = compare(expected, read_exr(out("a.exr")));
     EXPECT_LE(difference.mean_relative, 1e-3);
@@ -89,11 +89,9 @@ TEST_F(PlayTest, SnapshotIsThePictureOfTheLibrary) {
 
 // To the byte: scaling by powers of two is exact, and the player undoes it before anything else.
 TEST_F(PlayTest, PicturesDoNotDependOnTheSize) {
-    TestModelOptions still;
-    still.geometry_components = still.transfer_components = 0;
-    const Model beside = make_test_model(still);
-    std::vector<float> positions = beside.geometry.mean.floats();
-    for (size_t v = 0; v < beside.topology.num_vertices; ++v) positions[v] += 1.2f;
+    TestAssetOptions still_options;
+    still_options.geometry_components = still_options.transfer_components = 0;
+    const CodedMesh still = stand_still(make_test_asset(still_options).moving(), 1.2f);
     struct Case {
         Precision precision;
         std::vector<std::string> arguments;
@@ -101,17 +99,16 @@ TEST_F(PlayTest, PicturesDoNotDependOnTheSize) {
     for (const Case& c : {Case{Precision::f32, {}},
                           Case{Precision::f32, {"--camera", "100,40,2.5", "--progressive"}},
                           Case{Precision::i16, {"--camera", "-30,-20"}}}) {
-        TestModelOptions options;
+        TestAssetOptions options;
         options.precision = c.precision;
-        Model model = make_test_model(options);
-        model.scenery = {beside.topology, beside.albedo, StillPlanes(positions),
-                         StillPlanes(beside.transfer.mean.floats())};
+        Asset asset = make_test_asset(options);
+        asset.parts.push_back(still);
         std::vector<std::string> arguments{"--snapshot", out("a.exr"), "--size", "64x48"};
         arguments.insert(arguments.end(), c.arguments.begin(), c.arguments.end());
         Image unscaled;
         for (const int exponent : {0, -90, -70, 70, 90, 124}) {
-            Model scaled = model;
-            scale_model(scaled, exponent);
+            Asset scaled = asset;
+            scale_asset(scaled, exponent);
             write_paim(file_, scaled);
             const ToolResult result = play(arguments);
             ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -155,8 +152,8 @@ TEST_F(PlayTest, SnapshotReportsAsJson) {
     EXPECT_EQ(json["cluster_multiply_adds"], 0);
     // f32 in texels of four: 1 + 3 of geometry, (1 + 2) of 3 for the transfer's 9 planes; the empty
     // texture of 8-bit components of both; weights, light, albedo.
-    EXPECT_EQ(json["texture_bytes"], 16 * (4 + 3 * 3) * model_.moving().topology.num_vertices + 2 * 4 +
-                                         4 * (3 + 2) + 16 * 3 * 3 + 16);
+    EXPECT_EQ(json["texture_bytes"], 16 * (4 + 3 * 3) * asset_.moving().topology.num_vertices +
+                                         2 * 4 + 4 * (3 + 2) + 16 * 3 * 3 + 16);
     EXPECT_EQ(json["size"], nlohmann::json({32, 24}));
     EXPECT_EQ(json["multiply_adds_per_vertex"], 3 * 4 + 3 * 9 + 3 * 9);
     EXPECT_FALSE(json["renderer"].get<std::string>().empty());
@@ -176,15 +173,15 @@ TEST_F(PlayTest, LimitsBeyondTheFileAreLoweredWithANote) {
 
 // Clusters of integers through the file, the decoder of the CPU and the shader.
 TEST_F(PlayTest, PlaysClusters) {
-    TestModelOptions options;
+    TestAssetOptions options;
     options.channels = 3;
     options.precision = Precision::i16;
     options.component_precisions = {Precision::i16, Precision::i8};
     options.num_clusters = 7;
     options.cluster_components = 6;
     options.coefficient_precisions = {Precision::i16, Precision::i16, Precision::i8};
-    model_ = make_test_model(options);
-    write_paim(file_, model_);
+    asset_ = make_test_asset(options);
+    write_paim(file_, asset_);
     const std::vector<std::string> arguments{"--snapshot",    out("a.exr"), "--pose", "2.5",
                                              "--background",  "0,0,0",      "--size", "120x80",
                                              "--supersample", "1",          "--json"};
@@ -192,7 +189,7 @@ TEST_F(PlayTest, PlaysClusters) {
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const Image image = read_exr(out("a.exr"));
     const Difference difference =
-        compare(expected_picture(model_, 2.5, 0.0, 120, 80, Vec3f::Zero()), image);
+        compare(expected_picture(asset_, 2.5, 0.0, 120, 80, Vec3f::Zero()), image);
     EXPECT_LE(difference.mean_relative, 1e-3);
     EXPECT_LE(difference.fraction_off, 0.005);
     const auto json = nlohmann::json::parse(result.out);

@@ -6,7 +6,7 @@
 #include "paim/codec/sequence_bounds.h"
 #include "tests/first_components.h"
 #include "tests/player/growing_file.h"
-#include "tests/player/test_model.h"
+#include "tests/player/test_asset.h"
 #include "tests/temporary_directory.h"
 
 namespace paim::player {
@@ -42,23 +42,23 @@ void wait_for_look(ProgressiveLoader& loader, uint64_t size_bytes) {
 
 class ProgressiveLoaderTest : public testing::Test {
   protected:
-    static Asset make_model(uint32_t num_poses) {
-        TestModelOptions options;
+    static Asset make_asset(uint32_t num_poses) {
+        TestAssetOptions options;
         options.num_poses = num_poses;
         options.num_rings = 4;
-        return make_test_model(options);
+        return make_test_asset(options);
     }
 
-    void expect_holds(const LoadedModel& loaded, const Prefix& prefix) const {
-        const Asset& model = loaded.model;
-        EXPECT_EQ(model.moving().positions.num_components, prefix.geometry_components);
-        EXPECT_EQ(model.moving().transfer->matrix.num_components, prefix.transfer_components);
-        EXPECT_EQ(model.complete, prefix == file_.prefixes.back());
+    void expect_holds(const LoadedAsset& loaded, const Prefix& prefix) const {
+        const CodedMesh& mesh = loaded.asset->moving();
+        EXPECT_EQ(mesh.positions.num_components, prefix.geometry_components);
+        EXPECT_EQ(mesh.transfer->matrix.num_components, prefix.transfer_components);
+        EXPECT_EQ(loaded.asset->complete, prefix == file_.prefixes.back());
         EXPECT_EQ(loaded.progress,
                   (LoadProgress{prefix.size_bytes, file_.bytes.size(),
                                 prefix.geometry_components + prefix.transfer_components, 8}));
         const Bounds expected = sequence_bounds(
-            first_components(model_, prefix.geometry_components, prefix.transfer_components));
+            first_components(asset_, prefix.geometry_components, prefix.transfer_components));
         EXPECT_EQ(loaded.bounds.lower, expected.lower);
         EXPECT_EQ(loaded.bounds.upper, expected.upper);
         EXPECT_FALSE(loaded.replaced);
@@ -66,8 +66,8 @@ class ProgressiveLoaderTest : public testing::Test {
 
     TemporaryDirectory directory_;
     std::filesystem::path path_ = directory_ / "a.paim";
-    Asset model_ = make_model(6);
-    GrowingFile file_{path_, model_};
+    Asset asset_ = make_asset(6);
+    GrowingFile file_{path_, asset_};
 };
 
 TEST_F(ProgressiveLoaderTest, GrowsSectionBySection) {
@@ -95,7 +95,7 @@ TEST_F(ProgressiveLoaderTest, WaitsForTheStart) {
     ProgressiveLoader loader(path_, kPace);
     int num_waits = 0;
     std::jthread writer;
-    const LoadedModel first = loader.wait_for_first([&] {
+    const LoadedAsset first = loader.wait_for_first([&] {
         ++num_waits;
         writer = std::jthread([&] {
             for (const uint64_t size :
@@ -156,7 +156,7 @@ TEST_F(ProgressiveLoaderTest, SaysDamageOnceAndGoesOn) {
     EXPECT_EQ(loader.take_error(), "");
     EXPECT_FALSE(loader.take());
 
-    // Sent anew.
+    // Sent again.
     write_file(path_, std::string_view(good.data(), good.size()));
     const auto loaded = wait_for([&] { return loader.take(); });
     ASSERT_TRUE(loaded);
@@ -172,18 +172,18 @@ TEST_F(ProgressiveLoaderTest, TakesAFileThatReplacesAnother) {
     EXPECT_FALSE(loader.take());
 
     // Shorter and longer than what was there before.
-    GrowingFile other(path_, make_model(9));
+    GrowingFile other(path_, make_asset(9));
     other.grow_to(other.prefixes[1].size_bytes);
     auto loaded = wait_for([&] { return loader.take(); });
     ASSERT_TRUE(loaded);
     EXPECT_TRUE(loaded->replaced);
-    EXPECT_EQ(loaded->model.num_poses(), 9u);
+    EXPECT_EQ(loaded->asset->num_poses(), 9u);
     EXPECT_EQ(loaded->progress.components, 1u);
     other.grow_to(other.bytes.size());
     loaded = wait_for([&] { return loader.take(); });
     ASSERT_TRUE(loaded);
     EXPECT_FALSE(loaded->replaced);
-    EXPECT_TRUE(loaded->model.complete);
+    EXPECT_TRUE(loaded->asset->complete);
     EXPECT_EQ(loader.take_error(), "");
 }
 

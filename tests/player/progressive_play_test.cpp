@@ -11,7 +11,7 @@
 #include "tests/cli/run_tool.h"
 #include "tests/first_components.h"
 #include "tests/player/growing_file.h"
-#include "tests/player/test_model.h"
+#include "tests/player/test_asset.h"
 #include "tests/player/window_keys.h"
 #include "tests/player/x_server.h"
 #include "tests/temporary_directory.h"
@@ -39,8 +39,8 @@ class ProgressivePlayTest : public testing::Test {
 
     TemporaryDirectory directory_;
     std::filesystem::path path_ = directory_ / "ball.paim";
-    Asset model_ = make_test_model({});  // 5 bands, 3 + 5 components, 6 poses
-    GrowingFile file_{path_, model_};
+    Asset asset_ = make_test_asset({});  // 5 bands, 3 + 5 components, 6 poses
+    GrowingFile file_{path_, asset_};
 };
 
 TEST_F(ProgressivePlayTest, SnapshotOfABeginningIsThatOfAFileWithItsComponents) {
@@ -59,7 +59,7 @@ TEST_F(ProgressivePlayTest, SnapshotOfABeginningIsThatOfAFileWithItsComponents) 
         EXPECT_EQ(json["transfer_components"], prefix.transfer_components);
         const Image image = read_exr(out("a.exr"));
 
-        write_paim(out("cut.paim"), first_components(model_, prefix.geometry_components,
+        write_paim(out("cut.paim"), first_components(asset_, prefix.geometry_components,
                                                      prefix.transfer_components));
         const ToolResult cut = snapshot(out("cut.paim"), out("b.exr"));
         ASSERT_EQ(cut.exit_code, 0) << cut.err;
@@ -67,7 +67,7 @@ TEST_F(ProgressivePlayTest, SnapshotOfABeginningIsThatOfAFileWithItsComponents) 
         EXPECT_EQ(image.pixels, read_exr(out("b.exr")).pixels);
 
         // Of the whole file, which has another camera unless all geometry is in use.
-        if (prefix.geometry_components < model_.moving().positions.num_components) continue;
+        if (prefix.geometry_components < asset_.moving().positions.num_components) continue;
         ++num_limited;
         const ToolResult whole =
             snapshot(path_.string() + ".whole", out("c.exr"),
@@ -136,7 +136,7 @@ TEST_F(ProgressivePlayTest, WindowSharpensToTheWholeFilesPicture) {
     };
     EXPECT_EQ(save_view(), expected({"--progressive"}));
 
-    // The camera stays where the first model put it until the animation is framed anew (F).
+    // The camera stays where the first asset put it until the animation is framed again (F).
     for (size_t i = 1; i < file_.prefixes.size(); ++i) file_.grow_to(file_.prefixes[i].size_bytes);
     const std::vector<char> whole = expected({});
     bool reached = false;

@@ -1,45 +1,45 @@
-// A renderer that is given another model draws it like one that had it from the start.
+// A renderer that is given another asset draws it like one that had it from the start.
 #include <gtest/gtest.h>
 
 #include "paim/codec/sequence_bounds.h"
 #include "paim/light/sky.h"
 #include "player/gl/headless_context.h"
 #include "player/render/scene_renderer.h"
-#include "tests/player/test_model.h"
+#include "tests/player/test_asset.h"
 
 namespace paim::player {
 namespace {
 
 constexpr int kWidth = 60, kHeight = 40;
 
-Image draw(SceneRenderer& renderer, const Asset& model) {
+Image draw(SceneRenderer& renderer, const Asset& asset) {
     Frame frame;
     frame.time = 1.25;
     frame.env_rotation_rad = 0.7;
-    frame.bounds = sequence_bounds(model);
+    frame.bounds = sequence_bounds(asset);
     frame.camera = frame_bounds(frame.bounds, static_cast<float>(kWidth) / kHeight);
     return renderer.render(frame, kWidth, kHeight, 1);
 }
 
-TEST(ProgressiveRenderer, DrawsAnotherModelAsIfItWereTheFirst) {
+TEST(ProgressiveRenderer, DrawsAnotherAssetAsIfItWereTheFirst) {
     const auto context = gl::make_headless_context();
-    TestModelOptions options;
-    const Asset whole = make_test_model(options);
+    TestAssetOptions options;
+    const Asset whole = make_test_asset(options);
     options.geometry_components = 1;
     options.transfer_components = 2;
-    const Asset coarse = make_test_model(options);
-    options.bands = 3;  // projects the light anew
+    const Asset coarse = make_test_asset(options);
+    options.bands = 3;  // projects the light again
     options.num_poses = 4;
-    const Asset other = make_test_model(options);
+    const Asset other = make_test_asset(options);
     const Image environment = make_sky();
     SceneRenderer growing(other, environment, {});
     Image last = draw(growing, other);
-    for (const Asset* model : {&coarse, &whole, &other, &coarse}) {
-        growing.set_model(*model, {});
-        const Image image = draw(growing, *model);
+    for (const Asset* asset : {&coarse, &whole, &other, &coarse}) {
+        growing.set_asset(*asset, {});
+        const Image image = draw(growing, *asset);
         EXPECT_NE(image.pixels, last.pixels);
-        SceneRenderer fresh(*model, environment, {});
-        EXPECT_EQ(image.pixels, draw(fresh, *model).pixels);
+        SceneRenderer fresh(*asset, environment, {});
+        EXPECT_EQ(image.pixels, draw(fresh, *asset).pixels);
         EXPECT_EQ(growing.texture_bytes(), fresh.texture_bytes());
         last = image;
     }

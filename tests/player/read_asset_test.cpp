@@ -1,41 +1,49 @@
-// Models of every size become one.
-#include "player/read_model.h"
+// Assets of every size are read as of one size.
+#include "player/read_asset.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "paim/codec/pose_parts.h"
+#include "paim/codec/rebuild_planes.h"
 #include "paim/codec/sequence_bounds.h"
+#include "paim/codec/svd/svd_transfer.h"
+#include "paim/format/paim/paim_write.h"
 #include "player/report.h"
 #include "player/scene.h"
 #include "tests/first_components.h"
-#include "tests/player/test_model.h"
+#include "tests/player/test_asset.h"
 #include "tests/temporary_directory.h"
 
 namespace paim::player {
 namespace {
 
-// With scenery that reaches ten times as far.
-Model make_model(Precision precision) {
-    TestModelOptions options;
+// With a still part that reaches ten times as far.
+Asset make_asset(Precision precision) {
+    TestAssetOptions options;
     options.precision = precision;
-    Model model = make_test_model(options);
-    std::vector<float> positions = make_test_model({}).geometry.mean.floats();
+    Asset asset = make_test_asset(options);
+    CodedMesh still;
+    still.topology = asset.moving().topology;
+    still.albedo = asset.moving().albedo;
+    still.layout = asset.moving().layout;
+    std::vector<float> positions = make_test_asset({}).moving().positions.mean.floats();
     for (float& x : positions) x *= 10.0f;
-    StillPlanes stands(std::move(positions));
     if (is_integer(precision)) {
         std::vector<int16_t> integers;
-        for (const float x : stands.values.floats()) {
+        for (const float x : positions) {
             integers.push_back(static_cast<int16_t>(std::lround(1000.0f * x)));
         }
-        stands = StillPlanes(StoredValues(std::move(integers)), {1e-3f, 1e-3f, 1e-3f});
+        still.positions = LowRank::still(3, std::move(integers), {1e-3f, 1e-3f, 1e-3f});
+    } else {
+        still.positions = LowRank::still(3, std::move(positions));
     }
-    const size_t num_values = size_t{model.layout.num_planes()} * model.topology.num_vertices;
-    model.scenery = {model.topology, model.albedo, std::move(stands),
-                     StillPlanes(std::vector<float>(num_values, 0.1f))};
-    return model;
+    const uint32_t num_planes = still.layout.num_planes();
+    const size_t num_values = size_t{num_planes} * still.topology.num_vertices;
+    still.transfer = SvdTransfer(LowRank::still(num_planes, std::vector<float>(num_values, 0.1f)));
+    asset.parts.push_back(std::move(still));
+    return asset;
 }
 
 // Coordinates near zero may have lost digits where they were scaled down: they were rounded to 2^-149
@@ -45,81 +53,84 @@ void expect_same(const std::vector<float>& a, const std::vector<float>& b) {
     for (size_t j = 0; j < a.size(); ++j) ASSERT_NEAR(a[j], b[j], 8.0 * 0x1p-59) << j;
 }
 
-void expect_same_geometry(const Model& a, const Model& b) {
+// With all components. [3][V]
+std::vector<float> positions_at(const LowRank& matrix, double time) {
+    std::vector<float> positions;
+    PositionDecoder().decode(matrix, time, matrix.num_components, positions);
+    return positions;
+}
+
+void expect_same_positions(const Asset& a, const Asset& b) {
     for (const double time : {0.0, 2.5}) {
-        DecodedPose pose_a, pose_b;
-        decode_positions(a, time, {}, pose_a);
-        decode_positions(b, time, {}, pose_b);
-        expect_same(pose_a.positions, pose_b.positions);
+        expect_same(positions_at(a.moving().positions, time),
+                    positions_at(b.moving().positions, time));
     }
-    expect_same(a.scenery.positions.floats(), b.scenery.positions.floats());
+    expect_same(a.still()->positions.mean_floats(), b.still()->positions.mean_floats());
     EXPECT_EQ(a.origin, b.origin);
 }
 
 TEST(ScaleToUnit, UndoesPowersOfTwo) {
     for (const Precision precision : {Precision::f32, Precision::f16, Precision::i16}) {
-        Model unit = make_model(precision);
+        Asset unit = make_asset(precision);
         unit.origin = Vec3d(100, -3, 0);
-        const Model original = unit;
+        const Asset original = unit;
         scale_to_unit(unit);
-        float largest = 0.0f;
-        for (size_t j = 0; j < unit.geometry.num_rows(); ++j) {
-            const uint32_t plane = static_cast<uint32_t>(j / unit.geometry.num_points);
-            largest = std::max(largest, unit.geometry.step(plane) * unit.geometry.mean[j]);
-        }
+        const std::vector<float> mean = unit.moving().positions.mean_floats();
+        const float largest = *std::max_element(mean.begin(), mean.end());
         EXPECT_GE(largest, 1.0f);
         EXPECT_LT(largest, 2.0f);
         for (const int exponent : {-90, -70, -1, 1, 70, 90, 110}) {
-            Model model = original;
-            scale_model(model, exponent);
-            scale_to_unit(model);
-            expect_same_geometry(model, unit);
+            Asset asset = original;
+            scale_asset(asset, exponent);
+            scale_to_unit(asset);
+            expect_same_positions(asset, unit);
         }
     }
 }
 
 TEST(ScaleToUnit, IsThatOfEveryPrefix) {
-    Model whole = make_model(Precision::f32);
-    scale_model(whole, 77);
-    Model prefix = first_components(whole, 0, 0);
+    Asset whole = make_asset(Precision::f32);
+    scale_asset(whole, 77);
+    Asset prefix = first_components(whole, 0, 0);
     scale_to_unit(whole);
     scale_to_unit(prefix);
-    EXPECT_TRUE(prefix.geometry.mean == whole.geometry.mean);  // to the bit
-    EXPECT_TRUE(prefix.scenery.positions == whole.scenery.positions);
+    EXPECT_TRUE(prefix.moving().positions.mean == whole.moving().positions.mean);  // to the bit
+    EXPECT_TRUE(prefix.still()->positions == whole.still()->positions);
 }
 
 TEST(ScaleToUnit, TakesComponentsWhereTheMeanIsAPoint) {
     for (const Precision precision : {Precision::f32, Precision::i16}) {
-        TestModelOptions options;
+        TestAssetOptions options;
         options.precision = precision;
-        Model model = make_test_model(options);
-        LowRankMatrix& geometry = model.geometry;
+        Asset asset = make_test_asset(options);
+        LowRank& geometry = asset.moving().positions;
         if (geometry.mean.holds_floats()) {
             geometry.mean = StoredValues(std::vector<float>(geometry.num_rows(), 0.0f));
         } else {
             geometry.mean = StoredValues(std::vector<int16_t>(geometry.num_rows(), 0));
         }
-        scale_model(model, 90);
-        scale_to_unit(model);
+        scale_asset(asset, 90);
+        scale_to_unit(asset);
         // Three components of at most one times weights of at most 0.1 of a unit: their largest is
         // brought to 1 … 2, all together to 6 at most.
-        const float size = sequence_bounds(model).diagonal();
+        const float size = sequence_bounds(asset).diagonal();
         EXPECT_GT(size, 0.1f);
         EXPECT_LT(size, 2.0f * 6.0f * std::sqrt(3.0f));
     }
 }
 
-TEST(ScaleToUnit, LeavesSceneryFiniteAndPointsAlone) {
-    Model model = make_model(Precision::f32);
-    scale_model(model, -110);
-    std::vector<float> positions(size_t{3} * model.scenery.topology.num_vertices, 3e38f);
-    model.scenery.positions = StillPlanes(positions);
-    scale_to_unit(model);
-    for (const float x : model.scenery.positions.floats()) ASSERT_TRUE(std::isfinite(x));
-    EXPECT_GT(sequence_bounds(model).diagonal(), 0.0f);
+TEST(ScaleToUnit, LeavesStillPartsFiniteAndPointsAlone) {
+    Asset asset = make_asset(Precision::f32);
+    scale_asset(asset, -110);
+    LowRank& still = asset.still()->positions;
+    still = LowRank::still(3, std::vector<float>(still.num_rows(), 3e38f));
+    scale_to_unit(asset);
+    for (const float x : still.mean_floats()) ASSERT_TRUE(std::isfinite(x));
+    EXPECT_GT(sequence_bounds(asset).diagonal(), 0.0f);
 
-    Model point = first_components(make_test_model({}), 0, 5);
-    point.geometry.mean = StoredValues(std::vector<float>(point.geometry.num_rows(), 0.0f));
+    Asset point = first_components(make_test_asset({}), 0, 5);
+    LowRank& geometry = point.moving().positions;
+    geometry.mean = StoredValues(std::vector<float>(geometry.num_rows(), 0.0f));
     scale_to_unit(point);
     EXPECT_EQ(sequence_bounds(point).diagonal(), 0.0f);
 }
@@ -130,13 +141,13 @@ TEST(ScaleToUnit, IsAppliedToEveryFileThatIsLoaded) {
     for (const bool progressive : {false, true}) {
         Frame frames[2];
         for (const int exponent : {0, -90}) {
-            Model model = make_model(Precision::f32);
-            scale_model(model, exponent);
+            Asset asset = make_asset(Precision::f32);
+            scale_asset(asset, exponent);
             Options options;
             options.model_path = directory / "a.paim";
             options.progressive = progressive;
             options.camera = {1.0f, 0.5f, 3.0f};
-            write_paim(options.model_path, model);
+            write_paim(options.model_path, asset);
             const Scene scene = load_scene(options);
             frames[exponent == 0 ? 0 : 1] = first_frame(options, scene);
         }

@@ -6,8 +6,8 @@
 
 #include "compressor/bake/bake_sequence.h"
 #include "compressor/encode/encode.h"
-#include "paim/codec/sequence_bounds.h"
 #include "paim/codec/mesh_decoder.h"
+#include "paim/codec/sequence_bounds.h"
 #include "paim/format/paim/paim_read.h"
 #include "paim/format/paim/paim_write.h"
 #include "paim/image/exr.h"
@@ -45,25 +45,26 @@ Image make_two_lamps() {
 class Pictures : public testing::Test {
   protected:
     Image reference(double time, const Image& environment, double turn_rad) const {
+        const CodedMesh& moving = asset_.moving();
         DecodedPose pose;
-        SvdDecoder(model_).decode(time, {}, pose);
-        const EnvironmentLight light(environment);
+        MeshDecoder(moving).decode(time, {}, pose);
+        const LightCoefficients light =
+            turn_about_y(EnvironmentLight(environment).coefficients(5), turn_rad);
         std::vector<std::vector<Vec3f>> radiance(1);
-        shade(pose.layout, pose.transfer, model_.moving().albedo,
-              turn_about_y(light.coefficients(5), turn_rad), radiance[0]);
-        std::vector<Vec3f> beside;
-        if (!model_.scenery.empty()) {
-            shade(model_.layout, model_.scenery.transfer.floats(), model_.scenery.albedo,
-                  turn_about_y(light.coefficients(Vec3f::Zero(), 5), turn_rad), beside);
-        }
-        radiance[0].insert(radiance[0].end(), beside.begin(), beside.end());
+        shade(pose.layout, pose.transfer, moving.albedo, light, radiance[0]);
         std::vector<Vec3f> positions = from_planes(pose.positions);
-        const std::vector<Vec3f> stands = from_planes(model_.scenery.positions.floats());
-        positions.insert(positions.end(), stands.begin(), stands.end());
-        Topology topology = model_.moving().topology;
-        topology.append(model_.scenery.topology);
+        Topology topology = moving.topology;
+        if (const CodedMesh* const still = asset_.still()) {
+            std::vector<Vec3f> still_radiance;
+            shade(still->layout, still->transfer->matrix.mean_floats(), still->albedo, light,
+                  still_radiance);
+            radiance[0].insert(radiance[0].end(), still_radiance.begin(), still_radiance.end());
+            const std::vector<Vec3f> still_positions = from_planes(still->positions.mean_floats());
+            positions.insert(positions.end(), still_positions.begin(), still_positions.end());
+            topology.append(still->topology);
+        }
         const Camera camera =
-            frame_bounds(sequence_bounds(model_), static_cast<float>(kWidth) / kHeight);
+            frame_bounds(sequence_bounds(asset_), static_cast<float>(kWidth) / kHeight);
         return render_images(topology, positions, radiance, camera, kWidth, kHeight)[0];
     }
 
@@ -81,7 +82,7 @@ class Pictures : public testing::Test {
     }
 
     TemporaryDirectory directory_;
-    Asset model_;
+    Asset asset_;
 };
 
 class Reference : public Pictures {
@@ -94,7 +95,7 @@ class Reference : public Pictures {
         bake_sequence(
             octopus, options, "faces", directory_ / "x.bake", 0, 5, [](uint32_t) {}, surroundings);
         encode(BakeReader(directory_ / "x.bake"), {}, directory_ / "x.paim");
-        model_ = read_paim(directory_ / "x.paim");
+        asset_ = read_paim(directory_ / "x.paim");
     }
 };
 
@@ -150,7 +151,7 @@ TEST_F(Pictures, DoNotDependOnTheSize) {
         const std::filesystem::path bake = directory_ / std::to_string(exponent);
         bake_sequence(scaled, {3, 16, 1}, "faces", bake, 0, 1, [](uint32_t) {});
         encode(BakeReader(bake), {}, directory_ / "x.paim");
-        model_ = read_paim(directory_ / "x.paim");
+        asset_ = read_paim(directory_ / "x.paim");
         const auto drawn = tone_map(snapshot(0.5, {}), {});
         const auto expected = tone_map(reference(0.5, make_sky(), 0.0), {});
         if (exponent == 0) {

@@ -5,8 +5,9 @@
 #include <cmath>
 
 #include "paim/base/error.h"
-#include "paim/codec/sequence_bounds.h"
 #include "paim/codec/mesh_decoder.h"
+#include "paim/codec/sequence_bounds.h"
+#include "paim/codec/svd/svd_transfer.h"
 #include "paim/light/environment.h"
 #include "paim/mesh/planes.h"
 #include "paim/shade/shade.h"
@@ -16,7 +17,7 @@
 #include "player/render/scene_renderer.h"
 #include "player/render/tone_mapper.h"
 #include "tests/player/ray_cast.h"
-#include "tests/player/test_model.h"
+#include "tests/player/test_asset.h"
 
 namespace paim::player {
 namespace {
@@ -39,10 +40,10 @@ Image make_environment() {
     return image;
 }
 
-Asset make_empty_model() {
-    Asset model = make_test_model({});
-    model.moving().topology.triangles.clear();
-    return model;
+Asset make_empty_asset() {
+    Asset asset = make_test_asset({});
+    asset.moving().topology.triangles.clear();
+    return asset;
 }
 
 class SceneTest : public testing::TestWithParam<gl::Api> {
@@ -61,9 +62,9 @@ INSTANTIATE_TEST_SUITE_P(Apis, SceneTest, testing::Values(gl::Api::desktop, gl::
 // moves the place in the map by 1e-5 of it: 1e-4 pixels of 64, over which this map changes by 0.1 a
 // pixel.
 TEST_P(SceneTest, BackgroundIsTheTurnedEnvironment) {
-    const Asset model = make_empty_model();
+    const Asset asset = make_empty_asset();
     const EnvironmentLight environment(make_environment());
-    SceneRenderer renderer(model, environment.image(), {});
+    SceneRenderer renderer(asset, environment.image(), {});
     struct View {
         Vec3f eye;
         double rotation_rad;
@@ -94,24 +95,24 @@ TEST_P(SceneTest, BackgroundIsTheTurnedEnvironment) {
 }
 
 TEST_P(SceneTest, LightTurnsWithTheBackground) {
-    const Asset model = make_test_model({});
+    const Asset asset = make_test_asset({});
     const EnvironmentLight environment(make_environment());
-    SceneRenderer renderer(model, environment.image(), {});
+    SceneRenderer renderer(asset, environment.image(), {});
     Frame frame;
     frame.time = 1.25;
-    frame.bounds = pose_bounds(model, frame.time, frame.limits.geometry_components);
+    frame.bounds = pose_bounds(asset, frame.time, frame.limits.geometry_components);
     frame.camera = frame_bounds(frame.bounds, kAspect);
     frame.background = {Background::Kind::color, Vec3f(0.1f, 0.2f, 0.3f)};
     Image previous(kWidth, kHeight);
     for (const double rotation_rad : {0.0, 1.0, -2.0, 0.0}) {
         frame.env_rotation_rad = rotation_rad;
-        const LightCoefficients light =
-            turn_about_y(environment.coefficients(5), rotation_rad);
+        const LightCoefficients light = turn_about_y(environment.coefficients(5), rotation_rad);
         DecodedPose pose;
-        SvdDecoder(model).decode(frame.time, frame.limits, pose);
-        const Image expected = ray_cast(model.moving().topology, from_planes(pose.positions),
-                                        vertex_radiance(model, frame.time, frame.limits, light),
-                                        frame.camera, kWidth, kHeight, frame.background.color);
+        MeshDecoder(asset.moving()).decode(frame.time, frame.limits, pose);
+        const Image expected =
+            ray_cast(asset.moving().topology, from_planes(pose.positions),
+                     vertex_radiance(asset.moving(), frame.time, frame.limits, light), frame.camera,
+                     kWidth, kHeight, frame.background.color);
         const Image image = renderer.render(frame, kWidth, kHeight, 1);
         const Difference difference = compare(expected, image);
         EXPECT_LE(difference.mean_relative, 1e-3) << rotation_rad;
@@ -124,60 +125,60 @@ TEST_P(SceneTest, LightTurnsWithTheBackground) {
 
 // Rounded to steps, of another size in every plane.
 template <typename Integer>
-StillPlanes in_steps(const std::vector<float>& values, size_t num_planes, float step) {
+LowRank in_steps(const LowRank& still, float step) {
     std::vector<float> steps;
-    for (size_t j = 0; j < num_planes; ++j) {
+    for (uint32_t j = 0; j < still.num_planes; ++j) {
         steps.push_back(step * (1.0f + 0.5f * static_cast<float>(j % 3)));
     }
+    const std::vector<float> values = still.mean_floats();
     std::vector<Integer> integers(values.size());
     for (size_t j = 0; j < values.size(); ++j) {
-        integers[j] =
-            static_cast<Integer>(std::lround(values[j] / steps[j / (values.size() / num_planes)]));
+        integers[j] = static_cast<Integer>(std::lround(values[j] / steps[j / still.num_points]));
     }
-    return {integers, steps};
+    return LowRank::still(still.num_planes, std::move(integers), std::move(steps));
 }
 
-// Asset and scenery as one mesh, decoded, shaded and ray-cast on the CPU.
-TEST_P(SceneTest, SceneryStandsBesideTheModel) {
+// Both parts as one mesh, decoded, shaded and ray-cast on the CPU.
+TEST_P(SceneTest, AStillPartStandsNextToTheMovingOne) {
     for (const auto& [channels, integers] : {std::pair(1u, false), {3u, false}, {3u, true}}) {
-        TestModelOptions options;
+        TestAssetOptions options;
         options.channels = channels;
-        Asset model = make_test_model(options);
-        // A still sphere of another colour that overlaps the model: each hides a part of the other.
+        Asset asset = make_test_asset(options);
+        // A still sphere of another colour that overlaps the moving one: each hides a part of the
+        // other.
         options.geometry_components = options.transfer_components = 0;
         options.albedo_per_vertex = true;
-        const Asset still = make_test_model(options);
-        std::vector<float> moved = still.geometry.mean.floats();
-        for (size_t v = 0; v < still.topology.num_vertices; ++v) moved[v] += 1.2f;
-        model.scenery = {still.topology, still.albedo, moved, still.transfer.mean.floats()};
+        CodedMesh still = stand_still(make_test_asset(options).moving(), 1.2f);
         if (integers) {
-            model.scenery.positions = in_steps<int16_t>(moved, 3, 1e-4f);
-            model.scenery.transfer =
-                in_steps<int8_t>(still.transfer.mean.floats(), model.moving().layout.num_planes(), 0.02f);
+            still.positions = in_steps<int16_t>(still.positions, 1e-4f);
+            still.transfer = SvdTransfer(in_steps<int8_t>(still.transfer->matrix, 0.02f));
         }
+        asset.parts.push_back(still);
 
         const EnvironmentLight environment(make_environment());
-        SceneRenderer renderer(model, environment.image(), {});
+        SceneRenderer renderer(asset, environment.image(), {});
         Frame frame;
         frame.time = 1.5;
         frame.limits.bands = 4;  // fewer than there are, for both
         frame.background.kind = Background::Kind::color;
-        frame.bounds = pose_bounds(model, frame.time, frame.limits.geometry_components);
+        frame.bounds = pose_bounds(asset, frame.time, frame.limits.geometry_components);
         frame.camera = frame_bounds(frame.bounds, kAspect);
         const Image drawn = renderer.render(frame, kWidth, kHeight, 1);
 
         const LightCoefficients light = environment.coefficients(4);
+        const CodedMesh& moving = asset.moving();
         DecodedPose pose;
-        SvdDecoder(model).decode(frame.time, frame.limits, pose);
+        MeshDecoder(moving).decode(frame.time, frame.limits, pose);
         std::vector<Vec3f> positions = from_planes(pose.positions);
-        std::vector<Vec3f> radiance = vertex_radiance(model, frame.time, frame.limits, light);
-        std::vector<Vec3f> beside;
-        shade(model.moving().layout, model.scenery.transfer.floats(), model.scenery.albedo, light, beside);
-        const std::vector<Vec3f> stands = from_planes(model.scenery.positions.floats());
-        positions.insert(positions.end(), stands.begin(), stands.end());
-        radiance.insert(radiance.end(), beside.begin(), beside.end());
-        Topology topology = model.moving().topology;
-        topology.append(model.scenery.topology);
+        std::vector<Vec3f> radiance = vertex_radiance(moving, frame.time, frame.limits, light);
+        std::vector<Vec3f> still_radiance;
+        shade(still.layout, still.transfer->matrix.mean_floats(), still.albedo, light,
+              still_radiance);
+        const std::vector<Vec3f> still_positions = from_planes(still.positions.mean_floats());
+        positions.insert(positions.end(), still_positions.begin(), still_positions.end());
+        radiance.insert(radiance.end(), still_radiance.begin(), still_radiance.end());
+        Topology topology = moving.topology;
+        topology.append(still.topology);
         const Image expected = ray_cast(topology, positions, radiance, frame.camera, kWidth,
                                         kHeight, frame.background.color);
         const Difference difference = compare(expected, drawn);
@@ -188,10 +189,10 @@ TEST_P(SceneTest, SceneryStandsBesideTheModel) {
 }
 
 TEST_P(SceneTest, SupersamplesAreAveraged) {
-    const Asset model = make_test_model({});
-    SceneRenderer renderer(model, make_environment(), {});
+    const Asset asset = make_test_asset({});
+    SceneRenderer renderer(asset, make_environment(), {});
     Frame frame;
-    frame.bounds = pose_bounds(model, 0.0, frame.limits.geometry_components);
+    frame.bounds = pose_bounds(asset, 0.0, frame.limits.geometry_components);
     frame.camera = frame_bounds(frame.bounds, kAspect);
     const Image fine = renderer.render(frame, 3 * kWidth, 3 * kHeight, 1);
     const Image averaged = renderer.render(frame, kWidth, kHeight, 3);
@@ -200,8 +201,8 @@ TEST_P(SceneTest, SupersamplesAreAveraged) {
 }
 
 TEST_P(SceneTest, BadEnvironmentLeavesTheOldOne) {
-    const Asset model = make_empty_model();
-    SceneRenderer renderer(model, make_environment(), {});
+    const Asset asset = make_empty_asset();
+    SceneRenderer renderer(asset, make_environment(), {});
     const Image before = renderer.render({}, kWidth, kHeight, 1);
     Image bad = make_environment();
     bad.at(3, 4).x() = std::nanf("");
@@ -262,8 +263,8 @@ class ByteTarget {
 TEST_P(SceneTest, ToneMapperAgreesWithToneCurve) {
     constexpr int kSamples = 2;
     const gl::Target picture(kSamples * kWidth, kSamples * kHeight);
-    const Asset model = make_empty_model();
-    SceneRenderer renderer(model, make_environment(), {});
+    const Asset asset = make_empty_asset();
+    SceneRenderer renderer(asset, make_environment(), {});
     renderer.draw({}, picture);
     const Image image = downsample(picture.read(), kSamples);
     const ToneMapper mapper;

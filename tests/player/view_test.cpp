@@ -12,7 +12,7 @@
 #include "player/render/depth_range.h"
 #include "player/ui/keys.h"
 #include "player/ui/orbit_camera.h"
-#include "tests/player/test_model.h"
+#include "tests/player/test_asset.h"
 
 namespace paim::player {
 namespace {
@@ -37,7 +37,7 @@ Limits limits_of(const ViewState& view) {
             limits.cluster_components};
 }
 
-TEST(ViewState, FollowsAModelThatGrows) {
+TEST(ViewState, FollowsAnAssetThatGrows) {
     const DecodeLimits all;
     constexpr ViewRange kMore{4, 4, 9, 6, 2};
     ViewState view = start();
@@ -60,14 +60,14 @@ TEST(ViewState, FollowsAModelThatGrows) {
     follow(view, kRange, kMore, wanted);
     EXPECT_EQ(limits_of(view), (Limits{3, 7, 6, 2}));
 
-    view.time = 4.0;  // another model, with less of everything
+    view.time = 4.0;  // another asset, with less of everything
     constexpr ViewRange kLess{2, 1, 0, 3, 0};
     follow(view, kMore, kLess, wanted);
     EXPECT_EQ(limits_of(view), (Limits{1, 0, 3, 0}));
     EXPECT_EQ(view.time, 2.0);
 }
 
-TEST(Keys, ChangeLimitsWithinTheModel) {
+TEST(Keys, ChangeLimitsWithinTheAsset) {
     ViewState view = start();
     press(GLFW_KEY_RIGHT_BRACKET, false, view);
     EXPECT_EQ(view.limits.transfer_components, 5u);
@@ -289,24 +289,25 @@ TEST(DepthRange, StaysUsableFromInsideBehindAndWithoutBounds) {
 
 // 9 clusters of 1 + 6 rows, 25 coefficients of one channel, 5 components over time, 6 poses.
 TEST(FrameCost, CountsWhatClustersDo) {
-    TestModelOptions options;
+    TestAssetOptions options;
     options.precision = Precision::i16;
     options.component_precisions = {Precision::i16, Precision::i16, Precision::i8};
     options.num_clusters = 9;
     options.cluster_components = 6;
     options.coefficient_precisions = {Precision::i16, Precision::i8};
-    const Asset model = make_test_model(options);
-    const uint64_t num_vertices = model.moving().topology.num_vertices;
-    const Cost all = frame_cost(model, {});
+    const Asset asset = make_test_asset(options);
+    const CodedMesh& mesh = asset.moving();
+    const uint64_t num_vertices = mesh.topology.num_vertices;
+    const Cost all = frame_cost(mesh, {});
     EXPECT_EQ(all.multiply_adds, 3u * 4 + 3u * 7);
-    EXPECT_EQ(all.cluster_multiply_adds, 63u * (25 * 5 + 3 * 25));
+    EXPECT_EQ(all.cpu_multiply_adds, 63u * (25 * 5 + 3 * 25));
     EXPECT_EQ(all.bytes, (2 + 2 * 2 + 1) * 3 * num_vertices + 4 * 3 + 3 * 4 * 6    // geometry
                              + (2 + 2 * 2 + 3 * 1) * 25 * 63 + 4 * 25 + 5 * 4 * 6  // bases
                              + (2 + 2 + 5 * 1) * num_vertices + 4 * 63);           // vertices
     const Cost some =
-        frame_cost(model, {.transfer_components = 2, .bands = 3, .cluster_components = 1});
+        frame_cost(mesh, {.transfer_components = 2, .bands = 3, .cluster_components = 1});
     EXPECT_EQ(some.multiply_adds, 3u * 4 + 3u * 2);
-    EXPECT_EQ(some.cluster_multiply_adds, 63u * (9 * 2 + 3 * 9));
+    EXPECT_EQ(some.cpu_multiply_adds, 63u * (9 * 2 + 3 * 9));
     EXPECT_EQ(some.cluster_components, 1u);
     EXPECT_EQ(some.bytes, (2 + 2 * 2 + 1) * 3 * num_vertices + 4 * 3 + 3 * 4 * 6 +
                               (2 + 2 * 2) * 9 * 63 + 4 * 9 + 2 * 4 * 6 + (2 + 2) * num_vertices +
@@ -314,16 +315,17 @@ TEST(FrameCost, CountsWhatClustersDo) {
 }
 
 TEST(FrameCost, CountsWhatTheShaderDoes) {
-    TestModelOptions options;
+    TestAssetOptions options;
     options.channels = 3;
     options.precision = Precision::f16;
-    const Asset model = make_test_model(options);  // 5 bands, 3 + 5 components, 6 poses
-    const uint64_t num_vertices = model.moving().topology.num_vertices;
-    const Cost all = frame_cost(model, {});
+    const Asset asset = make_test_asset(options);  // 5 bands, 3 + 5 components, 6 poses
+    const CodedMesh& mesh = asset.moving();
+    const uint64_t num_vertices = mesh.topology.num_vertices;
+    const Cost all = frame_cost(mesh, {});
     EXPECT_EQ(all.multiply_adds, 3u * 4 + 75u * 6 + 3u * 25);
     EXPECT_EQ(all.bytes, 4 * 3 * num_vertices + 3 * (2 * 3 * num_vertices + 4 * 6) +
                              4 * 75 * num_vertices + 5 * (2 * 75 * num_vertices + 4 * 6));
-    const Cost some = frame_cost(model, {1, 2, 3});
+    const Cost some = frame_cost(mesh, {1, 2, 3});
     EXPECT_EQ(some.multiply_adds, 3u * 2 + 27u * 3 + 3u * 9);
     EXPECT_EQ(some.bands, 3u);
     EXPECT_EQ(some.bytes, 4 * 3 * num_vertices + 1 * (2 * 3 * num_vertices + 4 * 6) +

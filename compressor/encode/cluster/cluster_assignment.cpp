@@ -67,6 +67,11 @@ uint32_t degree(const PointGraph* graph, size_t v) {
 
 }  // namespace
 
+uint64_t assignment_scratch_bytes(uint64_t num_clusters) {
+    // Costs and their temporaries, and products with as many.
+    return kPointsAtOnce * 2 * (num_clusters + uint64_t{kColumnsAtOnce}) * sizeof(float);
+}
+
 void assign_points(const MatrixXf& points, const ClusterSubspaces& subspaces, float neighbour_cost,
                    const PointGraph* graph, std::vector<uint32_t>& cluster,
                    std::vector<float>& squared_distance) {

@@ -74,6 +74,11 @@ void components_by_grams(const PointSource& points, const ClusterMembers& member
     }
 }
 
+uint64_t gram_scratch_bytes(uint64_t num_members, uint64_t num_columns, uint64_t num_components) {
+    return (num_members + 3) * num_columns * sizeof(double) +
+           top_eigenpairs_scratch_bytes(num_members, num_components);
+}
+
 namespace {
 
 // Left vectors of the projected members, the largest first; random where there are more than
@@ -107,6 +112,13 @@ void for_member_rows(const MatrixXf& plane, std::span<const uint32_t> members,
 }
 
 }  // namespace
+
+uint64_t passes_scratch_bytes(uint64_t num_members, uint64_t num_dimensions,
+                              uint64_t num_components) {
+    const auto iterated = static_cast<uint64_t>(
+        iterated_directions(static_cast<Index>(num_components), static_cast<Index>(num_members)));
+    return num_members * (4 * iterated + 2 * num_dimensions) * sizeof(double);
+}
 
 void components_by_passes(const PointSource& points, const MatrixXf& projected,
                           const ClusterMembers& members, std::span<const uint32_t> clusters,

@@ -36,6 +36,10 @@ void components_by_grams(const PointSource& points, const ClusterMembers& member
                          std::span<const uint32_t> clusters, uint32_t num_components,
                          uint64_t gram_bytes, uint64_t seed, std::vector<ClusterComponents>& out);
 
+// Memory of components_by_grams() on one thread for a cluster of n_c members, in addition to the
+// Gram matrices: its rows of a plane, its eigenvectors and a few rows of the plane's width.
+uint64_t gram_scratch_bytes(uint64_t num_members, uint64_t num_columns, uint64_t num_components);
+
 // For clusters whose Gram matrices would be too large: subspace iteration in which each step is a
 // pass over the planes, X (Xᵀ Q). It starts from the principal directions of the projected points,
 // which three steps refine: the error against the optimum shrinks with (σ_L / σ_K)^12.
@@ -44,5 +48,10 @@ void components_by_passes(const PointSource& points, const Eigen::MatrixXf& proj
                           const ClusterMembers& members, std::span<const uint32_t> clusters,
                           uint32_t num_components, uint64_t seed,
                           std::vector<ClusterComponents>& out);
+
+// Memory of components_by_passes() for all members of its clusters: Q, G Q and their temporaries;
+// their start.
+uint64_t passes_scratch_bytes(uint64_t num_members, uint64_t num_dimensions,
+                              uint64_t num_components);
 
 }  // namespace paim

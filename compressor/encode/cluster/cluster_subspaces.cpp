@@ -79,6 +79,11 @@ ClusterSubspaces::ClusterSubspaces(Index num_dimensions, uint32_t num_clusters,
       products_(VectorXf::Zero(columns_.cols())),
       inverse_spread_(VectorXf::Zero(columns_.cols())) {}
 
+uint64_t ClusterSubspaces::fit_scratch_bytes(uint64_t num_dimensions, uint64_t num_components) {
+    // A block of members and its products with the basis.
+    return kMembersAtOnce * (num_dimensions + num_components) * sizeof(float);
+}
+
 void ClusterSubspaces::set_mean(uint32_t c, const VectorXf& mean) {
     const Index first = static_cast<Index>(c) * static_cast<Index>(num_components_ + 1);
     columns_.col(first) = mean;

@@ -35,6 +35,14 @@ class ClusterSubspaces {
     // 1/size + Σ_k (b_k · (x − mean))² / Σ over members. 0 before any fit.
     float leverage(uint32_t c, const Eigen::Ref<const Eigen::VectorXf>& x) const;
 
+    // Memory that it holds for d dimensions and K directions.
+    static constexpr uint64_t held_bytes(uint64_t num_dimensions, uint64_t num_clusters,
+                                         uint64_t num_components) {
+        return num_clusters * (num_components + 1) * (num_dimensions + 2) * sizeof(float);
+    }
+    // Memory of fit() on one thread.
+    static uint64_t fit_scratch_bytes(uint64_t num_dimensions, uint64_t num_components);
+
     // Columns c (K + 1) + j: the mean (j = 0), then the directions; zero where there is none.
     const Eigen::MatrixXf& columns() const { return columns_; }
     // Products of each column with its cluster's mean.
@@ -63,5 +71,8 @@ class ClusterSubspaces {
 void assign_points(const Eigen::MatrixXf& points, const ClusterSubspaces& subspaces,
                    float neighbour_cost, const PointGraph* graph, std::vector<uint32_t>& cluster,
                    std::vector<float>& squared_distance);
+
+// Memory of assign_points() on one thread.
+uint64_t assignment_scratch_bytes(uint64_t num_clusters);
 
 }  // namespace paim

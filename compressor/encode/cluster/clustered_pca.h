@@ -26,6 +26,13 @@ struct ClusteredPca {
     Eigen::MatrixXd singular_values;  // [clusters][K] of the members about their mean
     std::vector<double> energy;       // [clusters] sum of squares of the members about their mean
 
+    // Memory that it holds: coefficients of the points with their cluster, values of the clusters.
+    static constexpr uint64_t held_bytes(uint64_t num_points, uint64_t num_clusters,
+                                         uint64_t num_components) {
+        return num_points * (num_components + 3) * sizeof(float) +
+               num_clusters * (num_components + 3) * sizeof(double);
+    }
+
     // Sum of squares of what num_components leave of all points, exactly what for_each_basis_plane()
     // gives back but for the rounding of floats.
     double squared_error(uint32_t num_components) const;

@@ -1,4 +1,4 @@
-// How much memory clustered PCA takes beside its fixed parts.
+// How much memory clustered PCA takes, and what is left for Gram matrices.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,8 @@
 
 namespace paim {
 
-// What options.memory_bytes leaves for the Gram matrices of clusters, at least for the largest one.
+// The memory that options.memory_bytes leaves for the Gram matrices of clusters, at least as much as
+// the largest one takes.
 uint64_t spare_gram_bytes(const PointSource& points, const ClusteringOptions& options);
 
 // Error (unsupported) naming `what` and the memory that is needed if less is allowed.

@@ -88,4 +88,17 @@ Clustering cluster_points(const Eigen::MatrixXf& points, const ClusteringOptions
     return rounds.result(num_clusters);
 }
 
+uint64_t clustering_scratch_bytes(uint64_t num_points, uint64_t num_dimensions,
+                                  const ClusteringOptions& options, uint64_t num_threads) {
+    // Of each point its cluster now and before, its distance, and its place among the members.
+    constexpr uint64_t kBytesAPoint = 24;
+    const uint64_t clusters =
+        std::clamp<uint64_t>(options.num_clusters, 1, std::max<uint64_t>(1, num_points));
+    const uint64_t at_work =
+        std::max(assignment_scratch_bytes(clusters),
+                 ClusterSubspaces::fit_scratch_bytes(num_dimensions, options.assumed_components));
+    return ClusterSubspaces::held_bytes(num_dimensions, clusters, options.assumed_components) +
+           num_points * kBytesAPoint + num_threads * at_work;
+}
+
 }  // namespace paim

@@ -49,4 +49,9 @@ struct Clustering {
 Clustering cluster_points(const Eigen::MatrixXf& points, const ClusteringOptions& options,
                           const PointGraph* graph = nullptr);
 
+// Memory of cluster_points() for points [d][V]: subspaces, numbers and distances of the points, and
+// on each thread the points at work.
+uint64_t clustering_scratch_bytes(uint64_t num_points, uint64_t num_dimensions,
+                                  const ClusteringOptions& options, uint64_t num_threads);
+
 }  // namespace paim

@@ -20,7 +20,8 @@ using Eigen::MatrixXf;
 
 namespace {
 
-constexpr Index kBlock = 1024;  // points whose products are summed in float before double
+constexpr Index kBlock = 1024;    // points whose products are summed in float before double
+constexpr Index kGramParts = 16;  // partial sums of a Gram matrix
 
 Index num_blocks(Index num_points) {
     return (num_points + kBlock - 1) / kBlock;
@@ -60,8 +61,8 @@ MatrixXf random_signs(uint32_t plane, uint32_t num_columns, Index num_sketch, ui
 // The Gram matrix of rows, S Sᵀ of S [l][V], summed by blocks in a fixed order.
 MatrixXd row_gram(const MatrixXf& sketch) {
     const Index size = sketch.rows();
-    // As many partial sums as 16 keep, whatever the number of threads.
-    const Index parts = std::min<Index>(16, num_blocks(sketch.cols()));
+    // The same number of partial sums on any number of threads.
+    const Index parts = std::min(kGramParts, num_blocks(sketch.cols()));
     std::vector<MatrixXd> sums(static_cast<size_t>(parts), MatrixXd::Zero(size, size));
     parallel_for(static_cast<size_t>(parts), 1, [&](size_t part, size_t) {
         MatrixXf product(size, size);
@@ -107,6 +108,17 @@ Directions principal_directions(const MatrixXd& gram, Index at_most) {
 
 uint64_t sketch_columns(uint64_t num_dimensions, uint64_t of) {
     return std::min(of, num_dimensions + num_dimensions / 4 + 8);
+}
+
+uint64_t projection_scratch_bytes(const PointSource& points, uint64_t num_dimensions,
+                                  uint64_t num_threads) {
+    const uint64_t num_points = points.num_points(), columns = points.num_columns();
+    const uint64_t sketch = sketch_columns(num_dimensions, points.num_dimensions());
+    // The parts, their sum, its eigenvectors with their work space, and the map that they make.
+    const uint64_t grams = uint64_t{kGramParts} + 4;
+    return sizeof(float) *
+               (num_points * (columns + 2 * sketch) + num_threads * uint64_t{kBlock} * sketch) +
+           sizeof(double) * (grams * sketch * sketch + (sketch + 2 * columns) * columns);
 }
 
 MatrixXf project_points(const PointSource& points, uint32_t num_dimensions, uint64_t seed) {

@@ -16,6 +16,11 @@ Eigen::MatrixXf project_points(const PointSource& points, uint32_t num_dimension
 // Columns of the random projection for so many dimensions of so many.
 uint64_t sketch_columns(uint64_t num_dimensions, uint64_t of);
 
+// Memory of project_points(): a plane; the sketch, twice while it is narrowed; its Gram matrix in
+// parts; and on each thread a block of points that is mapped.
+uint64_t projection_scratch_bytes(const PointSource& points, uint64_t num_dimensions,
+                                  uint64_t num_threads);
+
 // Points that are worked on together, here and where they are assigned.
 constexpr size_t kPointsAtOnce = 256;
 

@@ -58,4 +58,10 @@ Eigenpairs top_eigenpairs(const MatrixXd& gram, Index wanted, uint64_t key) {
     return pairs;
 }
 
+uint64_t top_eigenpairs_scratch_bytes(uint64_t n, uint64_t wanted) {
+    const auto iterated = static_cast<uint64_t>(
+        iterated_directions(static_cast<Index>(wanted), static_cast<Index>(n)));
+    return n * std::min(n, 6 * iterated) * sizeof(double);
+}
+
 }  // namespace paim

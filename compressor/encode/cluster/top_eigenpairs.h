@@ -30,4 +30,8 @@ Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns);
 // key  of the random start
 Eigenpairs top_eigenpairs(const Eigen::MatrixXd& gram, Eigen::Index wanted, uint64_t key);
 
+// Memory of top_eigenpairs() in addition to the matrix: of a small one its decomposition, of others
+// the iterated directions and their products.
+uint64_t top_eigenpairs_scratch_bytes(uint64_t n, uint64_t wanted);
+
 }  // namespace paim

@@ -2,84 +2,42 @@
 #include "compressor/encode/memory/memory_plan.h"
 
 #include <algorithm>
-#include <bit>
 
-#include "compressor/encode/noise/component_noise.h"
-#include "compressor/encode/svd/principal_components.h"
+#include "compressor/encode/memory_slack.h"
+#include "compressor/encode/noise/shrinkage.h"
+#include "compressor/encode/svd/projected_blocks.h"
 #include "compressor/encode/svd/tsqr.h"
 #include "paim/base/error.h"
 #include "paim/base/parallel.h"
+#include "paim/format/bake/bake_directory.h"
 
 namespace paim {
-
-namespace {
-
-// P, K below 2^20 and threads below 2^10, so that nothing here overflows.
-struct Need {
-    uint64_t poses, components, threads, in_flight;
-
-    static constexpr uint64_t kDouble = sizeof(double);
-
-    // Rows in double while they are centred, mapped and folded or projected, and as they were read.
-    uint64_t working_bytes() const { return working_bytes(in_flight); }
-    uint64_t working_bytes(uint64_t blocks) const {
-        const uint64_t block = rows_per_block(static_cast<uint32_t>(poses)) * poses * sizeof(float);
-        const auto at_once = static_cast<uint64_t>(kRowsAtOnce);
-        const uint64_t rows = at_once * (2 * poses + 2 * components) * kDouble;
-        return std::min(threads, blocks) * (block + rows);
-    }
-
-    // Those in flight, and those that wait for their neighbours in the tree.
-    uint64_t factors_bytes(uint64_t columns) const {
-        const auto waiting = static_cast<uint64_t>(std::bit_width(kMaxInFlight / in_flight)) - 1;
-        return (in_flight + waiting) * columns * columns * kDouble;
-    }
-
-    // jacobi_svd(): the factor, its rows, the work space, V.
-    uint64_t decomposing_bytes() const { return 4 * poses * poses * kDouble; }
-
-    // measure_component_noise(): a copy of V, the energies of the blocks, and the blocks.
-    uint64_t measuring_bytes(uint64_t bands) const {
-        const uint64_t blocks = std::min<uint64_t>(in_flight, kMaxMeasuredAtOnce);
-        return poses * poses * kDouble + 2 * (blocks + 1) * bands * poses * kDouble +
-               working_bytes(blocks);
-    }
-
-    // V S⁻¹, the correction with its temporaries, and either its factors or blocks that are done.
-    uint64_t output_bytes() const {
-        const uint64_t block =
-            rows_per_block(static_cast<uint32_t>(poses)) * (components + 1) * sizeof(float);
-        const uint64_t done = std::min<uint64_t>(in_flight, kMaxBlocksWaiting) * block;
-        return (poses + 3 * components) * components * kDouble +
-               std::max(factors_bytes(components), done) + working_bytes();
-    }
-};
-
-}  // namespace
 
 std::string memory_text(uint64_t bytes) {
     return bytes >= 10'000'000'000 ? fmt::format("{:.0f} GB", static_cast<double>(bytes) * 1e-9)
                                    : fmt::format("{} MB", bytes / 1'000'000 + 1);
 }
 
+uint64_t scenery_bytes(const Topology& topology, const Albedo& albedo,
+                       const TransferLayout& layout) {
+    return baked_pose_bytes(topology.num_vertices, layout) +
+           topology.triangles.size() * sizeof(Triangle) + albedo.values.size() * sizeof(Vec3f);
+}
+
 EncodeSize bake_size(const BakeReader& bake) {
-    uint64_t scenery_bytes = 0;
-    if (bake.scenery()) {
-        const BakedPose& still = bake.scenery()->pose;
-        scenery_bytes = sizeof(float) * (still.positions.size() + still.normals.size() +
-                                         still.transfer.size() + still.noise.size());
-        scenery_bytes += sizeof(Triangle) * bake.scenery()->topology.triangles.size() +
-                         sizeof(Vec3f) * bake.scenery()->albedo.values.size();
-    }
     const TransferLayout& layout = bake.identity().layout;
-    return {bake.topology().triangles.size(),
-            bake.albedo().values.size(),
-            bake.num_poses(),
-            bake.num_poses(),
-            static_cast<uint64_t>(max_parallelism()),
-            bake.identity().num_vertices,
-            layout.in_bands,
-            scenery_bytes};
+    EncodeSize size;
+    size.num_triangles = bake.topology().triangles.size();
+    size.num_colours = bake.albedo().values.size();
+    size.num_poses = size.num_components = bake.num_poses();
+    size.num_threads = static_cast<uint64_t>(max_parallelism());
+    size.num_vertices = bake.identity().num_vertices;
+    size.bands = layout.in_bands;
+    if (bake.scenery()) {
+        size.scenery_bytes =
+            scenery_bytes(bake.scenery()->topology, bake.scenery()->albedo, layout);
+    }
+    return size;
 }
 
 EncodeSize encode_size(EncodeSize bake, const EncodeOptions& options) {
@@ -96,23 +54,31 @@ EncodeSize encode_size(const BakeReader& bake, const EncodeOptions& options) {
     return encode_size(bake_size(bake), options);
 }
 
+uint64_t mesh_bytes(uint64_t num_triangles, uint64_t num_colours) {
+    return num_triangles * sizeof(Triangle) + num_colours * sizeof(Vec3f);
+}
+
 uint64_t encode_memory_bytes(const EncodeSize& size, uint32_t num_in_flight) {
-    // The mesh is held twice (the bake's and the model's), as are names and checksums of poses; each
-    // part keeps its V and its weights.
-    const uint64_t mesh = 2 * (size.num_triangles + size.num_colours) * 12;
-    const uint64_t names = 512 * size.num_poses;
-    const uint64_t kept = 2 * size.num_poses *
-                          (size.num_poses * sizeof(double) + size.num_components * sizeof(float));
-    // Energy and noise of each vertex and band, measured and as the shrinkage keeps them.
-    const uint64_t vertices = 4 * size.bands * size.num_vertices * sizeof(double);
-    // What stands still is held whole, by the bake and by the model.
-    const uint64_t scenery = 2 * size.scenery_bytes;
-    const Need need{size.num_poses, size.num_components, size.num_threads, num_in_flight};
-    const uint64_t streamed =
-        std::max({need.factors_bytes(size.num_poses) + need.working_bytes(),
-                  need.decomposing_bytes(), need.measuring_bytes(size.bands), need.output_bytes()});
-    // The allocator keeps some of what was freed: a quarter more.
-    return kProgramBytes + (mesh + names + kept + vertices + scenery + streamed) / 4 * 5;
+    // P and K are below 2^20 and threads below 2^10, so that nothing here overflows.
+    const uint64_t poses = size.num_poses, components = size.num_components;
+    // The bake and the model hold the mesh and the scenery; each part keeps its V and its weights.
+    const uint64_t held =
+        2 * mesh_bytes(size.num_triangles, size.num_colours) + 2 * size.scenery_bytes +
+        kPoseNameBytes * poses +
+        2 * (principal_components_bytes(poses) + poses * components * sizeof(float)) +
+        component_noise_bytes(size.num_vertices, size.bands) +
+        Shrinkage::held_bytes(size.num_vertices, size.bands);
+    const auto rows_at_work = [&](uint64_t num_blocks) {
+        return rows_at_work_bytes(poses, components, size.num_threads, num_blocks);
+    };
+    const uint64_t measured_at_once = std::min(num_in_flight, kMaxMeasuredAtOnce);
+    const uint64_t streamed = std::max(
+        {triangular_factor_bytes(poses, num_in_flight) + rows_at_work(num_in_flight),
+         jacobi_svd_bytes(poses),
+         component_noise_scratch_bytes(poses, size.bands, num_in_flight) +
+             rows_at_work(measured_at_once),
+         encoded_blocks_bytes(poses, components, num_in_flight) + rows_at_work(num_in_flight)});
+    return kProgramBytes + with_memory_slack(held + streamed);
 }
 
 uint32_t choose_num_in_flight(const EncodeSize& size, uint64_t limit_bytes,

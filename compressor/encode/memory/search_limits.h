@@ -1,24 +1,29 @@
-// How far the search for a coding of the transfer goes, and so how much memory it takes.
+// How far the search for a coding goes, which decides how much memory it takes.
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace paim {
 
-// Fewer vertices a cluster than this and the bases are as large as what they stand for.
+// With fewer vertices per cluster than this, the bases are as large as the vertices' own values.
 constexpr uint32_t kMinPerCluster = 8;
-// Numbers of clusters that are tried, as far as there are vertices for them.
+// Numbers of clusters that are tried, if there are enough vertices for them.
 constexpr std::array<uint32_t, 6> kClusterCounts{32, 64, 128, 256, 512, 1024};
-// Of one cluster that are kept.
+// Components of one cluster that are kept, at most.
 constexpr uint32_t kMaxSearchedComponents = 32;
-// Of the subspaces that vertices are assigned to, at first; then half or twice as many, if about so
-// many will be kept.
+// Components of the subspaces that vertices are assigned to: at first so many, then half or twice as
+// many, if about that number of components will be kept.
 constexpr uint32_t kFirstAssumedComponents = 8;
 constexpr uint32_t kMaxAssumedComponents = 2 * kFirstAssumedComponents;
-// Clusterings that are kept: of each number of clusters at first and then.
+// Clusterings that are kept: two for each number of clusters, of the first and of the second search.
 constexpr uint32_t kMaxClusterings = 2 * kClusterCounts.size();
+
+// Values that steps are tried on, up to twice as many: few enough that a step is found in a moment,
+// enough that it is the right one.
+constexpr size_t kSampledValues = 2'000'000;
 
 // The most clusters that are tried.
 constexpr uint64_t most_clusters(uint64_t num_vertices) {

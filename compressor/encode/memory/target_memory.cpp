@@ -5,19 +5,21 @@
 
 #include "compressor/encode/cluster/clustered_pca.h"
 #include "compressor/encode/memory/search_limits.h"
+#include "compressor/encode/quantise/quantise.h"
 #include "compressor/encode/svd/tsqr.h"
 #include "paim/base/error.h"
-#include "paim/format/pack/plane_predictor.h"
+#include "paim/format/pack/plane_codec.h"
+#include "paim/metrics/asset_error.h"
 
 namespace paim {
 
 namespace {
 
 constexpr uint64_t kFloat = sizeof(float), kDouble = sizeof(double);
-// Values of a quantised matrix, at most.
+// The largest integers of a quantised matrix.
 constexpr uint64_t kInteger = sizeof(int16_t);
 
-// Points of factors, as dimensions alone.
+// The shape of the points that clusters are made of, without their values.
 class Dimensions : public PointSource {
   public:
     Dimensions(const TargetSize& size)
@@ -34,7 +36,7 @@ class Dimensions : public PointSource {
     uint32_t num_points_, num_planes_, num_columns_;
 };
 
-// V and P below 2^28 and 2^20, planes below 2^10, so that no product of these overflows.
+// V and P are below 2^28 and 2^20, planes below 2^10, so that no product of these overflows.
 struct Need {
     const TargetSize& size;
 
@@ -55,13 +57,13 @@ struct Need {
         return (size.geometry_components + uint64_t{size.transfer_components}) * poses();
     }
 
-    // The mesh in the bake's and in local order, in the model's frame and in a model; each vertex with
-    // its number and those before it that predict it.
+    // The mesh in the order of the bake and of the file, in the problem's shell and in a model. Each
+    // vertex has its number and the vertices that predict it, twice, and its place in the bake.
     uint64_t mesh() const {
         constexpr uint64_t kPredicting = PlanePredictor::kBytesAVertex + sizeof(uint32_t);
-        return 4 * (size.streamed.num_triangles + size.streamed.num_colours) * 12 +
+        return 4 * mesh_bytes(size.streamed.num_triangles, size.streamed.num_colours) +
                vertices() * (2 * kPredicting + sizeof(uint64_t)) + 4 * size.streamed.scenery_bytes +
-               512 * poses();
+               kPoseNameBytes * poses();
     }
 
     // Integers of both parts, twice: the best model and the one that is tried. One column is
@@ -72,38 +74,28 @@ struct Need {
                std::max(vertices(), basis_rows()) * size.num_planes * kFloat;
     }
 
-    // A plane over all poses: bake, noise, decoded and twice while it is decoded, with the blocks of
-    // the meter.
     uint64_t measuring() const {
-        constexpr uint64_t kRows = 256, kBlocks = 64, kClasses = 25;
-        const uint64_t decoded = 3 * vertices() + (size.clusters ? basis_rows() : 0);
-        return (2 * vertices() + decoded) * poses() * kFloat +
-               vertices() * most_components() * kFloat +
-               kBlocks * 3 * (most_components() + 2) * kClasses * kDouble +
-               size.streamed.num_threads * kRows * 6 * poses() * kDouble;
+        return measure_part_bytes(vertices(), poses(), most_components(), basis_rows(),
+                                       size.streamed.num_threads);
     }
 
-    // Floats of everything, to see what error these components leave.
-    uint64_t floor() const {
+    // Floats of everything, to find the error that these components leave.
+    uint64_t best_achievable() const {
         return (geometry_values() + transfer_values() + weights()) * kFloat + measuring();
     }
 
-    // quantised_error(): a thinned copy of the factors, and what least squares need of each plane.
+    // A thinned copy of the factors that steps are tried on, and their least squares.
     uint64_t trying() const {
-        constexpr uint64_t kSampled = 4'000'000;
-        const uint64_t columns = 2 * most_components() + 2;
-        return std::min(kSampled, transfer_values() + geometry_values()) * kFloat +
-               (size.num_planes + uint64_t{4}) * most_components() * columns * kDouble +
-               size.streamed.num_threads * 512 * (columns + 1) * kDouble;
+        return std::min<uint64_t>(2 * kSampledValues, transfer_values() + geometry_values()) *
+                   kFloat +
+               least_squares_bytes(size.num_planes, most_components(), size.streamed.num_threads);
     }
 
-    // Sections as bytes while they are compressed: Zstandard's tables grow with them, up to some size.
+    // Sections while they are compressed, one on each thread.
     uint64_t packing() const {
-        constexpr uint64_t kMaxTables = 92'000'000;
         const uint64_t section =
             std::max(vertices(), basis_rows()) * std::max(3u, size.num_planes) * kInteger;
-        const uint64_t tables = std::min(kMaxTables, 4'000'000 + 17 * section);
-        return size.streamed.num_threads * (tables + 8 * section);
+        return size.streamed.num_threads * encode_planes_scratch_bytes(section);
     }
 
     uint64_t clusters() const {
@@ -117,12 +109,11 @@ struct Need {
         return basis_rows() * size.num_planes * (size.transfer_components + uint64_t{1});
     }
 
-    // All that have been tried stay, for the next target.
+    // All clusterings that were tried stay, for the next target.
     uint64_t kept_clusterings() const {
         if (!size.clusters) return 0;
-        const uint64_t of_vertices = vertices() * (kMaxSearchedComponents + 3) * kFloat;
-        const uint64_t of_clusters = clusters() * (kMaxSearchedComponents + 3) * kDouble;
-        return kMaxClusterings * (of_vertices + of_clusters);
+        return kMaxClusterings *
+               ClusteredPca::held_bytes(vertices(), clusters(), kMaxSearchedComponents);
     }
 
     uint64_t clustering() const {
@@ -140,9 +131,8 @@ struct Need {
     uint64_t held() const { return factors() + mesh() + kept_clusterings(); }
 
     uint64_t searching() const {
-        return std::max(clustering(), basis_values() * kFloat +
-                                          std::max(models() + std::max(trying(), measuring()),
-                                                   models() + packing()));
+        const uint64_t refining = models() + std::max({trying(), measuring(), packing()});
+        return std::max(clustering(), basis_values() * kFloat + refining);
     }
 };
 
@@ -159,7 +149,7 @@ uint64_t target_held_bytes(const TargetSize& size) {
 uint64_t target_memory_bytes(const TargetSize& size) {
     const Need need{size};
     return std::max(reading_bytes(size, 1),
-                    target_held_bytes(size) + std::max(need.floor(), need.searching()));
+                    target_held_bytes(size) + std::max(need.best_achievable(), need.searching()));
 }
 
 void check_target_memory(const TargetSize& size, uint64_t limit_bytes, const std::string& what) {

@@ -48,4 +48,17 @@ ComponentNoise measure_component_noise(const RowSource& transfer, const RowSourc
 
 constexpr uint32_t kMaxMeasuredAtOnce = 8;
 
+// Memory of measure_component_noise() for P poses, in addition to the rows at work, of which
+// kMaxMeasuredAtOnce blocks are: a copy of V, and energy and noise of each block and of all.
+constexpr uint64_t component_noise_scratch_bytes(uint64_t num_poses, uint64_t num_bands,
+                                                 uint32_t num_in_flight) {
+    const uint64_t blocks = num_in_flight < kMaxMeasuredAtOnce ? num_in_flight : kMaxMeasuredAtOnce;
+    return (num_poses + 2 * (blocks + 1) * num_bands) * num_poses * sizeof(double);
+}
+
+// Memory that the result holds for each vertex: energy and noise of every band.
+constexpr uint64_t component_noise_bytes(uint64_t num_vertices, uint64_t num_bands) {
+    return 2 * num_bands * num_vertices * sizeof(double);
+}
+
 }  // namespace paim

@@ -5,13 +5,9 @@
 #include <span>
 
 #include "compressor/encode/noise/component_noise.h"
+#include "compressor/encode/options.h"
 
 namespace paim {
-
-struct ComponentChoice {
-    enum class Kind { automatic, all, number } kind = Kind::automatic;
-    uint32_t number = 0;  // more than there are means all
-};
 
 // Of data without noise: `automatic` keeps the fewest with √(Σ dropped s² / Σ s²) below the error.
 // rank  how many there are

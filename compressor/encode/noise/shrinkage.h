@@ -43,6 +43,11 @@ class Shrinkage {
     // What is expected to be left as error if K components are kept and shrunk.
     EncodedError expected_error(uint32_t num_components) const;
 
+    // Memory that it holds for each vertex: signal and noise of every band.
+    static constexpr uint64_t held_bytes(uint64_t num_vertices, uint64_t num_bands) {
+        return 2 * num_bands * num_vertices * sizeof(double);
+    }
+
   private:
     // Expected squared error of the first components at a vertex in a band.
     double risk(uint32_t band, size_t v, Eigen::Index num_components) const;

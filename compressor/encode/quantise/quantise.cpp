@@ -21,6 +21,9 @@ namespace {
 // Half of what would be rounded to ±1 costs more bits than its error is worth.
 constexpr float kDeadZone = 0.6f;
 
+// Points whose least squares are summed at once: few, so that they stay in the cache.
+constexpr Index kPointsAtOnce = 512;
+
 float plane_step(const Quantiser& quantiser, uint32_t plane) {
     return static_cast<float>(quantiser.step / std::sqrt(quantiser.plane_weight[plane]));
 }
@@ -53,8 +56,6 @@ Normal normal_of_plane(const ScaledFactors& factors, const Quantiser& quantiser,
     const Index kept = std::min(all, static_cast<Index>(quantiser.num_components));
     const float step = plane_step(quantiser, j);
     Normal normal{MatrixXd::Zero(kept, kept), MatrixXd::Zero(kept, 1 + all), 0.0};
-    // Few points at a time, so that they stay in the cache.
-    constexpr Index kPointsAtOnce = 512;
     MatrixXd exact, rounded;
     for (Index first = 0; first < num_points; first += kPointsAtOnce) {
         const Index count = std::min(kPointsAtOnce, num_points - first);
@@ -183,6 +184,15 @@ double quantised_error(const ScaledFactors& factors, const Quantiser& quantiser)
     const double explained = fit(normal).cwiseProduct(normal.cross).sum();
     const double in_steps = std::max(0.0, normal.energy - explained);
     return quantiser.step * quantiser.step * factors.num_poses() * in_steps;
+}
+
+uint64_t least_squares_bytes(uint64_t num_planes, uint64_t num_components, uint64_t num_threads) {
+    const uint64_t columns = 2 * num_components + 2;
+    // The sum, its copy with the ridge, the decomposition and the solution.
+    constexpr uint64_t kSolving = 4;
+    return ((num_planes + kSolving) * num_components * columns +
+            num_threads * uint64_t{kPointsAtOnce} * (columns + 1)) *
+           sizeof(double);
 }
 
 double smallest_step(const ScaledFactors& factors, const Quantiser& quantiser,

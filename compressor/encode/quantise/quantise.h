@@ -31,6 +31,10 @@ LowRank quantise(const ScaledFactors& factors, const Quantiser& quantiser);
 // Weighted squared error of such a matrix over all rows and poses, without the rounding of weights.
 double quantised_error(const ScaledFactors& factors, const Quantiser& quantiser);
 
+// Memory of the least squares of K components in quantise() and quantised_error(): the normal
+// equations of each plane and of all, and on each thread the points at work.
+uint64_t least_squares_bytes(uint64_t num_planes, uint64_t num_components, uint64_t num_threads);
+
 // The largest step with which the error is at most `most`; 0 if there is none down to 2⁻¹⁵ of the
 // largest value. quantiser.step is ignored.
 double largest_step(const ScaledFactors& factors, Quantiser quantiser, double most);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compressor/encode/svd/projected_blocks.h"
 #include "paim/base/check.h"
 
 namespace paim {

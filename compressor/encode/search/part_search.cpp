@@ -5,6 +5,7 @@
 #include <array>
 #include <set>
 
+#include "compressor/encode/memory/search_limits.h"
 #include "compressor/encode/search/matrix_cost.h"
 
 namespace paim {
@@ -29,8 +30,6 @@ std::vector<double> tail_errors(const ScaledFactors& factors,
 std::vector<PartChoice> part_choices(const ScaledFactors& factors,
                                      const std::vector<double>& plane_weight, double most_error,
                                      uint32_t most_components, const PlanePredictor& predictor) {
-    // Few enough values that a step is found in a moment, enough that it is the right one.
-    constexpr size_t kSampledValues = 2'000'000;
     ScaledFactors few = sample(factors, kSampledValues);
     const Quantiser all{1.0, factors.num_components(), plane_weight};
     if (smallest_step(few, all, Precision::i16) == 0.0) few = factors;  // it missed what there is

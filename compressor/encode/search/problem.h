@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "compressor/encode/encode.h"
+#include "compressor/encode/options.h"
 #include "compressor/encode/quantise/scaled_factors.h"
-#include "compressor/encode/search/rate_target.h"
 #include "paim/format/pack/plane_predictor.h"
 #include "paim/mesh/cache_order.h"
 #include "paim/metrics/asset_error.h"

@@ -4,8 +4,7 @@
 #include <filesystem>
 #include <functional>
 
-#include "compressor/encode/encode.h"
-#include "compressor/encode/search/rate_target.h"
+#include "compressor/encode/options.h"
 #include "paim/metrics/asset_error.h"
 
 namespace paim {

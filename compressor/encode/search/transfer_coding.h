@@ -8,7 +8,7 @@
 
 #include "compressor/encode/quantise/quantise.h"
 #include "compressor/encode/search/problem.h"
-#include "compressor/encode/search/rate_target.h"
+#include "compressor/encode/options.h"
 
 namespace paim {
 

@@ -8,6 +8,8 @@
 
 #include <Eigen/Core>
 
+#include <cstdint>
+
 namespace paim {
 
 struct SmallSvd {
@@ -19,5 +21,10 @@ struct SmallSvd {
 // The signs of v's columns are chosen so that the entry of largest magnitude is positive, so that
 // the answer is unique where singular values differ. O(n m²) a sweep.
 SmallSvd jacobi_svd(const Eigen::MatrixXd& matrix);
+
+// Memory of jacobi_svd() for n columns: the matrix, its rows, their rotations and V.
+constexpr uint64_t jacobi_svd_bytes(uint64_t num_columns) {
+    return 4 * num_columns * num_columns * sizeof(double);
+}
 
 }  // namespace paim

@@ -31,6 +31,12 @@ class LeftVectors {
                                       const Eigen::MatrixXd& factors)>;
     void project(const Eigen::MatrixXf& block, const OnRows& on_rows) const;
 
+    // Memory of P columns and K components while the correction is computed, in addition to its
+    // triangular factors: V S⁻¹, and the correction with its temporaries.
+    static constexpr uint64_t scratch_bytes(uint64_t num_columns, uint64_t num_components) {
+        return (num_columns + 3 * num_components) * num_components * sizeof(double);
+    }
+
   private:
     Eigen::MatrixXd projection_;  // [P][K] V S⁻¹, times √rows for unit RMS
     Eigen::MatrixXd correction_;  // [K][K] upper triangular, or empty

@@ -3,8 +3,6 @@
 //           Kry 2012
 #pragma once
 
-#include <functional>
-#include <span>
 #include <vector>
 
 #include "compressor/encode/data/row_source.h"
@@ -31,25 +29,14 @@ struct PrincipalComponents {
 PrincipalComponents principal_components(const RowSource& rows,
                                          uint32_t num_in_flight = kMaxInFlight);
 
+// Memory that the result holds for P columns: V.
+constexpr uint64_t principal_components_bytes(uint64_t num_columns) {
+    return num_columns * num_columns * sizeof(double);
+}
+
 // Weights of the first num_components components as the .paim holds them: W_kp = s_k V_pk / √rows,
 // so that components have unit RMS. returns [K][P]
 std::vector<float> component_weights(const PrincipalComponents& components, uint32_t num_components,
                                      uint64_t num_rows);
-
-// Blocks that for_each_encoded_block() works on before it hands them on in order; at most that
-// many.
-constexpr uint32_t kMaxBlocksWaiting = 16;
-
-// What a block of rows becomes: its mean and its rows of the first K components (unit RMS).
-struct EncodedRows {
-    std::vector<float> mean;                     // [rows of the block]
-    std::vector<std::vector<float>> components;  // [K][rows of the block]
-};
-
-// Calls on_block for consecutive blocks of rows, in order, from one thread.
-void for_each_encoded_block(const RowSource& rows, const PrincipalComponents& components,
-                            uint32_t num_components,
-                            const std::function<void(EncodedRows&)>& on_block,
-                            uint32_t num_in_flight = kMaxInFlight);
 
 }  // namespace paim

@@ -68,6 +68,20 @@ uint64_t rows_per_block(uint32_t num_columns) {
     return std::max(at_once, kValues / std::max(num_columns, 1u) / at_once * at_once);
 }
 
+uint64_t rows_at_work_bytes(uint64_t num_columns, uint64_t num_mapped, uint64_t num_threads,
+                            uint64_t num_blocks) {
+    const uint64_t block =
+        rows_per_block(static_cast<uint32_t>(num_columns)) * num_columns * sizeof(float);
+    const uint64_t rows =
+        static_cast<uint64_t>(kRowsAtOnce) * 2 * (num_columns + num_mapped) * sizeof(double);
+    return std::min(num_threads, num_blocks) * (block + rows);
+}
+
+uint64_t triangular_factor_bytes(uint64_t num_columns, uint32_t num_in_flight) {
+    const auto waiting = static_cast<uint64_t>(std::bit_width(kMaxInFlight / num_in_flight)) - 1;
+    return (num_in_flight + waiting) * num_columns * num_columns * sizeof(double);
+}
+
 void centre_rows(const Eigen::Ref<const Eigen::MatrixXf>& block, MatrixXd& centred,
                  Eigen::VectorXd& mean) {
     centred.resize(block.rows(), block.cols());

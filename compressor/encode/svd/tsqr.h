@@ -30,6 +30,16 @@ Eigen::MatrixXd triangular_factor(const RowSource& rows, Eigen::Index num_column
 Eigen::MatrixXd centred_triangular_factor(const RowSource& rows,
                                           uint32_t num_in_flight = kMaxInFlight);
 
+// Memory of the rows that are at work while a data matrix of num_columns columns is read, in bytes:
+// on each of min(num_threads, num_blocks) threads a block as it is read, and kRowsAtOnce of its rows
+// in double, centred and mapped to num_mapped columns, each with as much again for products.
+uint64_t rows_at_work_bytes(uint64_t num_columns, uint64_t num_mapped, uint64_t num_threads,
+                            uint64_t num_blocks);
+
+// Memory of triangular_factor() in addition to the rows at work: the [n][n] factors in flight and
+// those that wait for their neighbours in the tree.
+uint64_t triangular_factor_bytes(uint64_t num_columns, uint32_t num_in_flight);
+
 // Rows that are read together for n columns: many, as each column may be a file to open.
 uint64_t rows_per_block(uint32_t num_columns);
 

@@ -60,6 +60,11 @@ struct BakedPose {
     PoseStatistics statistics;
 };
 
+// Memory of the arrays of a baked pose.
+inline uint64_t baked_pose_bytes(uint64_t num_vertices, const TransferLayout& layout) {
+    return (6 + 2 * uint64_t{layout.num_planes()}) * num_vertices * sizeof(float);
+}
+
 // The number of the scenery where poses have theirs: in random streams and in metadata.
 constexpr uint32_t kSceneryPose = std::numeric_limits<uint32_t>::max();
 

@@ -19,6 +19,12 @@ namespace paim {
 std::vector<uint8_t> encode_planes(const StoredValues& values, size_t num_planes,
                                    const PlanePredictor& predictor, Effort effort = Effort::small);
 
+// Memory of encode_planes() for integers of so many bytes: what the ways to predict and pack them
+// make, as bytes, and their compression.
+constexpr uint64_t encode_planes_scratch_bytes(uint64_t num_bytes) {
+    return 8 * num_bytes + zstd_compress_scratch_bytes(num_bytes);
+}
+
 // Planes in a file, and where they go.
 template <typename Integer>
 struct StoredPlanes {

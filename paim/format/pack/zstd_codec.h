@@ -22,6 +22,13 @@ std::vector<uint8_t> zstd_compress(std::span<const uint8_t> bytes);
 std::vector<uint8_t> zstd_compress_noise(std::span<const uint8_t> bytes,
                                          std::span<const size_t> block_ends, Effort effort);
 
+// Memory of a compression of so many bytes: tables, which grow with the bytes up to some size.
+constexpr uint64_t zstd_compress_scratch_bytes(uint64_t num_bytes) {
+    constexpr uint64_t kMaxTables = 92'000'000;
+    const uint64_t tables = 4'000'000 + 17 * num_bytes;
+    return tables < kMaxTables ? tables : kMaxTables;
+}
+
 // The size that the frame says its contents have; nothing if this is no frame or does not say.
 std::optional<uint64_t> zstd_content_size(std::span<const uint8_t> frame);
 

@@ -5,6 +5,7 @@
 #include "analysis/study/hard_matrices.h"
 #include "analysis/study/reference_svd.h"
 #include "compressor/encode/svd/left_singular_vectors.h"
+#include "compressor/encode/svd/projected_blocks.h"
 #include "paim/metrics/singular_value_error.h"
 
 namespace paim {

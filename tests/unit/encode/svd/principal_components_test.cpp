@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "compressor/encode/svd/left_singular_vectors.h"
+#include "compressor/encode/svd/projected_blocks.h"
 #include "compressor/encode/svd/tsqr.h"
 #include "paim/base/parallel.h"
 #include "paim/base/seed.h"

@@ -1,5 +1,5 @@
 // What the GPU draws against the decoder and shade() on the CPU, ray cast.
-#include "player/render/model_renderer.h"
+#include "player/render/mesh_renderer.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include "player/gl/headless_context.h"
 #include "player/gl/target.h"
 #include "tests/player/ray_cast.h"
-#include "tests/player/test_model.h"
+#include "tests/player/test_asset.h"
 
 namespace paim::player {
 namespace {
@@ -20,16 +20,16 @@ constexpr int kWidth = 120;
 constexpr int kHeight = 80;
 const Vec3f kBackground(0.25f, 0.5f, 0.125f);
 
-Frame make_frame(const Asset& model, double time, const DecodeLimits& limits = {}) {
+Frame make_frame(const Asset& asset, double time, const DecodeLimits& limits = {}) {
     Frame frame;
     frame.time = time;
     frame.limits = limits;
-    frame.bounds = pose_bounds(model, time, limits.geometry_components);
-    frame.camera = frame_bounds(sequence_bounds(model), float{kWidth} / kHeight);
+    frame.bounds = pose_bounds(asset, time, limits.geometry_components);
+    frame.camera = frame_bounds(sequence_bounds(asset), float{kWidth} / kHeight);
     return frame;
 }
 
-Image draw(ModelRenderer& renderer, const Frame& frame, const LightCoefficients& light) {
+Image draw(MeshRenderer& renderer, const Frame& frame, const LightCoefficients& light) {
     const gl::Target target(kWidth, kHeight);
     target.bind();
     glClearColor(kBackground[0], kBackground[1], kBackground[2], 1.0f);
@@ -40,11 +40,12 @@ Image draw(ModelRenderer& renderer, const Frame& frame, const LightCoefficients&
     return target.read();
 }
 
-Image reference(const Asset& model, const Frame& frame, const LightCoefficients& light) {
+Image reference(const Asset& asset, const Frame& frame, const LightCoefficients& light) {
     DecodedPose pose;
-    make_decoder(model)->decode(frame.time, frame.limits, pose);
-    return ray_cast(model.moving().topology, from_planes(pose.positions),
-                    vertex_radiance(model, frame.time, frame.limits, light), frame.camera, kWidth,
+    const CodedMesh& mesh = asset.moving();
+    MeshDecoder(mesh).decode(frame.time, frame.limits, pose);
+    return ray_cast(mesh.topology, from_planes(pose.positions),
+                    vertex_radiance(mesh, frame.time, frame.limits, light), frame.camera, kWidth,
                     kHeight, kBackground);
 }
 
@@ -58,36 +59,36 @@ void expect_equal(const Image& expected, const Image& image) {
     EXPECT_LE(difference.fraction_off, 0.005);
 }
 
-class ModelRendererTest : public testing::TestWithParam<gl::Api> {
+class MeshRendererTest : public testing::TestWithParam<gl::Api> {
   protected:
-    ModelRendererTest() : context_(gl::make_headless_context(GetParam())) {
+    MeshRendererTest() : context_(gl::make_headless_context(GetParam())) {
         gl::report_driver_messages();
     }
     std::unique_ptr<gl::Context> context_;
 };
 
-INSTANTIATE_TEST_SUITE_P(Apis, ModelRendererTest, testing::Values(gl::Api::desktop, gl::Api::es),
+INSTANTIATE_TEST_SUITE_P(Apis, MeshRendererTest, testing::Values(gl::Api::desktop, gl::Api::es),
                          [](const auto& api) {
                              return api.param == gl::Api::desktop ? "Desktop" : "Es";
                          });
 
-TEST_P(ModelRendererTest, DrawsEveryKindOfModel) {
+TEST_P(MeshRendererTest, DrawsEveryKindOfMesh) {
     // Bands: 1, 9, 16, 25 and 49 coefficients, of which only 16 is a multiple of a texel's four.
     for (const uint32_t bands : {1u, 3u, 4u, 5u, 7u}) {
         for (const uint32_t channels : {1u, 3u}) {
             for (const Precision precision : {Precision::f32, Precision::f16}) {
-                TestModelOptions options;
+                TestAssetOptions options;
                 options.bands = bands;
                 options.channels = channels;
                 options.precision = precision;
                 options.albedo_per_vertex = channels == 3;
-                const Asset model = make_test_model(options);
+                const Asset asset = make_test_asset(options);
                 const LightCoefficients light = make_test_light(static_cast<int>(bands));
-                ModelRenderer renderer(model, {});
+                MeshRenderer renderer(asset.moving(), {});
                 SCOPED_TRACE(fmt::format("{} bands, {} channels, precision {}", bands, channels,
                                          static_cast<int>(precision)));
-                const Frame frame = make_frame(model, 1.0);
-                expect_equal(reference(model, frame, light), draw(renderer, frame, light));
+                const Frame frame = make_frame(asset, 1.0);
+                expect_equal(reference(asset, frame, light), draw(renderer, frame, light));
             }
         }
     }
@@ -96,7 +97,7 @@ TEST_P(ModelRendererTest, DrawsEveryKindOfModel) {
 // Every way that values are stored.
 struct Variant {
     const char* name;
-    TestModelOptions options;
+    TestAssetOptions options;
 };
 
 std::vector<Variant> make_variants() {
@@ -107,7 +108,7 @@ std::vector<Variant> make_variants() {
                              std::vector<Precision> components, uint32_t num_clusters = 0,
                              uint32_t cluster_components = 0,
                              std::vector<Precision> coefficients = {}) {
-            TestModelOptions options;
+            TestAssetOptions options;
             options.num_rings = 5;
             options.channels = channels;
             options.albedo_per_vertex = channels == 3;
@@ -138,23 +139,23 @@ std::vector<Variant> make_variants() {
     return variants;
 }
 
-TEST_P(ModelRendererTest, DrawsEveryWayThatValuesAreStored) {
+TEST_P(MeshRendererTest, DrawsEveryWayThatValuesAreStored) {
     for (const auto& [name, options] : make_variants()) {
         SCOPED_TRACE(fmt::format("{}, {} channels", name, options.channels));
-        const Asset model = make_test_model(options);
+        const Asset asset = make_test_asset(options);
         const LightCoefficients light = make_test_light(5);
-        ModelRenderer renderer(model, {});
+        MeshRenderer renderer(asset.moving(), {});
         for (const DecodeLimits& limits : {DecodeLimits{}, DecodeLimits{1, 2, 3, 2},
                                            DecodeLimits{2, 4, 5, 5}, DecodeLimits{0, 0, 2, 0}}) {
-            const Frame frame = make_frame(model, 2.3, limits);
-            expect_equal(reference(model, frame, light), draw(renderer, frame, light));
+            const Frame frame = make_frame(asset, 2.3, limits);
+            expect_equal(reference(asset, frame, light), draw(renderer, frame, light));
         }
         const DecodeLimits fewer{2, 3, 3, 3};
-        ModelRenderer limited(model, fewer);
-        const Frame frame = make_frame(model, 0.4, fewer);
+        MeshRenderer limited(asset.moving(), fewer);
+        const Frame frame = make_frame(asset, 0.4, fewer);
         Frame more = frame;  // but it was not uploaded
         more.limits = {};
-        const Image expected = reference(model, frame, light);
+        const Image expected = reference(asset, frame, light);
         expect_equal(expected, draw(limited, frame, light));
         expect_equal(expected, draw(limited, more, light));
     }
@@ -162,31 +163,31 @@ TEST_P(ModelRendererTest, DrawsEveryWayThatValuesAreStored) {
 
 // A frame at random is the frame in sequence, bit for bit: nothing is left of other poses, lights
 // and limits.
-TEST_P(ModelRendererTest, DrawsTheSameBitsInAnyOrderOfFrames) {
+TEST_P(MeshRendererTest, DrawsTheSameBitsInAnyOrderOfFrames) {
     for (const auto& [name, options] : make_variants()) {
         if (options.channels == 1) continue;  // the others draw all that these do, three times
         SCOPED_TRACE(name);
-        const Asset model = make_test_model(options);
+        const Asset asset = make_test_asset(options);
         const LightCoefficients light = make_test_light(5);
-        ModelRenderer sequence(model, {}), random(model, {});
+        MeshRenderer sequence(asset.moving(), {}), random(asset.moving(), {});
         std::vector<Image> images;
         for (const double time : {0.0, 1.0, 1.5, 2.0, 5.0}) {
-            images.push_back(draw(sequence, make_frame(model, time), light));
+            images.push_back(draw(sequence, make_frame(asset, time), light));
         }
-        draw(random, make_frame(model, 3.0, {1, 1, 2, 1}), make_test_light(2));
-        const Frame frame = make_frame(model, 1.5);
+        draw(random, make_frame(asset, 3.0, {1, 1, 2, 1}), make_test_light(2));
+        const Frame frame = make_frame(asset, 1.5);
         EXPECT_EQ(draw(random, frame, light).pixels, images[2].pixels);
-        draw(random, make_frame(model, 5.0), light);
+        draw(random, make_frame(asset, 5.0), light);
         EXPECT_EQ(draw(random, frame, light).pixels, images[2].pixels);
         EXPECT_NE(images[1].pixels, images[2].pixels);
     }
 }
 
 // Texels of four values: 8 bytes of i16 or f16, 4 of i8, 16 of f32. Each texture has one at least.
-TEST_P(ModelRendererTest, UploadsIntegersAsTheyAre) {
+TEST_P(MeshRendererTest, UploadsIntegersAsTheyAre) {
     using enum Precision;
-    TestModelOptions options;  // 5 bands: 7 texels a vertex; 3 + 5 components
-    const uint64_t num_vertices = make_test_model(options).topology.num_vertices;
+    TestAssetOptions options;  // 5 bands: 7 texels a vertex; 3 + 5 components
+    const uint64_t num_vertices = make_test_asset(options).moving().topology.num_vertices;
     const uint64_t light = 16 * 3 * 7, albedo = 16;
     const auto bytes = [&](uint64_t geometry_mean, uint64_t geometry_wide, uint64_t geometry_narrow,
                            uint64_t transfer) {
@@ -197,121 +198,123 @@ TEST_P(ModelRendererTest, UploadsIntegersAsTheyAre) {
                at_least(4, geometry_narrow) + 4 * 3 + albedo + transfer;
     };
     options.precision = i16;
-    EXPECT_EQ(ModelRenderer(make_test_model(options), {}).texture_bytes(),
+    EXPECT_EQ(MeshRenderer(make_test_asset(options).moving(), {}).texture_bytes(),
               bytes(8, 3, 0, light + 4 * 5 + 8 * 7 * (1 + 5) * num_vertices + 4));
     options.component_precisions = {i16, i8};
-    EXPECT_EQ(ModelRenderer(make_test_model(options), {}).texture_bytes(),
+    EXPECT_EQ(MeshRenderer(make_test_asset(options).moving(), {}).texture_bytes(),
               bytes(8, 1, 2, light + 4 * 5 + (8 * 7 * 2 + 4 * 7 * 4) * num_vertices));
     options.precision = i8;
     options.component_precisions = {};
-    EXPECT_EQ(ModelRenderer(make_test_model(options), {}).texture_bytes(),
+    EXPECT_EQ(MeshRenderer(make_test_asset(options).moving(), {}).texture_bytes(),
               bytes(4, 0, 3, light + 4 * 5 + 8 + 4 * 7 * (1 + 5) * num_vertices));
     // Clusters: an index, coefficients of 6 components in 2 texels, light products of a mean and
     // 2 texels for each colour. No plane of transfer.
     options.num_clusters = 9;
     options.cluster_components = 6;
     options.coefficient_precisions = {i16, i8};
-    EXPECT_EQ(ModelRenderer(make_test_model(options), {}).texture_bytes(),
+    EXPECT_EQ(MeshRenderer(make_test_asset(options).moving(), {}).texture_bytes(),
               bytes(4, 0, 3, (2 + 8 + 4) * num_vertices + 16 * 9 * (1 + 2 * 3)));
 }
 
-TEST_P(ModelRendererTest, DrawsFractionalPoses) {
-    const Asset model = make_test_model({});
+TEST_P(MeshRendererTest, DrawsFractionalPoses) {
+    const Asset asset = make_test_asset({});
     const LightCoefficients light = make_test_light(5);
-    ModelRenderer renderer(model, {});
+    MeshRenderer renderer(asset.moving(), {});
     for (const double time : {0.0, 0.25, 1.5, 2.999, 3.0, 3.9}) {
         SCOPED_TRACE(time);
-        const Frame frame = make_frame(model, time);
-        expect_equal(reference(model, frame, light), draw(renderer, frame, light));
+        const Frame frame = make_frame(asset, time);
+        expect_equal(reference(asset, frame, light), draw(renderer, frame, light));
     }
 }
 
-TEST_P(ModelRendererTest, HonoursLimitsOfTheFrame) {
+TEST_P(MeshRendererTest, HonoursLimitsOfTheFrame) {
     for (const uint32_t channels : {1u, 3u}) {
-        TestModelOptions options;
+        TestAssetOptions options;
         options.channels = channels;
-        const Asset model = make_test_model(options);
+        const Asset asset = make_test_asset(options);
         const LightCoefficients light = make_test_light(5);
-        ModelRenderer renderer(model, {});
+        MeshRenderer renderer(asset.moving(), {});
         for (const DecodeLimits& limits :
              {DecodeLimits{0, 0, 5}, DecodeLimits{1, 5, 5}, DecodeLimits{3, 2, 5},
               DecodeLimits{3, 5, 1}, DecodeLimits{3, 5, 3}, DecodeLimits{100, 100, 100}}) {
             SCOPED_TRACE(fmt::format("{} channels, {} {} {}", channels, limits.geometry_components,
                                      limits.transfer_components, limits.bands));
-            const Frame frame = make_frame(model, 2.3, limits);
-            expect_equal(reference(model, frame, light), draw(renderer, frame, light));
+            const Frame frame = make_frame(asset, 2.3, limits);
+            expect_equal(reference(asset, frame, light), draw(renderer, frame, light));
         }
     }
 }
 
-TEST_P(ModelRendererTest, UploadsNoMoreThanAsked) {
-    TestModelOptions options;
+TEST_P(MeshRendererTest, UploadsNoMoreThanAsked) {
+    TestAssetOptions options;
     options.channels = 3;
-    const Asset model = make_test_model(options);
+    const Asset asset = make_test_asset(options);
     const LightCoefficients light = make_test_light(5);
     const DecodeLimits limits{2, 3, 3};
-    ModelRenderer renderer(model, limits);
+    MeshRenderer renderer(asset.moving(), limits);
     EXPECT_EQ(renderer.plan().geometry_components, 2u);
     EXPECT_EQ(renderer.plan().transfer_components, 3u);
     EXPECT_EQ(renderer.plan().layout.in_bands, 3u);
-    const Frame frame = make_frame(model, 0.4, limits);
+    const Frame frame = make_frame(asset, 0.4, limits);
     // What was not uploaded cannot be drawn, whatever the frame's limits.
     Frame more = frame;
     more.limits = {};
-    const Image expected = reference(model, frame, light);
+    const Image expected = reference(asset, frame, light);
     expect_equal(expected, draw(renderer, frame, light));
     expect_equal(expected, draw(renderer, more, light));
 }
 
-TEST_P(ModelRendererTest, LightWithFewerBandsIsDarkBeyondThem) {
-    const Asset model = make_test_model({});
+TEST_P(MeshRendererTest, LightWithFewerBandsIsDarkBeyondThem) {
+    const Asset asset = make_test_asset({});
     const LightCoefficients light = make_test_light(2);
-    ModelRenderer renderer(model, {});
-    const Frame frame = make_frame(model, 1.0);
-    expect_equal(reference(model, frame, light), draw(renderer, frame, light));
+    MeshRenderer renderer(asset.moving(), {});
+    const Frame frame = make_frame(asset, 1.0);
+    expect_equal(reference(asset, frame, light), draw(renderer, frame, light));
 }
 
 // More components than a row of the weights' texture has texels, and components that wrap from row
 // to row of theirs.
-TEST_P(ModelRendererTest, DrawsThousandsOfComponents) {
-    TestModelOptions options;
+TEST_P(MeshRendererTest, DrawsThousandsOfComponents) {
+    TestAssetOptions options;
     options.num_rings = 3;
     options.bands = 2;
     options.num_poses = 2;
     options.geometry_components = 3000;
     options.transfer_components = 2500;
-    Asset model = make_test_model(options);
-    for (float& weight : model.moving().positions.weights) weight *= 0.02f;
-    for (float& weight : model.moving().transfer->matrix.weights) weight *= 0.02f;
+    Asset asset = make_test_asset(options);
+    CodedMesh& mesh = asset.moving();
+    for (float& weight : mesh.positions.weights) weight *= 0.02f;
+    for (float& weight : mesh.transfer->matrix.weights) weight *= 0.02f;
     const LightCoefficients light = make_test_light(2);
-    ModelRenderer renderer(model, {});
-    const Frame frame = make_frame(model, 0.7);
-    expect_equal(reference(model, frame, light), draw(renderer, frame, light));
+    MeshRenderer renderer(asset.moving(), {});
+    const Frame frame = make_frame(asset, 0.7);
+    expect_equal(reference(asset, frame, light), draw(renderer, frame, light));
 }
 
-TEST_P(ModelRendererTest, DrawsSixtyFourBands) {
-    TestModelOptions options;
+TEST_P(MeshRendererTest, DrawsSixtyFourBands) {
+    TestAssetOptions options;
     options.num_rings = 4;
     options.bands = 64;
     options.transfer_components = 2;
-    const Asset model = make_test_model(options);
+    const Asset asset = make_test_asset(options);
     const LightCoefficients light = make_test_light(64);
-    ModelRenderer renderer(model, {});
-    const Frame frame = make_frame(model, 0.7);
-    expect_equal(reference(model, frame, light), draw(renderer, frame, light));
+    MeshRenderer renderer(asset.moving(), {});
+    const Frame frame = make_frame(asset, 0.7);
+    expect_equal(reference(asset, frame, light), draw(renderer, frame, light));
 }
 
-TEST_P(ModelRendererTest, DrawsNothingOfAnEmptyModel) {
-    TestModelOptions options;
-    Asset model = make_test_model(options);
-    model.moving().topology = {};
-    for (LowRank* matrix : {&model.moving().positions, &model.moving().transfer->matrix}) {
+TEST_P(MeshRendererTest, DrawsNothingOfAnEmptyMesh) {
+    TestAssetOptions options;
+    Asset asset = make_test_asset(options);
+    CodedMesh& mesh = asset.moving();
+    mesh.topology = {};
+    for (LowRank* matrix : {&mesh.positions, &mesh.transfer->matrix}) {
         matrix->num_points = 0;
         matrix->mean = {};
         matrix->components.assign(matrix->num_components, {});
     }
-    ModelRenderer renderer(model, {});
-    const Image image = draw(renderer, make_frame(model, 0.0), make_test_light(5));
+    MeshRenderer renderer(asset.moving(), {});
+    const Image image = draw(renderer, make_frame(asset, 0.0), make_test_light(5));
     for (const Vec3f& pixel : image.pixels) ASSERT_EQ(pixel, kBackground);
 }
 

@@ -1,5 +1,5 @@
 // A bending sphere.
-#include "tests/player/test_model.h"
+#include "tests/player/test_asset.h"
 
 #include <Eigen/Core>
 
@@ -8,7 +8,9 @@
 #include <utility>
 
 #include "paim/base/seed.h"
+#include "paim/codec/cpca/cpca_transfer.h"
 #include "paim/codec/mesh_decoder.h"
+#include "paim/codec/svd/svd_transfer.h"
 #include "paim/mesh/planes.h"
 #include "paim/shade/shade.h"
 
@@ -108,9 +110,8 @@ std::vector<float> waves(const std::vector<Vec3f>& positions, uint32_t num_plane
 // mean, components  [planes][points], components of about 1
 // weight_scale      of what components add to the mean
 LowRank make_matrix(const std::vector<float>& mean,
-                          const std::vector<std::vector<float>>& components, uint32_t num_planes,
-                          double weight_scale, const TestModelOptions& options,
-                          RandomStream& random) {
+                    const std::vector<std::vector<float>>& components, uint32_t num_planes,
+                    double weight_scale, const TestAssetOptions& options, RandomStream& random) {
     LowRank matrix;
     matrix.num_planes = num_planes;
     matrix.num_points = static_cast<uint32_t>(mean.size() / num_planes);
@@ -147,7 +148,7 @@ LowRank make_matrix(const std::vector<float>& mean,
     return matrix;
 }
 
-LowRank make_geometry(const std::vector<Vec3f>& positions, const TestModelOptions& options) {
+LowRank make_geometry(const std::vector<Vec3f>& positions, const TestAssetOptions& options) {
     RandomStream random(stream_key(1, 3, options.geometry_components));
     std::vector<std::vector<float>> components;
     for (uint32_t k = 0; k < options.geometry_components; ++k) {
@@ -157,7 +158,7 @@ LowRank make_geometry(const std::vector<Vec3f>& positions, const TestModelOption
 }
 
 LowRank make_transfer(const std::vector<Vec3f>& positions, const TransferLayout& layout,
-                            const TestModelOptions& options) {
+                      const TestAssetOptions& options) {
     RandomStream random(stream_key(2, layout.num_planes(), options.transfer_components));
     std::vector<float> mean = waves(positions, layout.num_planes(), 0.3f, random);
     // The constant coefficient of each channel keeps radiance away from zero.
@@ -172,11 +173,11 @@ LowRank make_transfer(const std::vector<Vec3f>& positions, const TransferLayout&
     return make_matrix(mean, components, layout.num_planes(), 0.3, options, random);
 }
 
-void make_clusters(const std::vector<Vec3f>& positions, const TestModelOptions& options,
-                   Asset& model) {
+CpcaTransfer make_clusters(const std::vector<Vec3f>& positions, const TransferLayout& layout,
+                           const TestAssetOptions& options) {
     RandomStream random(stream_key(5, options.num_clusters, options.cluster_components));
     const auto number = [&] { return static_cast<float>(2.0 * random.uniform() - 1.0); };
-    VertexClusters& clusters = model.clusters;
+    VertexClusters clusters;
     clusters.num_clusters = options.num_clusters;
     clusters.num_components = options.cluster_components;
     for (size_t v = 0; v < positions.size(); ++v) {
@@ -188,7 +189,7 @@ void make_clusters(const std::vector<Vec3f>& positions, const TestModelOptions& 
         clusters.coefficients.push_back(store(waves(positions, 1, 1.0f, random), precision));
         row_scales.push_back(0.3f / scale_of(precision));
     }
-    const uint32_t num_planes = model.moving().layout.num_planes();
+    const uint32_t num_planes = layout.num_planes();
     std::vector<float> mean(size_t{num_planes} * clusters.num_rows());
     std::generate(mean.begin(), mean.end(), number);
     for (uint32_t r = 0; r < clusters.num_rows(); ++r) {
@@ -197,7 +198,7 @@ void make_clusters(const std::vector<Vec3f>& positions, const TestModelOptions& 
         if (row != 0) continue;
         for (uint32_t plane = 0; plane < num_planes; ++plane) {
             float& value = mean[size_t{plane} * clusters.num_rows() + r];
-            value = plane % model.moving().layout.num_coefficients() == 0 ? 2.0f : 0.3f * value;
+            value = plane % layout.num_coefficients() == 0 ? 2.0f : 0.3f * value;
         }
     }
     std::vector<std::vector<float>> components(options.transfer_components);
@@ -205,41 +206,55 @@ void make_clusters(const std::vector<Vec3f>& positions, const TestModelOptions& 
         component.resize(mean.size());
         std::generate(component.begin(), component.end(), number);
     }
-    model.moving().transfer->matrix = make_matrix(mean, components, num_planes, 0.3, options, random);
+    return {make_matrix(mean, components, num_planes, 0.3, options, random), std::move(clusters)};
 }
 
 }  // namespace
 
-Asset make_test_model(const TestModelOptions& options) {
+Asset make_test_asset(const TestAssetOptions& options) {
     const uint32_t num_segments = 2 * options.num_rings;
     const std::vector<Vec3f> positions = sphere_positions(options.num_rings, num_segments);
-    Asset model;
-    model.name = "test";
-    model.moving().topology = sphere_topology(options.num_rings, num_segments);
-    model.moving().layout.in_bands = options.bands;
-    model.moving().layout.channels = options.channels;
-    model.moving().positions = make_geometry(positions, options);
+    Asset asset;
+    asset.name = "test";
+    CodedMesh& mesh = asset.moving();
+    mesh.topology = sphere_topology(options.num_rings, num_segments);
+    mesh.layout.in_bands = options.bands;
+    mesh.layout.channels = options.channels;
+    mesh.positions = make_geometry(positions, options);
     if (options.num_clusters == 0) {
-        model.moving().transfer->matrix = make_transfer(positions, model.moving().layout, options);
+        mesh.transfer = SvdTransfer(make_transfer(positions, mesh.layout, options));
     } else {
-        make_clusters(positions, options, model);
+        mesh.transfer = make_clusters(positions, mesh.layout, options);
     }
     if (options.albedo_per_vertex) {
         RandomStream random(stream_key(3, 0, 0));
-        model.moving().albedo.values.clear();
+        mesh.albedo.values.clear();
         const Wave red(random), green(random), blue(random);
         for (const Vec3f& p : positions) {
-            model.moving().albedo.values.push_back(
+            mesh.albedo.values.push_back(
                 Vec3d(0.5 + 0.4 * red.at(p), 0.5 + 0.4 * green.at(p), 0.5 + 0.4 * blue.at(p))
                     .cast<float>());
         }
     } else {
-        model.moving().albedo.values = {Vec3f(0.9f, 0.6f, 0.3f)};
+        mesh.albedo.values = {Vec3f(0.9f, 0.6f, 0.3f)};
     }
-    return model;
+    return asset;
 }
 
-void scale_model(Model& model, int exponent) {
+CodedMesh stand_still(const CodedMesh& mesh, float offset) {
+    CodedMesh still;
+    still.topology = mesh.topology;
+    still.albedo = mesh.albedo;
+    still.layout = mesh.layout;
+    std::vector<float> positions = mesh.positions.mean_floats();
+    for (size_t v = 0; v < mesh.topology.num_vertices; ++v) positions[v] += offset;
+    still.positions = LowRank::still(3, std::move(positions));
+    still.transfer =
+        SvdTransfer(LowRank::still(mesh.layout.num_planes(), mesh.transfer->matrix.mean_floats()));
+    return still;
+}
+
+void scale_asset(Asset& asset, int exponent) {
     const auto scale = [&](std::vector<float>& values) {
         for (float& value : values) value = std::ldexp(value, exponent);
     };
@@ -249,15 +264,14 @@ void scale_model(Model& model, int exponent) {
         scale(floats);
         values = StoredValues(std::move(floats));
     };
-    LowRankMatrix& geometry = model.geometry;
-    scale(geometry.steps);
-    if (geometry.steps.empty()) {
-        scale_values(geometry.mean);
-        scale(geometry.weights);
+    for (CodedMesh& part : asset.parts) {
+        LowRank& positions = part.positions;
+        scale(positions.steps);
+        if (!positions.steps.empty()) continue;
+        scale_values(positions.mean);
+        scale(positions.weights);
     }
-    scale(model.scenery.positions.steps);
-    if (model.scenery.positions.steps.empty()) scale_values(model.scenery.positions.values);
-    model.origin *= std::ldexp(1.0, exponent);
+    asset.origin *= std::ldexp(1.0, exponent);
 }
 
 LightCoefficients make_test_light(int bands) {
@@ -274,12 +288,12 @@ LightCoefficients make_test_light(int bands) {
     return light;
 }
 
-std::vector<Vec3f> vertex_radiance(const Asset& model, double time, const DecodeLimits& limits,
+std::vector<Vec3f> vertex_radiance(const CodedMesh& mesh, double time, const DecodeLimits& limits,
                                    const LightCoefficients& light) {
     DecodedPose pose;
-    make_decoder(model)->decode(time, limits, pose);
+    MeshDecoder(mesh).decode(time, limits, pose);
     std::vector<Vec3f> radiance;
-    shade(pose.layout, pose.transfer, model.moving().albedo, light, radiance);
+    shade(pose.layout, pose.transfer, mesh.albedo, light, radiance);
     return radiance;
 }
 

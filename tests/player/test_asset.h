@@ -3,13 +3,13 @@
 
 #include <vector>
 
-#include "paim/codec/mesh_decoder.h"
 #include "paim/codec/asset.h"
+#include "paim/codec/decode_limits.h"
 #include "paim/light/light.h"
 
 namespace paim::player {
 
-struct TestModelOptions {
+struct TestAssetOptions {
     uint32_t bands = 5;
     uint32_t channels = 1;
     uint32_t num_poses = 6;
@@ -20,7 +20,7 @@ struct TestModelOptions {
     std::vector<Precision> component_precisions;
     bool albedo_per_vertex = false;
     uint32_t num_rings = 8;  // of the sphere, with twice as many segments
-    // Clustered transfer, each vertex in any cluster; 0: none.
+    // Codec cpca, each vertex in any cluster; 0: codec svd.
     uint32_t num_clusters = 0;
     uint32_t cluster_components = 0;
     std::vector<Precision> coefficient_precisions;  // as component_precisions
@@ -28,16 +28,20 @@ struct TestModelOptions {
 
 // A unit sphere that bends and shimmers: smooth random components, so that neighbouring vertices
 // differ little and pixels at triangle edges do not decide a comparison.
-Asset make_test_model(const TestModelOptions& options);
+Asset make_test_asset(const TestAssetOptions& options);
 
-// Multiplies all positions, of the scenery as well, by 2^exponent.
-void scale_model(Model& model, int exponent);
+// The mean pose of a mesh of codec svd, which stands still: in floats, moved along x by an offset in
+// scene units.
+CodedMesh stand_still(const CodedMesh& mesh, float offset);
+
+// Multiplies all positions, of the part that stands still as well, by 2^exponent.
+void scale_asset(Asset& asset, int exponent);
 
 // Random coefficients whose constant part outweighs the rest, so that radiance is mostly positive.
 LightCoefficients make_test_light(int bands);
 
 // Radiance of every vertex at `time` as the CPU decoder and shade() give it.
-std::vector<Vec3f> vertex_radiance(const Asset& model, double time, const DecodeLimits& limits,
+std::vector<Vec3f> vertex_radiance(const CodedMesh& mesh, double time, const DecodeLimits& limits,
                                    const LightCoefficients& light);
 
 }  // namespace paim::player

@@ -1,0 +1,93 @@
+// What paim-compress bakes: the poses of the OBJ files, their floor and the scenery among them.
+#include "compressor/bake_input.h"
+
+#include <memory>
+#include <span>
+#include <tuple>
+
+#include "compressor/io/obj_files.h"
+#include "compressor/mesh_warnings.h"
+#include "compressor/scene/floor.h"
+#include "paim/cli/progress.h"
+
+namespace paim {
+
+namespace {
+
+bool is_quiet(const CompressOptions& options) {
+    return options.quiet || options.json;
+}
+
+ObjSequence open_sequence(const CompressOptions& options) {
+    const auto files = find_obj_files(options.inputs, options.keep_order);
+    // Shared, as the sequence keeps the callback.
+    const auto checking =
+        std::make_shared<cli::Progress>("checking", "files", files.size(), is_quiet(options));
+    ObjOptions obj_options;
+    obj_options.normals_from_file = options.normals == "file";
+    obj_options.albedo = options.albedo;
+    obj_options.on_file_checked = [checking] { checking->advance(); };
+    ObjSequence sequence(files, obj_options);
+    checking->finish();
+    return sequence;
+}
+
+}  // namespace
+
+BakeInput::BakeInput(const CompressOptions& options)
+    : sequence_(open_sequence(options)), topology_(report_topology(sequence_.topology())) {
+    print_warnings(sequence_.warnings());
+    print_warnings(mesh_warnings(topology_));
+    std::tie(first_pose_, last_pose_) = parse_pose_range(options.poses, sequence_.num_poses());
+    if (options.floor) add_floor(options);
+    for (const std::string& file : options.statics) add_scenery(options, file);
+}
+
+void BakeInput::add_floor(const CompressOptions& options) {
+    cli::Progress measuring("measuring", "poses", sequence_.num_poses(), is_quiet(options));
+    const Bounds bounds = bounds_of(sequence_, [&] { measuring.advance(); });
+    measuring.finish();
+    on_floor_.emplace(sequence_, bounds, *options.floor);
+    surroundings_.floor = on_floor_->description();
+}
+
+void BakeInput::add_scenery(const CompressOptions& options, const std::string& file) {
+    ObjOptions obj_options;
+    obj_options.normals_from_file = options.normals == "file";
+    obj_options.origin = sequence_.origin();
+    const ObjSequence still({file}, obj_options);
+    print_warnings(still.warnings());
+    surroundings_.scenery.add(still);
+    const Topology& mesh = still.topology();
+    const auto positions = std::span(surroundings_.scenery.pose.positions).last(mesh.num_vertices);
+    static_meshes_.push_back({file, report_topology(mesh), report_pose(mesh, positions)});
+    const StaticMeshReport& report = static_meshes_.back();
+    print_warnings(static_mesh_warnings(file, report.topology, report.pose));
+}
+
+const PoseSource& BakeInput::poses() const {
+    if (on_floor_) return *on_floor_;
+    return sequence_;
+}
+
+TransferLayout BakeInput::layout(const BakeOptions& options) const {
+    return TransferBaker::bake_layout(options, poses().albedo(), surroundings_.scenery);
+}
+
+BakeReport BakeInput::report() const {
+    BakeReport report;
+    report.num_vertices = poses().topology().num_vertices;
+    report.num_triangles = poses().topology().triangles.size();
+    report.num_poses = sequence_.num_poses();
+    report.first_pose = first_pose_;
+    report.last_pose = last_pose_;
+    report.floor = surroundings_.floor;
+    report.origin_y = sequence_.origin().y();
+    report.scenery_vertices = surroundings_.scenery.topology.num_vertices;
+    report.scenery_triangles = surroundings_.scenery.topology.triangles.size();
+    report.topology = topology_;
+    report.static_meshes = static_meshes_;
+    return report;
+}
+
+}  // namespace paim

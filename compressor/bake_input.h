@@ -1,0 +1,45 @@
+// What paim-compress bakes: the poses of the OBJ files, their floor and the scenery among them.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "compressor/bake/bake_sequence.h"
+#include "compressor/bake_report.h"
+#include "compressor/io/obj_sequence.h"
+#include "compressor/options.h"
+
+namespace paim {
+
+class BakeInput {
+  public:
+    // Reads and checks every file. Shows progress and prints warnings on stderr.
+    // Errors: those of ObjSequence, PosesOnFloor and StaticMesh; usage for a range of poses that
+    // does not exist.
+    explicit BakeInput(const CompressOptions& options);
+
+    const PoseSource& poses() const;
+    const Surroundings& surroundings() const { return surroundings_; }
+    uint32_t first_pose() const { return first_pose_; }
+    uint32_t last_pose() const { return last_pose_; }  // inclusive
+
+    // Of the planes that baking makes.
+    TransferLayout layout(const BakeOptions& options) const;
+
+    // What reports say of the input; everything that baking finds out is missing.
+    BakeReport report() const;
+
+  private:
+    void add_floor(const CompressOptions& options);
+    void add_scenery(const CompressOptions& options, const std::string& file);
+
+    ObjSequence sequence_;
+    TopologyReport topology_;  // of the poses without their floor
+    uint32_t first_pose_ = 0, last_pose_ = 0;
+    std::optional<PosesOnFloor> on_floor_;
+    Surroundings surroundings_;
+    std::vector<StaticMeshReport> static_meshes_;
+};
+
+}  // namespace paim

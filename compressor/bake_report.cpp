@@ -1,0 +1,126 @@
+// What paim-compress says of a bake, to people and to programs.
+#include "compressor/bake_report.h"
+
+#include <fmt/format.h>
+
+#include "compressor/mesh_warnings.h"
+
+namespace paim {
+
+using nlohmann::ordered_json;
+
+namespace {
+
+double share(uint64_t part, uint64_t whole) {
+    return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0.0;
+}
+
+std::string noise_target_text(const BakeReport& report) {
+    const double target = report.options.transfer_error;
+    if (!(target > 0.0)) return {};
+    const uint32_t above = report.summary.total.above_target;
+    if (above == 0) {
+        return fmt::format(
+            "  noise at every vertex is within {:g} % of an unshadowed vertex's transfer, before "
+            "any bounces\n",
+            100.0 * target);
+    }
+    return fmt::format(
+        "  {} vertices (over all poses) had {} rays and are still above the noise target of {:g} "
+        "%: raise --rays\n",
+        above, report.options.rays, 100.0 * target);
+}
+
+std::string bounces_text(const BakeReport& report) {
+    if (report.options.bounces == 0) return {};
+    return fmt::format("  {} bounces in {}; {:.2g} % of the rays ended on the back of a face\n",
+                       report.options.bounces, report.channels == 3 ? "colour" : "grey",
+                       100.0 * report.back_hit_share());
+}
+
+std::string surroundings_text(const BakeReport& report) {
+    std::string text;
+    if (!report.floor.empty()) {
+        const std::string origin =
+            report.origin_y != 0.0
+                ? fmt::format(" (y counted from the origin's, {})", report.origin_y)
+                : "";
+        text += fmt::format("  on a floor of {}{}\n", report.floor, origin);
+    }
+    if (report.scenery_vertices > 0) {
+        text += fmt::format("  among scenery of {} vertices and {} triangles\n",
+                            report.scenery_vertices, report.scenery_triangles);
+    }
+    return text;
+}
+
+}  // namespace
+
+double BakeReport::rays_per_vertex() const {
+    const double traced = static_cast<double>(num_vertices) * (last_pose - first_pose + 1.0) -
+                          static_cast<double>(summary.total.zero_normals);
+    return traced > 0.0 ? static_cast<double>(summary.total.rays) / traced : 0.0;
+}
+
+double BakeReport::occluded_share() const {
+    return share(summary.total.occluded, summary.total.rays);
+}
+
+double BakeReport::back_hit_share() const {
+    return share(summary.total.back_hits, summary.total.rays);
+}
+
+ordered_json report_json(const BakeReport& report) {
+    const PoseStatistics& total = report.summary.total;
+    ordered_json json;
+    json["bake"] = report.bake.string();
+    json["num_vertices"] = report.num_vertices;
+    json["num_triangles"] = report.num_triangles;
+    json["num_poses"] = report.num_poses;
+    if (!report.floor.empty()) json["floor"] = report.floor;
+    if (report.scenery_vertices > 0) {
+        json["scenery_vertices"] = report.scenery_vertices;
+        json["scenery_triangles"] = report.scenery_triangles;
+    }
+    json["poses_baked"] = report.summary.baked;
+    json["poses_resumed"] = report.summary.resumed;
+    json["bands"] = report.options.bands;
+    json["rays"] = report.options.rays;
+    if (report.options.transfer_error > 0.0) {
+        json["transfer_error"] = report.options.transfer_error;
+        json["vertices_above_transfer_error"] = total.above_target;
+    }
+    json["bounces"] = report.options.bounces;
+    json["channels"] = report.channels;
+    json["rays_traced"] = total.rays;
+    json["rays_blocked"] = total.occluded;
+    json["vertices_without_normal"] = total.zero_normals;
+    json["relative_noise"] = total.relative_noise();
+    json["mesh"] = mesh_json(report.topology, total.mesh);
+    for (const StaticMeshReport& mesh : report.static_meshes) {
+        ordered_json& entry = json["static_mesh"].emplace_back();
+        entry["file"] = mesh.file;
+        entry.update(mesh_json(mesh.topology, mesh.pose));
+    }
+    return json;
+}
+
+std::string report_text(const BakeReport& report) {
+    const PoseStatistics& total = report.summary.total;
+    std::string text = fmt::format(
+        "{}: {} vertices, {} triangles, poses {}-{} of {} ({} baked, {} found), {} bands\n",
+        report.bake.string(), report.num_vertices, report.num_triangles, report.first_pose,
+        report.last_pose, report.num_poses, report.summary.baked, report.summary.resumed,
+        report.options.bands);
+    text += fmt::format(
+        "  {:.0f} rays per vertex, {:.1f} % occluded; estimated noise {:.2f} % of the transfer\n",
+        report.rays_per_vertex(), 100.0 * report.occluded_share(), 100.0 * total.relative_noise());
+    text += noise_target_text(report) + bounces_text(report) + surroundings_text(report);
+    if (total.zero_normals > 0) {
+        text += fmt::format("  {} vertices (over all poses) have no normal; their transfer is 0\n",
+                            total.zero_normals);
+    }
+    return text;
+}
+
+}  // namespace paim

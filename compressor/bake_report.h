@@ -1,0 +1,50 @@
+// What paim-compress says of a bake, to people and to programs.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "compressor/bake/bake_options.h"
+#include "compressor/bake/bake_sequence.h"
+#include "paim/mesh/mesh_report.h"
+
+namespace paim {
+
+// What is odd about one file of scenery.
+struct StaticMeshReport {
+    std::string file;
+    TopologyReport topology;
+    PoseReport pose;
+};
+
+struct BakeReport {
+    std::filesystem::path bake;
+    BakeOptions options;
+    uint32_t num_vertices = 0;  // of a pose, with its floor
+    size_t num_triangles = 0;
+    uint32_t num_poses = 0;  // of the whole sequence
+    uint32_t first_pose = 0, last_pose = 0;
+    uint32_t channels = 1;  // of the transfer
+    std::string floor;      // description; empty if there is none
+    double origin_y = 0.0;  // what the floor's height is counted from, scene units
+    uint32_t scenery_vertices = 0;
+    size_t scenery_triangles = 0;
+    TopologyReport topology;  // of the poses without their floor
+    std::vector<StaticMeshReport> static_meshes;
+    BakeSummary summary;
+
+    // Averages over the vertices that have a normal and over the rays; 0 where there are none.
+    double rays_per_vertex() const;
+    double occluded_share() const;
+    double back_hit_share() const;
+};
+
+nlohmann::ordered_json report_json(const BakeReport& report);
+
+// Lines, each ended.
+std::string report_text(const BakeReport& report);
+
+}  // namespace paim

@@ -1,0 +1,79 @@
+// What the command line sets about encoding. Plain values: no Eigen, no bake, no algorithm.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "paim/codec/stored_values.h"
+#include "paim/metrics/band_power.h"
+
+namespace paim {
+
+// How many components of the geometry or of the transfer to keep.
+struct ComponentChoice {
+    enum class Kind { automatic, all, number } kind = Kind::automatic;
+    uint32_t number = 0;  // if larger than the rank, all are kept
+};
+
+// How the bake's noise in the components of the transfer is treated.
+enum class NoiseTreatment : uint32_t {
+    shrink,  // each component is scaled down by its share of noise (noise/shrinkage.h)
+    keep,    // the components stay as the bake has them, with its noise
+};
+
+struct EncodeOptions {
+    ComponentChoice geometry;
+    ComponentChoice transfer;
+    // ComponentChoice::Kind::automatic keeps the energy error below these.
+    double automatic_geometry_error = 0.01;
+    double automatic_transfer_error = 0.01;
+    uint32_t bands = std::numeric_limits<uint32_t>::max();  // if more than the bake has, all
+    // With Kind::all, components of the transfer are never shrunk.
+    NoiseTreatment noise = NoiseTreatment::shrink;
+    Precision precision = Precision::f32;
+    // The process stays below this. The bytes of the file do not depend on it.
+    uint64_t memory_bytes = 1'000'000'000;
+    // encode() measures the file and states its errors in it. encode_to_target() always does.
+    bool measure = false;
+    float frames_per_second = 24.0f;
+    std::string name;
+};
+
+enum class CodecChoice : uint32_t { automatic, svd, cpca };
+
+// Which of the files that meet a target is the best.
+enum class Preference : uint32_t {
+    size,   // the smallest
+    speed,  // the one with the fewest multiply-adds per vertex and frame, then the smallest
+};
+
+// What a file has to meet. At least one of transfer_error and size_bytes is set.
+struct EncodeTarget {
+    std::optional<double> transfer_error;  // expected against the truth, relative, 0 … 1
+    std::optional<double> geometry_error;  // RMS distance by the diagonal; else from transfer_error
+    std::optional<uint64_t> size_bytes;    // of the file, at most
+    std::optional<uint32_t> decode_cost;   // multiply-adds per vertex and frame for lit transfer
+    CodecChoice codec = CodecChoice::automatic;
+    Preference preference = Preference::size;
+    BandPower spectrum = BandPower::flat(1);
+};
+
+// Where a transfer error E is asked for and no geometry error: E / 50 of the diagonal. A figure that
+// is a thousand pixels high then errs by 0.2 pixels at 1 % and by one pixel at 5 %.
+constexpr double kGeometryPerTransferError = 1.0 / 50.0;
+
+// One way to code the transfer that was tried.
+struct Candidate {
+    std::string codec;  // "svd" or "cpca"
+    uint32_t bands = 0;
+    uint32_t components = 0;          // over time
+    uint32_t clusters = 0;            // of cpca
+    uint32_t cluster_components = 0;  // of cpca
+    uint64_t bytes = 0;               // of the transfer, by an estimate
+    uint32_t multiply_adds = 0;       // per vertex and frame
+    bool chosen = false;
+};
+
+}  // namespace paim

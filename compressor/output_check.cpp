@@ -1,0 +1,34 @@
+// Refuses outputs that cannot be written before any long work begins.
+#include "compressor/output_check.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "paim/base/error.h"
+
+namespace paim {
+
+void check_output(const std::filesystem::path& output) {
+    const std::filesystem::path parent = std::filesystem::absolute(output).parent_path();
+    std::error_code ignored;
+    if (!std::filesystem::is_directory(parent, ignored)) {
+        throw_output_failed("{}: the directory {} does not exist", output.string(),
+                            parent.string());
+    }
+    if (::access(parent.c_str(), W_OK) != 0) {
+        throw_output_failed("{}: cannot write to {}: {}", output.string(), parent.string(),
+                            std::strerror(errno));
+    }
+}
+
+void check_paim_output(const std::filesystem::path& output) {
+    check_output(output);
+    if (std::filesystem::is_directory(output)) {
+        throw_output_failed("{}: is a directory, expected a file name for the .paim",
+                            output.string());
+    }
+}
+
+}  // namespace paim

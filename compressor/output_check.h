@@ -1,0 +1,14 @@
+// Refuses outputs that cannot be written before any long work begins.
+#pragma once
+
+#include <filesystem>
+
+namespace paim {
+
+// Error (output failed), naming the output, unless its directory exists and can be written to.
+void check_output(const std::filesystem::path& output);
+
+// The same for a .paim, which must not be a directory either.
+void check_paim_output(const std::filesystem::path& output);
+
+}  // namespace paim
