@@ -1,11 +1,9 @@
 // Steps that meet a target, measured.
 #include "compressor/encode/search/rate_control.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "compressor/encode/quantise/float_matrix.h"
 #include "compressor/encode/quantise/trim_bands.h"
+#include "compressor/encode/search/step_scaling.h"
 #include "paim/base/error.h"
 
 namespace paim {
@@ -27,21 +25,12 @@ Asset build(const EncodeProblem& problem, const QuantisedStill& still, const Cod
     return asset;
 }
 
-// What an error has above the best achievable one grows about as the step does.
-void scale_step(double from, double to, double best_error, double slack, Quantiser& quantiser) {
-    const double now = from * from - best_error * best_error;
-    const double wanted = to * to - best_error * best_error;
-    if (now > 0.0 && wanted > 0.0) {
-        quantiser.step *= std::clamp(slack * std::sqrt(wanted / now), 0.5, 1.25);
-    }
-}
-
 // Floats have no step: one more component.
 void adjust(Quantiser& quantiser, Precision precision, bool coarser, double error, double target,
             double best_error) {
     constexpr double kSlack = 0.997;
     if (is_integer(precision)) {
-        scale_step(error, target, best_error, kSlack, quantiser);
+        quantiser.step = scaled_step(quantiser.step, error, target, best_error, kSlack);
     } else if (!coarser && error > target) {
         ++quantiser.num_components;
     }
@@ -86,11 +75,12 @@ std::optional<RefinedAsset> refine(const EncodeProblem& problem, const Quantised
 void scale_steps(const EncodeProblem& problem, const Targets& from, const Targets& to,
                  Coding& coding) {
     if (is_integer(coding.transfer.precision)) {
-        scale_step(from.transfer, to.transfer, problem.best_achievable.transfer.total(), 1.0,
-                   coding.transfer.quantiser);
+        double& step = coding.transfer.quantiser.step;
+        step = scaled_step(step, from.transfer, to.transfer, problem.best_achievable.transfer.total(), 1.0);
     }
     if (is_integer(coding.geometry_precision)) {
-        scale_step(from.geometry, to.geometry, 0.0, 1.0, coding.geometry);
+        double& step = coding.geometry.step;
+        step = scaled_step(step, from.geometry, to.geometry, 0.0, 1.0);
     }
 }
 

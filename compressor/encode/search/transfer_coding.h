@@ -21,6 +21,11 @@ class CodecSettings {
     virtual CodedTransfer code(const EncodeProblem& problem, const Quantiser& quantiser,
                                Precision precision) const = 0;
 
+    // Weighted squared error of integers with this step against the problem's factors, over all rows and
+    // poses, without the rounding of weights: an estimate of the error that code() leaves.
+    virtual double squared_error(const EncodeProblem& problem,
+                                 const Quantiser& quantiser) const = 0;
+
     // Memory that saves time when it codes: how much is held, and letting go of it.
     virtual uint64_t held_bytes() const { return 0; }
     virtual void release() {}

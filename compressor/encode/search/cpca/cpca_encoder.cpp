@@ -45,6 +45,10 @@ class CpcaSettings : public CodecSettings {
                                            : quantise_clusters(make_bases(problem), quantiser);
         return CpcaTransfer(std::move(quantised.matrix), std::move(quantised.clusters));
     }
+    double squared_error(const EncodeProblem& problem, const Quantiser& quantiser) const override {
+        return bases_ ? clustered_error(*bases_, quantiser)
+                      : clustered_error(make_bases(problem), quantiser);
+    }
     uint64_t held_bytes() const override { return bases_ ? bases_->size_bytes() : 0; }
     void release() override { bases_.reset(); }
 

@@ -23,6 +23,9 @@ class SvdSettings : public CodecSettings {
                 ? quantise(problem.transfer, quantiser)
                 : float_matrix(problem.transfer, quantiser.num_components, precision));
     }
+    double squared_error(const EncodeProblem& problem, const Quantiser& quantiser) const override {
+        return quantised_error(problem.transfer, quantiser);
+    }
 };
 
 class SvdEncoder : public TransferEncoder {
