@@ -1,6 +1,8 @@
 // What paim-analyze does, step by step.
 #include "analysis/analyze.h"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include <limits>
@@ -14,7 +16,7 @@
 #include "compressor/encode/encode.h"
 #include "paim/base/error.h"
 #include "paim/base/file.h"
-#include "paim/base/parallel.h"
+#include "paim/base/tbb_parallel.h"
 #include "paim/cli/progress.h"
 #include "paim/format/paim/paim_read.h"
 #include "paim/format/paim/paim_write.h"

@@ -8,9 +8,8 @@
 #include <optional>
 
 #include "paim/base/error.h"
-#include "paim/base/parallel.h"
+#include "paim/base/tbb_parallel.h"
 #include "paim/format/paim/paim_read.h"
-#include "paim/format/paim/paim_write.h"
 #include "paim/metrics/asset_error.h"
 
 namespace paim {

@@ -5,7 +5,7 @@ find_package(nlohmann_json REQUIRED)
 find_package(TBB REQUIRED)
 find_package(PkgConfig REQUIRED)
 list(APPEND CMAKE_MODULE_PATH ${PROJECT_SOURCE_DIR}/cmake)
-find_package(xxHash REQUIRED)
+find_path(XXHASH_INCLUDE_DIR NAMES xxhash.h REQUIRED)
 find_package(zstd REQUIRED)
 find_package(meshoptimizer REQUIRED)
 

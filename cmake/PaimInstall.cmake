@@ -1,44 +1,41 @@
-# Installs the library with its headers, package files and licence; tools install themselves.
+# Installs the library in two components: `runtime` to play .paim files, `tools` to bake and encode as well.
+# Tools install themselves.
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/paim)
 
-install(TARGETS paim EXPORT paim-targets
-    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
-    RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(EXPORT paim-targets NAMESPACE paim:: DESTINATION ${package_dir})
-
-# The rooms of paim::paim, without the headers that only their own sources include.
-set(public_rooms base codec format image light mesh metrics sh shade transfer)
-set(private_headers
-    codec/vector_kernels.h
-    format/bake/bake_manifest.h
-    format/pack/index_codec.h
-    format/paim/section_reader.h
-    format/container/mesh_sections.h
-    format/container/metadata.h
-    format/paim/paim_metadata.h
-    format/paim/packed_file.h
-    format/container/sections.h
-    format/pack/plane_codec.h
-    format/pack/plane_packing.h
-    format/pack/plane_predictor.h
-    format/pack/plane_reconstruct.h
-    format/pack/workspace.h
-    format/pack/zstd_codec.h
-    image/exr_header.h
-    sh/recurrence.h)
-foreach(header IN LISTS private_headers)
-    if(NOT EXISTS ${PROJECT_SOURCE_DIR}/paim/${header})
-        message(FATAL_ERROR "paim/${header}: listed as private in PaimInstall.cmake, does not exist")
-    endif()
+# The runtime: exactly these headers are its interface.
+set(runtime_headers
+    base/check.h
+    base/error.h
+    base/export.h
+    base/message.h
+    base/parallel_hook.h
+    base/vector.h
+    codec/asset.h
+    codec/decode_limits.h
+    codec/low_rank.h
+    codec/playback.h
+    codec/section_row.h
+    codec/stored_values.h
+    codec/transfer_model.h
+    format/paim/paim_read.h
+    light/light.h
+    mesh/topology.h
+    paim.h
+    sh/index.h
+    transfer/layout.h)
+install(TARGETS paim_runtime EXPORT paim-runtime-targets
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime
+    RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT runtime)
+install(EXPORT paim-runtime-targets NAMESPACE paim:: DESTINATION ${package_dir} COMPONENT runtime)
+foreach(header IN LISTS runtime_headers)
+    get_filename_component(directory ${header} DIRECTORY)
+    install(FILES ${PROJECT_SOURCE_DIR}/paim/${header}
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/paim/${directory} COMPONENT runtime)
 endforeach()
-list(TRANSFORM public_rooms PREPEND ${PROJECT_SOURCE_DIR}/paim/)
-list(TRANSFORM private_headers REPLACE "(.+)" "PATTERN;\\1;EXCLUDE")
-install(DIRECTORY ${public_rooms} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/paim
-    FILES_MATCHING PATTERN "*.h" ${private_headers})
 install(FILES ${PROJECT_BINARY_DIR}/generated/paim/base/version.h
-    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/paim/base)
+    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/paim/base COMPONENT runtime)
 
 # Interfaces may change with every 0.x; the version file allows the same 0.x only.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/paim-config-version.cmake
@@ -49,7 +46,24 @@ configure_package_config_file(cmake/paim-config.cmake.in ${PROJECT_BINARY_DIR}/p
 install(FILES
     ${PROJECT_BINARY_DIR}/paim-config.cmake
     ${PROJECT_BINARY_DIR}/paim-config-version.cmake
-    ${PROJECT_SOURCE_DIR}/cmake/FindxxHash.cmake
     ${PROJECT_SOURCE_DIR}/cmake/Findzstd.cmake
-    DESTINATION ${package_dir})
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+    DESTINATION ${package_dir} COMPONENT runtime)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
+
+# The tools' libraries with all headers.
+if(PAIM_BUILD_TOOLS)
+    install(TARGETS paim_tools paim_trace paim_bake paim_encode paim_all_tools
+        EXPORT paim-tools-targets
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT tools)
+    install(EXPORT paim-tools-targets NAMESPACE paim:: DESTINATION ${package_dir} COMPONENT tools)
+    foreach(room base codec format image light mesh metrics sh shade trace transfer)
+        install(DIRECTORY ${PROJECT_SOURCE_DIR}/paim/${room}
+            DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/paim COMPONENT tools
+            FILES_MATCHING PATTERN "*.h")
+    endforeach()
+    foreach(room bake encode scene)
+        install(DIRECTORY ${PROJECT_SOURCE_DIR}/compressor/${room}
+            DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/compressor COMPONENT tools
+            FILES_MATCHING PATTERN "*.h")
+    endforeach()
+endif()

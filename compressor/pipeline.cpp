@@ -15,6 +15,7 @@
 #include "compressor/target_report.h"
 #include "paim/base/error.h"
 #include "paim/base/parallel.h"
+#include "paim/base/tbb_parallel.h"
 #include "paim/cli/progress.h"
 
 namespace paim {

@@ -68,6 +68,19 @@ paim_status guarded(const Body& body) noexcept {
     }
 }
 
+paim_status open_bytes(const char* function, const void* bytes, size_t num_bytes, const char* name,
+                       const paim::ReadOptions& options, paim_asset** asset) {
+    if (asset == nullptr) return bad_argument(function, "asset is null");
+    *asset = nullptr;
+    if (bytes == nullptr && num_bytes > 0) return bad_argument(function, "bytes are null");
+    return guarded([&] {
+        const std::span span(static_cast<const uint8_t*>(bytes), num_bytes);
+        *asset = new paim_asset{std::make_shared<const paim::Asset>(
+            paim::read_paim(span, name == nullptr ? "memory" : name, options))};
+        return PAIM_OK;
+    });
+}
+
 bool has_part(const paim::Asset& asset, uint32_t part) {
     return part < asset.parts.size();
 }
@@ -94,15 +107,12 @@ paim_status paim_asset_open_file(const char* path, paim_asset** asset) {
 
 paim_status paim_asset_open_memory(const void* bytes, size_t num_bytes, const char* name,
                                    paim_asset** asset) {
-    if (asset == nullptr) return bad_argument(__func__, "asset is null");
-    *asset = nullptr;
-    if (bytes == nullptr && num_bytes > 0) return bad_argument(__func__, "bytes are null");
-    return guarded([&] {
-        const std::span span(static_cast<const uint8_t*>(bytes), num_bytes);
-        *asset = new paim_asset{std::make_shared<const paim::Asset>(
-            paim::read_paim(span, name == nullptr ? "memory" : name))};
-        return PAIM_OK;
-    });
+    return open_bytes(__func__, bytes, num_bytes, name, {}, asset);
+}
+
+paim_status paim_asset_open_prefix(const void* bytes, size_t num_bytes, const char* name,
+                                   paim_asset** asset) {
+    return open_bytes(__func__, bytes, num_bytes, name, {.prefix = true}, asset);
 }
 
 void paim_asset_close(paim_asset* asset) {

@@ -8,6 +8,7 @@
 #include "analysis/bench/ratio.h"
 #include "paim/base/parallel.h"
 #include "paim/base/seed.h"
+#include "paim/base/tbb_parallel.h"
 #include "paim/codec/cpca/cpca_transfer.h"
 #include "paim/codec/mesh_decoder.h"
 #include "paim/codec/svd/svd_transfer.h"

@@ -12,11 +12,11 @@
 #include <numbers>
 
 #include "analysis/bench/ratio.h"
-#include "paim/base/parallel.h"
 #include "paim/base/seed.h"
+#include "paim/base/tbb_parallel.h"
 #include "paim/format/container/container_reader.h"
 #include "paim/format/container/sections.h"
-#include "paim/format/pack/zstd_codec.h"
+#include "paim/format/pack/zstd_decoder.h"
 #include "paim/codec/cpca/cpca_transfer.h"
 #include "paim/codec/svd/svd_transfer.h"
 #include "paim/format/paim/paim_read.h"

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "paim/base/export.h"
 #include "paim/codec/stored_values.h"
 
 namespace paim {
@@ -19,7 +20,7 @@ namespace paim {
 // half floats hold them well, and the weights carry the singular value. Integers: values are multiples
 // of their plane's step, and weights have about unit RMS, so that one step costs about the same error
 // in every component.
-struct LowRank {
+struct PAIM_EXPORT LowRank {
     uint32_t num_points = 0;
     uint32_t num_planes = 0;
     uint32_t num_poses = 0;
@@ -61,6 +62,6 @@ struct LowRank {
 // them, and every number of components; +inf where floats overflow. No partial sum of a decoder is
 // larger than this by more than rounding.
 // returns [planes]
-std::vector<double> magnitude_bounds(const LowRank& matrix);
+PAIM_EXPORT std::vector<double> magnitude_bounds(const LowRank& matrix);
 
 }  // namespace paim

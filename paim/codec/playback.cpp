@@ -1,67 +1,104 @@
 // Plays an asset on the CPU.
 #include "paim/codec/playback.h"
 
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "paim/base/check.h"
-#include "paim/mesh/bounds.h"
+#include "paim/codec/rebuild_planes.h"
+#include "paim/codec/transfer_player.h"
 
 namespace paim {
 
 namespace {
 
+// Of the bounding box of the mean positions.
 Vec3f centre_of(const CodedMesh& mesh) {
     const std::vector<float> planes = mesh.positions.mean_floats();
-    const size_t num_vertices = mesh.topology.num_vertices;
-    Bounds bounds;
-    for (size_t v = 0; v < num_vertices; ++v) {
-        bounds.extend(Vec3f(planes[v], planes[num_vertices + v], planes[2 * num_vertices + v]));
-    }
-    return bounds.empty() ? Vec3f(Vec3f::Zero()) : bounds.center();
+    const auto num_vertices = static_cast<Eigen::Index>(mesh.topology.num_vertices);
+    if (num_vertices == 0) return Vec3f::Zero();
+    const Eigen::Map<const Eigen::MatrixXf> points(planes.data(), num_vertices, 3);
+    return (0.5f * points.colwise().minCoeff() + 0.5f * points.colwise().maxCoeff()).transpose();
 }
 
 }  // namespace
 
-Playback::Playback(std::shared_ptr<const Asset> asset) : asset_(std::move(asset)) {
-    PAIM_CHECK(asset_ != nullptr && !asset_->parts.empty());
-    for (const CodedMesh& mesh : asset_->parts) parts_.emplace_back(mesh);
+struct Playback::Part {
+    explicit Part(const CodedMesh& coded)
+        : mesh(coded),
+          centre(centre_of(coded)),
+          player(coded.transfer->make_player(coded.layout)) {}
+
+    void update(double new_time, const DecodeLimits& new_limits) {
+        const bool moved = time != new_time;
+        if (moved || limits.geometry_components != new_limits.geometry_components) {
+            decoder.decode(mesh.positions, new_time, new_limits.geometry_components, positions);
+        }
+        if (light.bands > 0 && (moved || !is_lit || limits != new_limits)) {
+            player->light(new_time, new_limits, light, mesh.albedo, radiance);
+            is_lit = true;
+        }
+        time = new_time;
+        limits = new_limits;
+    }
+
+    const CodedMesh& mesh;
+    Vec3f centre;
+    PositionDecoder decoder;
+    std::unique_ptr<TransferPlayer> player;
+    LightCoefficients light;
+    bool is_lit = false;         // radiance is that of the light
+    std::optional<double> time;  // of positions and radiance
+    DecodeLimits limits;
+    std::vector<float> positions;
+    std::vector<Vec3f> radiance;
+};
+
+struct Playback::State {
+    std::shared_ptr<const Asset> asset;
+    std::vector<Part> parts;
+};
+
+Playback::Playback(std::shared_ptr<const Asset> asset) : state_(std::make_unique<State>()) {
+    PAIM_CHECK(asset != nullptr && !asset->parts.empty());
+    state_->asset = std::move(asset);
+    for (const CodedMesh& mesh : state_->asset->parts) state_->parts.emplace_back(mesh);
 }
 
-Playback::Part::Part(const CodedMesh& coded)
-    : mesh(coded), centre(centre_of(coded)), player(coded.transfer->make_player(coded.layout)) {}
+Playback::~Playback() = default;
+Playback::Playback(Playback&&) noexcept = default;
+Playback& Playback::operator=(Playback&&) noexcept = default;
+
+const Asset& Playback::asset() const {
+    return *state_->asset;
+}
+
+size_t Playback::num_parts() const {
+    return state_->parts.size();
+}
 
 void Playback::set_light(const LightField& light) {
-    for (Part& part : parts_) {
+    for (Part& part : state_->parts) {
         part.light = light.at(part.centre, static_cast<int>(part.mesh.layout.in_bands));
         part.is_lit = false;
     }
 }
 
 void Playback::update(double time, const DecodeLimits& limits) {
-    for (Part& part : parts_) update(part, part.mesh.num_poses() == 1 ? 0.0 : time, limits);
-}
-
-void Playback::update(Part& part, double time, const DecodeLimits& limits) {
-    const bool moved = part.time != time;
-    if (moved || part.limits.geometry_components != limits.geometry_components) {
-        part.decoder.decode(part.mesh.positions, time, limits.geometry_components, part.positions);
+    for (Part& part : state_->parts) {
+        part.update(part.mesh.num_poses() == 1 ? 0.0 : time, limits);
     }
-    if (part.light.bands > 0 && (moved || !part.is_lit || part.limits != limits)) {
-        part.player->light(time, limits, part.light, part.mesh.albedo, part.radiance);
-        part.is_lit = true;
-    }
-    part.time = time;
-    part.limits = limits;
 }
 
 std::span<const float> Playback::positions(size_t part) const {
-    PAIM_CHECK_LT(part, parts_.size());
-    return parts_[part].positions;
+    PAIM_CHECK_LT(part, num_parts());
+    return state_->parts[part].positions;
 }
 
 std::span<const Vec3f> Playback::radiance(size_t part) const {
-    PAIM_CHECK_LT(part, parts_.size());
-    return parts_[part].radiance;
+    PAIM_CHECK_LT(part, num_parts());
+    return state_->parts[part].radiance;
 }
 
 }  // namespace paim

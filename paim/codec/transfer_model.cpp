@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <optional>
 
+#include "paim/codec/frame_cost.h"
 #include "paim/codec/rebuild_planes.h"
+#include "paim/codec/transfer_player.h"
 #include "paim/shade/shade.h"
 
 namespace paim {
@@ -51,6 +53,8 @@ class DecodingPlayer : public TransferPlayer {
 };
 
 }  // namespace
+
+TransferModel::~TransferModel() = default;
 
 void TransferModel::vertices_from_points(std::span<const float> points, uint32_t,
                                          std::span<float> out) const {

@@ -16,18 +16,20 @@
 #include <vector>
 
 #include "paim/base/check.h"
+#include "paim/base/export.h"
 #include "paim/codec/decode_limits.h"
-#include "paim/codec/frame_cost.h"
 #include "paim/codec/low_rank.h"
 #include "paim/codec/section_row.h"
-#include "paim/codec/transfer_player.h"
 #include "paim/transfer/layout.h"
 
 namespace paim {
 
-class TransferModel {
+struct FrameCost;       // codec/frame_cost.h
+class TransferPlayer;  // codec/transfer_player.h
+
+class PAIM_EXPORT TransferModel {
   public:
-    virtual ~TransferModel() = default;
+    virtual ~TransferModel();
 
     // What people and files call the codec: "svd".
     virtual std::string_view codec_name() const = 0;

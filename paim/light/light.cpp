@@ -10,6 +10,8 @@
 
 namespace paim {
 
+LightField::~LightField() = default;
+
 DistantLight::DistantLight(LightCoefficients coefficients)
     : coefficients_(std::move(coefficients)) {
     PAIM_CHECK_EQ(coefficients_.values.size(),

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "paim/base/export.h"
 #include "paim/base/vector.h"
 #include "paim/sh/index.h"
 
@@ -15,16 +16,16 @@ struct LightCoefficients {
 };
 
 // Light that may differ from place to place.
-class LightField {
+class PAIM_EXPORT LightField {
   public:
-    virtual ~LightField() = default;
+    virtual ~LightField();
 
     // Incident radiance at a place (scene units). bands  1 … sh::kMaxBands
     virtual LightCoefficients at(const Vec3f& place, int bands) const = 0;
 };
 
 // Light from infinitely far away: the same at every place.
-class DistantLight : public LightField {
+class PAIM_EXPORT DistantLight : public LightField {
   public:
     explicit DistantLight(LightCoefficients coefficients);
 
@@ -37,6 +38,6 @@ class DistantLight : public LightField {
 
 // Coefficients of the light turned about +Y by the angle, counter-clockwise seen from above (what
 // --env-rotation means everywhere).
-LightCoefficients turn_about_y(const LightCoefficients& light, double angle_rad);
+PAIM_EXPORT LightCoefficients turn_about_y(const LightCoefficients& light, double angle_rad);
 
 }  // namespace paim

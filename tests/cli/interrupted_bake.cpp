@@ -13,6 +13,7 @@
 #include "compressor/io/obj_files.h"
 #include "compressor/io/obj_sequence.h"
 #include "paim/base/parallel.h"
+#include "paim/base/tbb_parallel.h"
 
 namespace paim {
 namespace {

@@ -1,5 +1,5 @@
-# Installs the build into an empty prefix, builds tests/consumer against it and runs it on a sphere
-# that the installed tools have baked.
+# Installs the build into empty prefixes, builds the programs of tests/consumer against them and runs
+# these on every codec, precision and prefix that the installed tools write.
 #   cmake -DBUILD_DIR= -DSOURCE_DIR= -DWORK_DIR= -DBIN_DIR= -DGENERATOR= -DMAKE_PROGRAM=
 #         -DCXX_COMPILER= -DCXX_FLAGS= -DBUILD_TYPE= -P run.cmake
 cmake_minimum_required(VERSION 3.22)
@@ -21,7 +21,7 @@ function(build_against_install source build)
         -DCMAKE_CXX_COMPILER=${CXX_COMPILER}
         -DCMAKE_CXX_FLAGS=${CXX_FLAGS}
         -DCMAKE_BUILD_TYPE=${BUILD_TYPE}
-        -DCMAKE_PREFIX_PATH=${prefix})
+        -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_C_FLAGS=${CXX_FLAGS})
     file(STRINGS ${build}/CMakeCache.txt found REGEX "^paim_DIR:")
     string(FIND "${found}" "${prefix}/" position)
     if(position EQUAL -1)
@@ -35,41 +35,129 @@ file(REMOVE_RECURSE ${WORK_DIR})
 file(MAKE_DIRECTORY ${WORK_DIR})
 unset(ENV{DESTDIR})
 unset(ENV{CPATH})
-set(prefix ${WORK_DIR}/prefix)
 
-run(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${prefix})
-
-# A consumer has Eigen and {fmt}, which paim::paim hands on; other libraries must stay inside.
+# The runtime alone: few headers, which include the standard library, Eigen and each other.
+set(prefix ${WORK_DIR}/runtime)
+run(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${prefix} --component runtime)
 file(GLOB_RECURSE headers ${prefix}/*.h)
+list(LENGTH headers num_headers)
+if(num_headers GREATER 20 OR num_headers EQUAL 0)
+    message(FATAL_ERROR "expected 1 to 20 headers of the runtime, got ${num_headers}: ${headers}")
+endif()
 foreach(header IN LISTS headers)
-    file(STRINGS ${header} includes REGEX "^#include <.*/")
-    list(FILTER includes EXCLUDE REGEX "<(Eigen|fmt)/")
+    file(STRINGS ${header} includes REGEX "^#include [<\"].*/")
+    list(FILTER includes EXCLUDE REGEX "[<\"](Eigen|paim)/")
     if(includes)
-        message(FATAL_ERROR "${header}: expected Eigen and fmt only, got ${includes}")
+        message(FATAL_ERROR "${header}: expected Eigen and paim only, got ${includes}")
     endif()
 endforeach()
+file(GLOB_RECURSE targets ${prefix}/*runtime-targets.cmake)
+file(STRINGS ${targets} links REGEX "INTERFACE_LINK_LIBRARIES")
+string(REGEX MATCHALL "[A-Za-z0-9_]+::[A-Za-z0-9_]+" libraries "${links}")
+list(REMOVE_ITEM libraries Eigen3::Eigen zstd::zstd meshoptimizer::meshoptimizer)
+if(libraries OR NOT links)
+    message(FATAL_ERROR "expected Eigen's headers, zstd and meshoptimizer, got ${links}")
+endif()
+build_against_install(${SOURCE_DIR}/runtime ${WORK_DIR}/build_runtime)
+find_program(LDD ldd)
+if(LDD AND NOT CXX_FLAGS MATCHES "sanitize")
+    run(${LDD} ${WORK_DIR}/build_runtime/paim_play_cpp)
+    string(REGEX MATCHALL "lib[a-z_A-Z+]+[-.]" loaded "${output}")
+    list(REMOVE_DUPLICATES loaded)
+    list(FILTER loaded EXCLUDE REGEX "^lib(zstd|meshoptimizer|stdc\\+\\+|m|gcc_s|c|pthread|dl|paim_runtime)[-.]$")
+    if(loaded)
+        message(FATAL_ERROR "expected no library but zstd, meshoptimizer and the C++ runtime, got ${loaded}")
+    endif()
+endif()
 
-build_against_install(${SOURCE_DIR}/every_header ${WORK_DIR}/every_header)
-build_against_install(${SOURCE_DIR} ${WORK_DIR}/consumer)
-
+# Everything.
+set(prefix ${WORK_DIR}/all)
+run(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${prefix})
+build_against_install(${SOURCE_DIR}/tools ${WORK_DIR}/build_tools)
 set(tools ${prefix}/${BIN_DIR})
-run(${tools}/paim-poses sphere -o ${WORK_DIR}/poses --poses 3 --vertices 100)
-run(${tools}/paim-compress ${WORK_DIR}/poses -o ${WORK_DIR}/sphere.paim
-    --albedo 0.5,0.25,0.75 --bands 3 --rays 64 --transfer-components all)
-run(${WORK_DIR}/consumer/paim_consumer ${WORK_DIR}/sphere.paim)
-message("${output}")
+
+# Plays a file with both programs, which have to agree; leaves what they print in `output`.
+function(play file)
+    run(${WORK_DIR}/build_runtime/paim_play_cpp ${ARGN} ${file})
+    set(from_cpp "${output}")
+    run(${WORK_DIR}/build_runtime/paim_play_c ${ARGN} ${file})
+    if(NOT output STREQUAL from_cpp)
+        message(FATAL_ERROR "${file}: C++ shows\n${from_cpp}\nC shows\n${output}")
+    endif()
+    set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+# Cuts the file to each size that can be played, and one byte less than the smallest.
+function(play_prefixes file)
+    run(${tools}/paim-info ${file} --prefixes --json)
+    string(JSON num_prefixes LENGTH "${output}" prefixes)
+    set(json "${output}")
+    math(EXPR last "${num_prefixes} - 1")
+    foreach(j RANGE ${last})
+        string(JSON size GET "${json}" prefixes ${j} size_bytes)
+        execute_process(COMMAND head -c ${size} ${file} OUTPUT_FILE ${WORK_DIR}/prefix.paim)
+        play(${WORK_DIR}/prefix.paim --prefix)
+    endforeach()
+    string(JSON size GET "${json}" prefixes 0 size_bytes)
+    math(EXPR size "${size} - 1")
+    execute_process(COMMAND head -c ${size} ${file} OUTPUT_FILE ${WORK_DIR}/prefix.paim)
+    foreach(program paim_play_cpp paim_play_c)
+        execute_process(COMMAND ${WORK_DIR}/build_runtime/${program} --prefix ${WORK_DIR}/prefix.paim
+            RESULT_VARIABLE result ERROR_VARIABLE message)
+        if(NOT result EQUAL 2 OR NOT message MATCHES "cut short")
+            message(FATAL_ERROR "${program}: expected exit code 2 and 'cut short', got ${result}: ${message}")
+        endif()
+    endforeach()
+endfunction()
 
 # Nothing shadows a sphere, so its transfer is the closed form and the sum exact but for the
 # rounding of floats, some 1e-7: far below the four digits printed.
+run(${tools}/paim-poses sphere -o ${WORK_DIR}/poses --poses 3 --vertices 100)
+run(${tools}/paim-compress ${WORK_DIR}/poses -o ${WORK_DIR}/sphere.paim
+    --albedo 0.5,0.25,0.75 --bands 3 --rays 64 --transfer-components all)
+play(${WORK_DIR}/sphere.paim)
+message("${output}")
 string(FIND "${output}" "3 poses, 3 bands\nradiance 0.5000 0.2500 0.7500 to 0.5000 0.2500 0.7500\n"
     position)
 if(position EQUAL -1)
     message(FATAL_ERROR "expected radiance 0.5 0.25 0.75 at every vertex, got:\n${output}")
 endif()
 
+# Every codec and precision, with and without something that stands still, whole and as prefixes.
+run(${tools}/paim-poses octopus -o ${WORK_DIR}/octopus --poses 4 --vertices 1000)
+file(GLOB still ${WORK_DIR}/poses/*.obj)
+list(GET still 0 still)
+run(${tools}/paim-compress bake ${WORK_DIR}/octopus -o ${WORK_DIR}/alone.bake --bands 3 --rays 64)
+run(${tools}/paim-compress bake ${WORK_DIR}/octopus -o ${WORK_DIR}/among.bake --bands 3 --rays 64
+    --static ${still})
+set(settings
+    "--max-error 10%"
+    "--max-error 10% --codec svd"
+    "--max-error 10% --codec cpca"
+    "--max-error 10% --precision f32"
+    "--max-error 10% --precision f16"
+    "--max-size 40K"
+    "--transfer-components 2 --geometry-components 2 --precision f16"
+    "--transfer-components all --geometry-components all"
+    "--measure")
+foreach(bake alone among)
+    foreach(setting IN LISTS settings)
+        separate_arguments(arguments UNIX_COMMAND "${setting}")
+        run(${tools}/paim-compress encode ${WORK_DIR}/${bake}.bake -o ${WORK_DIR}/x.paim ${arguments})
+        play(${WORK_DIR}/x.paim)
+        play_prefixes(${WORK_DIR}/x.paim)
+    endforeach()
+endforeach()
+
+# Baked and encoded from memory, and played.
+run(${WORK_DIR}/build_tools/paim_bake ${WORK_DIR}/memory.bake ${WORK_DIR}/memory.paim)
+play(${WORK_DIR}/memory.paim)
+
 # A file that is no .paim must end in Paim's error, thrown across the library's border.
-execute_process(COMMAND ${WORK_DIR}/consumer/paim_consumer ${SOURCE_DIR}/main.cpp
-    RESULT_VARIABLE result ERROR_VARIABLE message)
-if(NOT result EQUAL 2 OR NOT message MATCHES "main.cpp")
-    message(FATAL_ERROR "expected exit code 2 and the file's name, got ${result}: ${message}")
-endif()
+foreach(program paim_play_cpp paim_play_c)
+    execute_process(COMMAND ${WORK_DIR}/build_runtime/${program} ${CMAKE_CURRENT_LIST_FILE}
+        RESULT_VARIABLE result ERROR_VARIABLE message)
+    if(NOT result EQUAL 2 OR NOT message MATCHES "run.cmake")
+        message(FATAL_ERROR "expected exit code 2 and the file's name, got ${result}: ${message}")
+    endif()
+endforeach()

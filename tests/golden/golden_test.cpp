@@ -11,7 +11,7 @@
 #include "paim/codec/mesh_decoder.h"
 #include "paim/format/container/container_reader.h"
 #include "paim/format/container/sections.h"
-#include "paim/format/pack/zstd_codec.h"
+#include "paim/format/pack/zstd_decoder.h"
 #include "paim/format/paim/paim_read.h"
 #include "paim/format/paim/paim_write.h"
 #include "tests/example_asset.h"

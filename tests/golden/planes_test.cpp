@@ -14,8 +14,10 @@
 
 #include "paim/base/file.h"
 #include "paim/base/seed.h"
-#include "paim/format/pack/plane_codec.h"
+#include "paim/format/pack/plane_decoder.h"
+#include "paim/format/pack/plane_encoder.h"
 #include "paim/format/pack/plane_packing.h"
+#include "paim/format/pack/zstd_decoder.h"
 
 namespace paim {
 namespace {

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "paim/codec/frame_cost.h"
+#include "paim/codec/transfer_player.h"
+
 namespace paim::toy {
 
 std::unique_ptr<TransferModel> SharedPoints::clone() const {

@@ -1,6 +1,8 @@
 // How much memory it takes to encode to a target.
 #include "compressor/encode/memory/target_memory.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "compressor/encode/cluster/clustered_pca.h"
@@ -8,7 +10,7 @@
 #include "compressor/encode/quantise/quantise.h"
 #include "compressor/encode/svd/tsqr.h"
 #include "paim/base/error.h"
-#include "paim/format/pack/plane_codec.h"
+#include "paim/format/pack/plane_encoder.h"
 #include "paim/metrics/asset_error.h"
 
 namespace paim {

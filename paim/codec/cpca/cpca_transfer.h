@@ -5,7 +5,9 @@
 #pragma once
 
 #include "paim/codec/cpca/vertex_clusters.h"
+#include "paim/codec/frame_cost.h"
 #include "paim/codec/transfer_model.h"
+#include "paim/codec/transfer_player.h"
 
 namespace paim {
 

@@ -3,7 +3,9 @@
 //           Geometry, 2012
 #pragma once
 
+#include "paim/codec/frame_cost.h"
 #include "paim/codec/transfer_model.h"
+#include "paim/codec/transfer_player.h"
 
 namespace paim {
 

@@ -11,8 +11,8 @@
 #include "paim/base/half.h"
 #include "paim/base/parallel.h"
 #include "paim/format/container/sections.h"
-#include "paim/format/pack/index_codec.h"
-#include "paim/format/pack/plane_codec.h"
+#include "paim/format/pack/index_encoder.h"
+#include "paim/format/pack/plane_encoder.h"
 #include "paim/format/paim/paim_metadata.h"
 #include "paim/format/paim/section_table.h"
 

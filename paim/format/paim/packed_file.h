@@ -7,7 +7,7 @@
 
 #include "paim/codec/asset.h"
 #include "paim/format/container/container_writer.h"
-#include "paim/format/pack/zstd_codec.h"
+#include "paim/format/pack/zstd_encoder.h"
 
 namespace paim {
 

@@ -1,8 +1,12 @@
 // Reads .paim files. Layout: docs/format.md.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <span>
+#include <string>
 
+#include "paim/base/export.h"
 #include "paim/codec/asset.h"
 
 namespace paim {
@@ -17,6 +21,10 @@ struct ReadOptions {
 // checked: what is returned holds finite numbers and decodes to finite numbers. A section that is
 // missing is an error; of a prefix, components may be missing, and the message says how many bytes a
 // prefix needs to be playable.
-Asset read_paim(const std::filesystem::path& path, const ReadOptions& options = {});
+PAIM_EXPORT Asset read_paim(const std::filesystem::path& path, const ReadOptions& options = {});
+
+// The same from memory, which is not kept. name  what messages call the bytes
+PAIM_EXPORT Asset read_paim(std::span<const uint8_t> bytes, const std::string& name,
+                            const ReadOptions& options = {});
 
 }  // namespace paim

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include "paim/base/error.h"
@@ -130,16 +131,11 @@ void read_indices(const Metadata& metadata, Attribute attribute, uint32_t num_co
     if (!matrix.singular_indices.empty()) matrix.singular_indices.resize(matrix.num_components);
 }
 
-}  // namespace
+Extent extent_of(const ReadOptions& options) {
+    return options.prefix ? Extent::prefix : Extent::whole;
+}
 
-Asset read_paim(const std::filesystem::path& path, const ReadOptions& options) {
-    if (std::filesystem::is_directory(path)) {
-        throw_bad_input(
-            "{}: is a directory, expected a .paim file (paim-compress encode makes one of a .bake)",
-            path.string());
-    }
-    const ContainerReader reader(path, section::kKindAnimation,
-                                 options.prefix ? Extent::beginning : Extent::whole);
+Asset read_asset(const ContainerReader& reader) {
     const Prefix prefix = find_prefix(reader);
     const Metadata metadata(reader.read_text(reader.require(section::kMetadata, ScalarType::u8)),
                             reader.path());
@@ -164,6 +160,23 @@ Asset read_paim(const std::filesystem::path& path, const ReadOptions& options) {
     asset.complete = positions.num_components == geometry_components &&
                      transfer.num_components == transfer_components;
     return asset;
+}
+
+}  // namespace
+
+Asset read_paim(const std::filesystem::path& path, const ReadOptions& options) {
+    if (std::filesystem::is_directory(path)) {
+        throw_bad_input(
+            "{}: is a directory, expected a .paim file (paim-compress encode makes one of a .bake)",
+            path.string());
+    }
+    return read_asset(ContainerReader(path, section::kKindAnimation, extent_of(options)));
+}
+
+Asset read_paim(std::span<const uint8_t> bytes, const std::string& name,
+                const ReadOptions& options) {
+    return read_asset(ContainerReader(std::make_shared<MemorySource>(bytes), name,
+                                      section::kKindAnimation, extent_of(options)));
 }
 
 }  // namespace paim

@@ -13,7 +13,7 @@
 #include "paim/base/parallel.h"
 #include "paim/format/container/mesh_sections.h"
 #include "paim/format/container/sections.h"
-#include "paim/format/pack/plane_codec.h"
+#include "paim/format/pack/plane_decoder.h"
 #include "paim/format/pack/plane_predictor.h"
 #include "paim/format/paim/section_table.h"
 

@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <new>
 
-#include "paim/base/parallel.h"
 #include "paim/base/seed.h"
+#include "paim/base/tbb_parallel.h"
 #include "paim/codec/accumulate.h"
 #include "paim/codec/cpca/cpca_transfer.h"
 #include "paim/codec/mesh_decoder.h"

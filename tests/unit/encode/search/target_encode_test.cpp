@@ -15,7 +15,7 @@
 #include "compressor/encode/quantise/quantise.h"
 #include "compressor/encode/search/problem.h"
 #include "paim/base/error.h"
-#include "paim/base/parallel.h"
+#include "paim/base/tbb_parallel.h"
 #include "paim/codec/component_planes.h"
 #include "paim/codec/svd/svd_transfer.h"
 #include "paim/format/paim/paim_read.h"

@@ -1,8 +1,10 @@
 /* Embeds Paim from C: the same as play.cpp, with the bytes of the file in memory. */
+#include "paim/paim.h"
+
 #include <math.h>
-#include <paim/paim.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 static int fail(paim_status status) {
     fprintf(stderr, "%s\n", paim_error_message());
@@ -58,15 +60,18 @@ static int play(const paim_asset* asset, paim_player* player) {
 }
 
 int main(int argc, char** argv) {
-    if (argc != 2) {
-        fprintf(stderr, "usage: paim_play_c X.paim\n");
+    const int prefix = argc == 3 && strcmp(argv[1], "--prefix") == 0;
+    if (argc != 2 && !prefix) {
+        fprintf(stderr, "usage: paim_play_c [--prefix] X.paim\n");
         return 1;
     }
     size_t size = 0;
-    void* bytes = read_all(argv[1], &size);
+    const char* file = argv[argc - 1];
+    void* bytes = read_all(file, &size);
     paim_asset* asset = NULL;
     paim_player* player = NULL;
-    paim_status status = paim_asset_open_memory(bytes, size, argv[1], &asset);
+    paim_status status = prefix ? paim_asset_open_prefix(bytes, size, file, &asset)
+                                : paim_asset_open_memory(bytes, size, file, &asset);
     free(bytes);
     if (!status) status = paim_player_create(asset, &player);
     const int result = status ? fail(status) : play(asset, player);

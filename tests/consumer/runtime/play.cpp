@@ -1,8 +1,9 @@
-// Embeds Paim: reads a .paim file, plays the middle of it under light of radiance 1 from everywhere, and
-// prints what its vertices show. Where no other part of the mesh is in the way, that is the albedo.
+// Embeds Paim: reads a .paim file, or a prefix of one, plays the middle of it under light of radiance 1
+// from everywhere, and prints what its vertices show. Where no other part of the mesh is in the way, that
+// is the albedo.
 #include <cmath>
 #include <cstdio>
-#include <limits>
+#include <cstring>
 #include <memory>
 
 #include "paim/base/error.h"
@@ -12,8 +13,9 @@
 
 namespace {
 
-void play(const char* file) {
-    const auto asset = std::make_shared<const paim::Asset>(paim::read_paim(file));
+void play(const char* file, bool prefix) {
+    const auto asset =
+        std::make_shared<const paim::Asset>(paim::read_paim(file, {.prefix = prefix}));
     paim::Playback playback(asset);
     // Radiance 1 from everywhere is y_00 alone: L_00 = ∫ y_00 dω = sqrt(4π).
     const auto l00 = static_cast<float>(std::sqrt(4.0 * paim::kPi));
@@ -37,12 +39,13 @@ void play(const char* file) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (argc != 2) {
-        std::fprintf(stderr, "usage: paim_play_cpp X.paim\n");
+    const bool prefix = argc == 3 && std::strcmp(argv[1], "--prefix") == 0;
+    if (argc != 2 && !prefix) {
+        std::fprintf(stderr, "usage: paim_play_cpp [--prefix] X.paim\n");
         return 1;
     }
     try {
-        play(argv[1]);
+        play(argv[argc - 1], prefix);
     } catch (const paim::Error& error) {
         std::fprintf(stderr, "%s\n", error.what());
         return static_cast<int>(error.code());
