@@ -1,6 +1,8 @@
 // What paim-analyze does, step by step.
 #include "analysis/analyze.h"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include <limits>

@@ -1,6 +1,7 @@
 // Error curves as SVG, drawn by gnuplot.
 #include "analysis/plots.h"
 
+#include <fmt/format.h>
 #include <sys/wait.h>
 
 #include <algorithm>

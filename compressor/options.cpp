@@ -1,6 +1,8 @@
 // The command line of paim-compress.
 #include "compressor/options.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <limits>

@@ -1,6 +1,7 @@
 // What paim-compress does, step by step.
 #include "compressor/pipeline.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>

@@ -1,6 +1,8 @@
 // Watching a file that grows.
 #include "player/progressive_loader.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 

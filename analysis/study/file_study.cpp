@@ -1,6 +1,8 @@
 // paim-file-study: how small and how cheap to play files of a given error are, against the paper's own
 // storage at the same error: the table of docs/results/files.md.
 // Based on: Cardoso and Kry, Error Analysis of Precomputed Radiance Transfer for Deforming Geometry, 2012
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 
 #include <filesystem>

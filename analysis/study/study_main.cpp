@@ -1,4 +1,6 @@
 // paim-study: the measurements on which the defaults rest.
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 
 #include <algorithm>

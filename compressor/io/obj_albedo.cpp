@@ -1,6 +1,8 @@
 // The albedo of a mesh.
 #include "compressor/io/obj_albedo.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "paim/base/check.h"

@@ -1,6 +1,8 @@
 // The diffuse part of material libraries.
 #include "compressor/io/obj_materials.h"
 
+#include <fmt/format.h>
+
 #include <charconv>
 
 #include "compressor/io/obj_text.h"

@@ -1,6 +1,8 @@
 // Parsing through tinyobjloader.
 #include "compressor/io/obj_parse.h"
 
+#include <fmt/format.h>
+
 #include <istream>
 #include <map>
 #include <set>

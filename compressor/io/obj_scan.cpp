@@ -1,6 +1,8 @@
 // A strict check of an OBJ file.
 #include "compressor/io/obj_scan.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstring>
 #include <limits>

@@ -1,6 +1,8 @@
 // A pose sequence in OBJ files.
 #include "compressor/io/obj_sequence.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
 #include <exception>

@@ -1,6 +1,8 @@
 // Reading OBJ text number by number.
 #include "compressor/io/obj_text.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cstring>

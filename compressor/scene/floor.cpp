@@ -1,6 +1,8 @@
 // The poses of another source with a ground under them.
 #include "compressor/scene/floor.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>

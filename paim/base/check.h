@@ -1,24 +1,16 @@
 // Programmer mistakes: always-on checks that print the condition, the place and both values.
 #pragma once
 
-#include <fmt/format.h>
+#include <initializer_list>
 
-#include <cstdio>
-#include <cstdlib>
+#include "paim/base/export.h"
+#include "paim/base/message.h"
 
 namespace paim::detail {
 
-[[noreturn]] inline void check_failed(const char* file, int line, const char* what) {
-    fmt::print(stderr, "{}:{}: check failed: {}\n", file, line, what);
-    std::abort();
-}
-
-template <typename A, typename B>
-[[noreturn]] void check_failed(const char* file, int line, const char* what, const A& a,
-                               const B& b) {
-    fmt::print(stderr, "{}:{}: check failed: {} (got {} and {})\n", file, line, what, a, b);
-    std::abort();
-}
+// Prints "FILE:LINE: check failed: WHAT", and both values where there are two, and aborts.
+[[noreturn]] PAIM_EXPORT void check_failed(const char* file, int line, const char* what,
+                                           std::initializer_list<MessageValue> values = {});
 
 }  // namespace paim::detail
 
@@ -30,7 +22,9 @@ template <typename A, typename B>
         const auto& paim_a = (a);                                                                \
         const auto& paim_b = (b);                                                                \
         if (!(paim_a op paim_b)) {                                                               \
-            ::paim::detail::check_failed(__FILE__, __LINE__, #a " " #op " " #b, paim_a, paim_b); \
+            ::paim::detail::check_failed(                                                        \
+                __FILE__, __LINE__, #a " " #op " " #b,                                           \
+                {::paim::detail::message_value(paim_a), ::paim::detail::message_value(paim_b)}); \
         }                                                                                        \
     } while (false)
 

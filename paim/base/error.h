@@ -1,11 +1,14 @@
 // Foreseeable failures: what went wrong, where, what was expected, what was got, and the exit code.
 #pragma once
 
-#include <fmt/format.h>
-
+#include <initializer_list>
 #include <stdexcept>
 #include <string>
-#include <utility>
+#include <string_view>
+#include <type_traits>
+
+#include "paim/base/export.h"
+#include "paim/base/message.h"
 
 namespace paim {
 
@@ -19,7 +22,7 @@ enum class ExitCode : int {
     threshold_exceeded = 5,  // the result misses the error that was asked for
 };
 
-class Error : public std::runtime_error {
+class PAIM_EXPORT Error : public std::runtime_error {
   public:
     Error(ExitCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
     ExitCode code() const { return code_; }
@@ -28,24 +31,32 @@ class Error : public std::runtime_error {
     ExitCode code_;
 };
 
-template <typename... Args>
-[[noreturn]] void throw_usage(fmt::format_string<Args...> format, Args&&... args) {
-    throw Error(ExitCode::usage, fmt::format(format, std::forward<Args>(args)...));
+[[noreturn]] PAIM_EXPORT void throw_error(ExitCode code, std::string_view format,
+                                          std::initializer_list<MessageValue> values);
+
+// Formats as in message.h.
+template <typename... Values>
+[[noreturn]] void throw_usage(MessageFormat<std::type_identity_t<Values>...> format,
+                              const Values&... values) {
+    throw_error(ExitCode::usage, format.text(), {detail::message_value(values)...});
 }
 
-template <typename... Args>
-[[noreturn]] void throw_bad_input(fmt::format_string<Args...> format, Args&&... args) {
-    throw Error(ExitCode::bad_input, fmt::format(format, std::forward<Args>(args)...));
+template <typename... Values>
+[[noreturn]] void throw_bad_input(MessageFormat<std::type_identity_t<Values>...> format,
+                                  const Values&... values) {
+    throw_error(ExitCode::bad_input, format.text(), {detail::message_value(values)...});
 }
 
-template <typename... Args>
-[[noreturn]] void throw_unsupported(fmt::format_string<Args...> format, Args&&... args) {
-    throw Error(ExitCode::unsupported, fmt::format(format, std::forward<Args>(args)...));
+template <typename... Values>
+[[noreturn]] void throw_unsupported(MessageFormat<std::type_identity_t<Values>...> format,
+                                    const Values&... values) {
+    throw_error(ExitCode::unsupported, format.text(), {detail::message_value(values)...});
 }
 
-template <typename... Args>
-[[noreturn]] void throw_output_failed(fmt::format_string<Args...> format, Args&&... args) {
-    throw Error(ExitCode::output_failed, fmt::format(format, std::forward<Args>(args)...));
+template <typename... Values>
+[[noreturn]] void throw_output_failed(MessageFormat<std::type_identity_t<Values>...> format,
+                                      const Values&... values) {
+    throw_error(ExitCode::output_failed, format.text(), {detail::message_value(values)...});
 }
 
 }  // namespace paim

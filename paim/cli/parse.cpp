@@ -1,6 +1,8 @@
 // Parsing of values that several tools take.
 #include "paim/cli/parse.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <charconv>

@@ -1,6 +1,8 @@
 // A pose sequence held in memory.
 #include "paim/mesh/pose_set.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "paim/base/check.h"

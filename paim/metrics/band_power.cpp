@@ -2,6 +2,8 @@
 // Based on: Dror, Willsky and Adelson 2004 (see the header)
 #include "paim/metrics/band_power.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <filesystem>
 

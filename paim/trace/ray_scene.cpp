@@ -3,6 +3,8 @@
 //           Ray Tracing, 2014
 #include "paim/trace/ray_scene.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,6 +1,8 @@
 // Uploading arrays as 2D textures.
 #include "player/gl/data_texture.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Core>
 
 #include <algorithm>

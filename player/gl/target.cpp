@@ -1,6 +1,8 @@
 // Float framebuffers and reading them back.
 #include "player/gl/target.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <vector>
 

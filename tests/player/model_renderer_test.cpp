@@ -1,6 +1,7 @@
 // What the GPU draws against the decoder and shade() on the CPU, ray cast.
 #include "player/render/model_renderer.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "paim/base/error.h"

@@ -1,6 +1,7 @@
 // Files that grow, are replaced, are damaged.
 #include "player/progressive_loader.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "paim/codec/sequence_bounds.h"

@@ -1,4 +1,5 @@
 // paim-play --progressive as a user runs it.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <stdlib.h>
 

@@ -1,4 +1,5 @@
 // paim-play's pictures of a baked, compressed octopus against the ray-cast reference renderer.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>

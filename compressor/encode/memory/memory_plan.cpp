@@ -1,6 +1,8 @@
 // How much memory encoding takes.
 #include "compressor/encode/memory/memory_plan.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 

@@ -1,6 +1,8 @@
 // How much memory it takes to encode to a target.
 #include "compressor/encode/memory/target_memory.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "compressor/encode/cluster/clustered_pca.h"

@@ -1,6 +1,8 @@
 // The manifest of a .bake directory.
 #include "paim/format/bake/bake_manifest.h"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <limits>
 

@@ -1,4 +1,6 @@
 // Reads .bake directories.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <utility>

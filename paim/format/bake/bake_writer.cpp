@@ -1,4 +1,6 @@
 // Writes .bake directories.
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>

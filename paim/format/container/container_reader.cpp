@@ -205,7 +205,7 @@ const Section& ContainerReader::require(Tag tag, ScalarType type, uint32_t index
 }
 
 std::string ContainerReader::label(const Section& section) const {
-    return fmt::format("{}: section {} {}", path_, section.spec.tag.str(), section.spec.index);
+    return message("{}: section {} {}", path_, section.spec.tag.str(), section.spec.index);
 }
 
 void ContainerReader::read_bytes(uint64_t offset, void* out, uint64_t size_bytes) const {

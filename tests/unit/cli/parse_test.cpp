@@ -1,6 +1,7 @@
 // Value forms on the command line: fractions, colours, sizes.
 #include "paim/cli/parse.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "paim/base/error.h"

@@ -1,4 +1,5 @@
 // Files that mean harm: a clear error or a mesh, never a crash, a hang or a huge allocation.
+#include <fmt/format.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 
