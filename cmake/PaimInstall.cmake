@@ -13,19 +13,26 @@ set(public_rooms base codec format image light mesh metrics sh shade transfer)
 set(private_headers
     codec/vector_kernels.h
     format/bake/bake_manifest.h
-    format/pack/index_codec.h
     format/paim/matrix_sections.h
+    format/container/mesh_section_writer.h
     format/container/mesh_sections.h
     format/container/metadata.h
     format/paim/paim_metadata.h
     format/paim/paim_packer.h
     format/container/sections.h
-    format/pack/plane_codec.h
+    format/pack/index_decoder.h
+    format/pack/index_encoder.h
+    format/pack/packed_plane.h
+    format/pack/plane_decoder.h
+    format/pack/plane_encoder.h
     format/pack/plane_packing.h
     format/pack/plane_predictor.h
     format/pack/plane_reconstruct.h
+    format/pack/plane_residuals.h
+    format/pack/plane_unpacking.h
     format/pack/workspace.h
-    format/pack/zstd_codec.h
+    format/pack/zstd_decoder.h
+    format/pack/zstd_encoder.h
     image/exr_header.h
     sh/recurrence.h)
 foreach(header IN LISTS private_headers)

@@ -16,7 +16,7 @@
 #include "paim/base/seed.h"
 #include "paim/format/container/container_reader.h"
 #include "paim/format/container/sections.h"
-#include "paim/format/pack/zstd_codec.h"
+#include "paim/format/pack/zstd_decoder.h"
 #include "paim/format/paim/paim_file.h"
 #include "paim/mesh/cache_order.h"
 

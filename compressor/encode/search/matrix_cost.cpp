@@ -6,7 +6,7 @@
 
 #include "paim/base/parallel.h"
 #include "paim/format/container/container.h"
-#include "paim/format/pack/plane_codec.h"
+#include "paim/format/pack/plane_encoder.h"
 
 namespace paim {
 

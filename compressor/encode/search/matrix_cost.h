@@ -5,7 +5,7 @@
 
 #include "paim/codec/model.h"
 #include "paim/format/pack/plane_predictor.h"
-#include "paim/format/pack/zstd_codec.h"
+#include "paim/format/pack/zstd_encoder.h"
 
 namespace paim {
 

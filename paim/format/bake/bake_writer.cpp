@@ -13,7 +13,7 @@
 #include "paim/base/hash.h"
 #include "paim/format/bake/bake_directory.h"
 #include "paim/format/bake/bake_manifest.h"
-#include "paim/format/container/mesh_sections.h"
+#include "paim/format/container/mesh_section_writer.h"
 #include "paim/format/container/sections.h"
 
 namespace paim {

@@ -52,8 +52,8 @@ enum class SectionCodec : uint8_t {
     none = 0,  // they are the same
     zstd = 1,  // one Zstandard frame
     indices =
-        2,       // triangles: meshoptimizer's index codec, then as zstd (format/pack/index_codec.h)
-    planes = 3,  // integers: predicted and packed, then as zstd (format/pack/plane_codec.h)
+        2,  // triangles: meshoptimizer's index codec, then as zstd (format/pack/index_encoder.h)
+    planes = 3,  // integers: predicted and packed, then as zstd (format/pack/plane_encoder.h)
 };
 
 // What a section holds: an array of up to three dimensions, the last one contiguous. Unused

@@ -15,7 +15,7 @@
 #include "paim/base/error.h"
 #include "paim/base/half.h"
 #include "paim/base/hash.h"
-#include "paim/format/pack/zstd_codec.h"
+#include "paim/format/pack/zstd_decoder.h"
 
 namespace paim {
 

@@ -1,4 +1,4 @@
-// Triangles and albedo as sections.
+// Triangles and albedo from sections.
 #include "paim/format/container/mesh_sections.h"
 
 #include <algorithm>
@@ -8,24 +8,9 @@
 
 #include "paim/base/error.h"
 #include "paim/format/container/sections.h"
-#include "paim/format/pack/index_codec.h"
+#include "paim/format/pack/index_decoder.h"
 
 namespace paim {
-
-SectionSpec triangles_spec(const Topology& topology, Tag tag) {
-    return {tag, ScalarType::u32, 0, {1, static_cast<uint32_t>(topology.triangles.size()), 3}};
-}
-
-SectionSpec albedo_spec(const Albedo& albedo, Tag tag) {
-    return {tag, ScalarType::f32, 0, {1, static_cast<uint32_t>(albedo.values.size()), 3}};
-}
-
-void append_mesh(ContainerWriter& writer, size_t triangles_section, size_t albedo_section,
-                 const Topology& topology, const Albedo& albedo) {
-    writer.append(triangles_section, topology.triangles.data(),
-                  topology.triangles.size() * sizeof(Triangle));
-    writer.append(albedo_section, albedo.values.data(), albedo.values.size() * sizeof(Vec3f));
-}
 
 Topology read_triangles(const ContainerReader& reader, uint32_t num_vertices, Tag tag) {
     const Section& section = reader.require(tag, ScalarType::u32);

@@ -1,19 +1,13 @@
-// Triangles and albedo as sections, the same in .paim and .bake.
+// Triangles, albedo and planes from sections, the same in .paim and .bake.
 #pragma once
 
 #include <span>
 
 #include "paim/format/container/container_reader.h"
-#include "paim/format/container/container_writer.h"
 #include "paim/format/container/sections.h"
 #include "paim/mesh/topology.h"
 
 namespace paim {
-
-SectionSpec triangles_spec(const Topology& topology, Tag tag = section::kTriangles);
-SectionSpec albedo_spec(const Albedo& albedo, Tag tag = section::kAlbedo);
-void append_mesh(ContainerWriter& writer, size_t triangles_section, size_t albedo_section,
-                 const Topology& topology, const Albedo& albedo);
 
 // Errors (bad input): an index that is not below num_vertices, an albedo that is not 1 or
 // num_vertices finite colours.

@@ -56,16 +56,6 @@ class PlanePredictor {
     // Made when they are first asked for, by any thread.
     std::span<const Parallelograms> parallelograms() const;
 
-    // residuals[n] = values[n] − prediction, in arithmetic of the integers' size that wraps around,
-    // as every sum of values below does.
-    template <typename Integer>
-    void subtract(Prediction prediction, std::span<const Integer> values,
-                  std::span<Integer> residuals) const;
-
-    // The reverse, in place. One plane after the other: reconstruct_planes() does many at once.
-    template <typename Integer>
-    void add(Prediction prediction, std::span<Integer> residuals) const;
-
   private:
     struct Later {
         std::once_flag made;

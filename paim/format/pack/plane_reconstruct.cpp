@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "paim/base/check.h"
+#include "paim/format/pack/plane_unpacking.h"
 
 namespace paim {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "paim/format/pack/plane_packing.h"
+#include "paim/format/pack/packed_plane.h"
 #include "paim/format/pack/plane_predictor.h"
 #include "paim/format/pack/workspace.h"
 
@@ -22,7 +22,7 @@ struct PlaneSource {
     Integer* out = nullptr;  // [N]
 };
 
-// Every plane's `out` = what PlanePredictor::add() makes of its residuals. False if an escape lies
+// Every plane's `out` = what add_prediction() makes of its residuals. False if an escape lies
 // outside its plane or a value is the lowest of its integers, which files do not use; `out` then
 // holds anything.
 // planes     are reordered

@@ -6,11 +6,12 @@
 #include <limits>
 #include <span>
 
+#include "paim/base/check.h"
 #include "paim/base/error.h"
 #include "paim/base/parallel.h"
 #include "paim/format/container/mesh_sections.h"
 #include "paim/format/container/sections.h"
-#include "paim/format/pack/plane_codec.h"
+#include "paim/format/pack/plane_decoder.h"
 
 namespace paim {
 

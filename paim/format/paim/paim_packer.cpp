@@ -9,10 +9,10 @@
 #include "paim/base/error.h"
 #include "paim/base/half.h"
 #include "paim/base/parallel.h"
-#include "paim/format/container/mesh_sections.h"
+#include "paim/format/container/mesh_section_writer.h"
 #include "paim/format/container/sections.h"
-#include "paim/format/pack/index_codec.h"
-#include "paim/format/pack/plane_codec.h"
+#include "paim/format/pack/index_encoder.h"
+#include "paim/format/pack/plane_encoder.h"
 #include "paim/format/paim/paim_file.h"
 #include "paim/format/paim/paim_metadata.h"
 

@@ -8,7 +8,7 @@
 
 #include "paim/codec/model.h"
 #include "paim/format/container/container_writer.h"
-#include "paim/format/pack/zstd_codec.h"
+#include "paim/format/pack/zstd_encoder.h"
 
 namespace paim {
 

@@ -4,7 +4,7 @@
 
 #include "paim/base/check.h"
 #include "paim/base/half.h"
-#include "paim/format/container/mesh_sections.h"
+#include "paim/format/container/mesh_section_writer.h"
 #include "paim/format/container/sections.h"
 #include "paim/format/paim/paim_file.h"
 #include "paim/format/paim/paim_metadata.h"

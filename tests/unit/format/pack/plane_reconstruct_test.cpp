@@ -9,7 +9,11 @@
 
 #include "paim/base/parallel.h"
 #include "paim/base/seed.h"
-#include "paim/format/pack/plane_codec.h"
+#include "paim/format/pack/plane_decoder.h"
+#include "paim/format/pack/plane_encoder.h"
+#include "paim/format/pack/plane_packing.h"
+#include "paim/format/pack/plane_residuals.h"
+#include "paim/format/pack/plane_unpacking.h"
 
 namespace paim {
 namespace {
@@ -187,8 +191,9 @@ TEST(PlaneUndo, IsWhatThePredictorAdds) {
     for (const Prediction prediction : kPredictions) {
         const auto plane = random_plane<int8_t>(prediction, 2, 100.0, slow, random);
         std::vector<int8_t> values(400);
-        predictor.subtract(prediction, std::span<const int8_t>(plane.values), std::span(values));
-        predictor.add(prediction, std::span(values));
+        subtract_prediction(predictor, prediction, std::span<const int8_t>(plane.values),
+                            std::span(values));
+        add_prediction(predictor, prediction, std::span(values));
         EXPECT_EQ(values, plane.values);
         expect_values<int8_t>({plane}, predictor, 400);
     }

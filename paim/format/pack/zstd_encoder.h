@@ -1,9 +1,9 @@
-// Bytes through Zstandard.
+// Bytes into Zstandard frames.
 // Based on: Collet and Kucherawy, Zstandard Compression and the 'application/zstd' Media Type, RFC 8878
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,15 +18,8 @@ std::vector<uint8_t> zstd_compress(std::span<const uint8_t> bytes);
 // The same of bytes that are nearly noise, so that only their frequencies help: repetitions gain
 // little and take longest to undo, so that they are used only where they save more than 3 %.
 // Small: frames with and without are compared. Fast: without.
-// block_ends  offsets, ascending, where what follows has other statistics: tables start anew there
+// block_ends  offsets, ascending, where what follows has other statistics: new tables start there
 std::vector<uint8_t> zstd_compress_noise(std::span<const uint8_t> bytes,
                                          std::span<const size_t> block_ends, Effort effort);
-
-// The size that the frame says its contents have; nothing if this is no frame or does not say.
-std::optional<uint64_t> zstd_content_size(std::span<const uint8_t> frame);
-
-// Fills `out` exactly; false if this is not one whole frame, is damaged or holds anything but
-// out.size() bytes. Threads keep what they work in, about 100 KiB.
-bool zstd_decompress(std::span<const uint8_t> frame, std::span<uint8_t> out);
 
 }  // namespace paim

@@ -1,23 +1,14 @@
-// Planes of small integers as bytes: predicted from neighbours, packed, then Zstandard.
+// Planes of small integers from bytes: Zstandard, then unpacked, then predicted from neighbours.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
-#include "paim/codec/stored_values.h"
 #include "paim/format/pack/plane_predictor.h"
 #include "paim/format/pack/workspace.h"
-#include "paim/format/pack/zstd_codec.h"
 
 namespace paim {
-
-// values     [planes][N], integers
-// predictor  of N points, or without a mesh
-// Each plane gets the prediction and the packing that are estimated to be the smallest. The same
-// input gives the same bytes on any number of threads.
-std::vector<uint8_t> encode_planes(const StoredValues& values, size_t num_planes,
-                                   const PlanePredictor& predictor, Effort effort = Effort::small);
 
 // Planes in a file, and where they go.
 template <typename Integer>

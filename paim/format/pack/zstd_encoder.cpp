@@ -1,12 +1,10 @@
-// Bytes through Zstandard.
-#include "paim/format/pack/zstd_codec.h"
+// Bytes into Zstandard frames.
+#include "paim/format/pack/zstd_encoder.h"
 
 // For the parameter that asks for Huffman codes whatever else is asked for.
 #define ZSTD_STATIC_LINKING_ONLY
 #include <zstd.h>
 
-#include <algorithm>
-#include <array>
 #include <memory>
 #include <utility>
 
@@ -18,7 +16,6 @@ namespace {
 
 struct FreeContext {
     void operator()(ZSTD_CCtx* context) const { ZSTD_freeCCtx(context); }
-    void operator()(ZSTD_DCtx* context) const { ZSTD_freeDCtx(context); }
 };
 
 constexpr int kSmallLevel = 19;
@@ -97,28 +94,6 @@ std::vector<uint8_t> zstd_compress_noise(std::span<const uint8_t> bytes,
         best = std::move(other);
     }
     return best;
-}
-
-std::optional<uint64_t> zstd_content_size(std::span<const uint8_t> frame) {
-    const unsigned long long size = ZSTD_getFrameContentSize(frame.data(), frame.size());
-    if (size == ZSTD_CONTENTSIZE_ERROR || size == ZSTD_CONTENTSIZE_UNKNOWN) return std::nullopt;
-    return size;
-}
-
-bool zstd_decompress(std::span<const uint8_t> frame, std::span<uint8_t> out) {
-    // The library takes any number of frames, and frames to be skipped, for one.
-    constexpr std::array<uint8_t, 4> kMagic{0x28, 0xb5, 0x2f, 0xfd};
-    if (frame.size() < kMagic.size() || !std::equal(kMagic.begin(), kMagic.end(), frame.begin()) ||
-        ZSTD_findFrameCompressedSize(frame.data(), frame.size()) != frame.size()) {
-        return false;
-    }
-    // A new context asks the processor what it can, which takes tens of microseconds on virtual
-    // machines: longer than most sections.
-    thread_local const std::unique_ptr<ZSTD_DCtx, FreeContext> context(ZSTD_createDCtx());
-    PAIM_CHECK(context != nullptr);
-    const size_t got =
-        ZSTD_decompressDCtx(context.get(), out.data(), out.size(), frame.data(), frame.size());
-    return ZSTD_isError(got) == 0 && got == out.size();
 }
 
 }  // namespace paim
