@@ -16,7 +16,7 @@
 #include "compressor/encode/encode.h"
 #include "paim/base/error.h"
 #include "paim/base/file.h"
-#include "paim/base/parallel.h"
+#include "paim/base/tbb_parallel.h"
 #include "paim/cli/progress.h"
 #include "paim/format/paim/paim_file.h"
 

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "paim/base/error.h"
-#include "paim/base/parallel.h"
+#include "paim/base/tbb_parallel.h"
 #include "paim/format/paim/paim_file.h"
 #include "paim/metrics/model_error.h"
 

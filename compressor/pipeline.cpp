@@ -22,6 +22,7 @@
 #include "paim/base/error.h"
 #include "paim/base/file.h"
 #include "paim/base/parallel.h"
+#include "paim/base/tbb_parallel.h"
 #include "paim/cli/progress.h"
 
 namespace paim {

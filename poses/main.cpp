@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "paim/base/parallel.h"
+#include "paim/base/tbb_parallel.h"
 #include "paim/cli/progress.h"
 #include "paim/cli/run_main.h"
 #include "poses/catalog.h"

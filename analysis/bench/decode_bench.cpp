@@ -8,6 +8,7 @@
 #include "analysis/bench/ratio.h"
 #include "paim/base/parallel.h"
 #include "paim/base/seed.h"
+#include "paim/base/tbb_parallel.h"
 #include "paim/codec/make_decoder.h"
 #include "paim/codec/pose_parts.h"
 #include "paim/shade/cluster_light.h"

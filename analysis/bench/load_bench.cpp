@@ -12,8 +12,8 @@
 #include <numbers>
 
 #include "analysis/bench/ratio.h"
-#include "paim/base/parallel.h"
 #include "paim/base/seed.h"
+#include "paim/base/tbb_parallel.h"
 #include "paim/format/container/container_reader.h"
 #include "paim/format/container/sections.h"
 #include "paim/format/pack/zstd_decoder.h"

@@ -20,6 +20,7 @@
 #include "compressor/encode/cluster/point_projection.h"
 #include "compressor/encode/data/bake_rows.h"
 #include "paim/base/error.h"
+#include "paim/base/tbb_parallel.h"
 
 namespace paim {
 namespace {
@@ -148,6 +149,7 @@ void run(const std::vector<std::string>& words) {
 }  // namespace paim
 
 int main(int argc, char** argv) {
+    paim::use_tbb();
     try {
         paim::run({argv + 1, argv + argc});
         return 0;

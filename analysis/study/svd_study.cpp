@@ -7,6 +7,7 @@
 #include "analysis/study/hard_matrices.h"
 #include "analysis/study/reference_svd.h"
 #include "compressor/encode/svd/left_singular_vectors.h"
+#include "paim/base/tbb_parallel.h"
 
 namespace paim {
 
@@ -80,6 +81,7 @@ void study(const HardMatrix& hard) {
 }  // namespace paim
 
 int main() {
+    paim::use_tbb();
     fmt::print(
         "| matrix | rows x poses | rank | s_min/s_0 | error of s | Gram | relative error of s | "
         "Gram | "

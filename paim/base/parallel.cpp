@@ -1,41 +1,64 @@
-// Parallel loops and the thread limit, on oneTBB.
+// Parallel loops, on the program's hook or on the calling thread.
 #include "paim/base/parallel.h"
 
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
-#include <optional>
+#include <atomic>
+#include <exception>
 
 #include "paim/base/check.h"
+#include "paim/base/parallel_hook.h"
 
 namespace paim {
 
-struct ThreadLimit::Control {
-    std::optional<tbb::global_control> limit;
+namespace {
+
+std::atomic<const ParallelHook*> current_hook{nullptr};
+
+// A loop whose pieces the hook runs. Exceptions do not pass through the hook, which may be code of
+// any kind: the first one is kept, and pieces that have not begun are left out.
+struct Loop {
+    size_t count, grain;
+    const std::function<void(size_t, size_t)>& body;
+    std::atomic<bool> failed{false};
+    std::exception_ptr failure;
+
+    void run(size_t piece) { body(piece * grain, std::min(count, (piece + 1) * grain)); }
+
+    static void run_guarded(void* context, size_t piece) {
+        Loop& loop = *static_cast<Loop*>(context);
+        if (loop.failed.load(std::memory_order_relaxed)) return;
+        try {
+            loop.run(piece);
+        } catch (...) {
+            if (!loop.failed.exchange(true)) loop.failure = std::current_exception();
+        }
+    }
 };
+
+}  // namespace
+
+void set_parallel_hook(const ParallelHook* hook) {
+    PAIM_CHECK(hook == nullptr || hook->parallel_for != nullptr);
+    PAIM_CHECK(hook == nullptr || hook->max_parallelism != nullptr);
+    current_hook.store(hook);
+}
 
 void parallel_for(size_t count, size_t grain, const std::function<void(size_t, size_t)>& body) {
     PAIM_CHECK(grain > 0);
     const size_t num_pieces = (count + grain - 1) / grain;
-    tbb::parallel_for(size_t{0}, num_pieces, [&](size_t piece) {
-        body(piece * grain, std::min(count, (piece + 1) * grain));
-    });
-}
-
-ThreadLimit::ThreadLimit(int num_threads) : control_(std::make_unique<Control>()) {
-    PAIM_CHECK(num_threads >= 0);
-    if (num_threads > 0) {
-        control_->limit.emplace(tbb::global_control::max_allowed_parallelism,
-                                static_cast<size_t>(num_threads));
+    Loop loop{count, grain, body, {false}, nullptr};
+    const ParallelHook* const hook = current_hook.load(std::memory_order_acquire);
+    if (hook == nullptr || num_pieces < 2) {
+        for (size_t piece = 0; piece < num_pieces; ++piece) loop.run(piece);
+        return;
     }
+    hook->parallel_for(hook->user, num_pieces, Loop::run_guarded, &loop);
+    if (loop.failure) std::rethrow_exception(loop.failure);
 }
-
-ThreadLimit::~ThreadLimit() = default;
 
 int max_parallelism() {
-    return static_cast<int>(
-        tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+    const ParallelHook* const hook = current_hook.load(std::memory_order_acquire);
+    return hook == nullptr ? 1 : std::max(hook->max_parallelism(hook->user), 1);
 }
 
 }  // namespace paim

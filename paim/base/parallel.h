@@ -1,29 +1,15 @@
-// Loops over all cores through oneTBB. Work is cut by index, never by thread, so that results are
-// the same on any number of threads.
+// Loops over all cores that the program offers (parallel_hook.h). Work is cut by index, never by
+// thread, so that results are the same on any number of threads.
 #pragma once
 
 #include <cstddef>
 #include <functional>
-#include <memory>
 
 namespace paim {
 
 // Calls body(begin, end) for consecutive pieces of [0, count) of exactly `grain` items (the last
 // one may be shorter), in any order and on any thread. Rethrows the first exception.
 void parallel_for(size_t count, size_t grain, const std::function<void(size_t, size_t)>& body);
-
-// Limits the threads of all parallel loops while it lives; 0 means every core.
-class ThreadLimit {
-  public:
-    explicit ThreadLimit(int num_threads);
-    ~ThreadLimit();
-    ThreadLimit(const ThreadLimit&) = delete;
-    ThreadLimit& operator=(const ThreadLimit&) = delete;
-
-  private:
-    struct Control;
-    std::unique_ptr<Control> control_;
-};
 
 // Threads that parallel loops may use now, at least 1.
 int max_parallelism();

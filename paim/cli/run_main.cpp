@@ -15,6 +15,7 @@
 #include <system_error>
 
 #include "paim/base/error.h"
+#include "paim/base/tbb_parallel.h"
 
 namespace paim::cli {
 
@@ -35,6 +36,7 @@ int run_main(std::string_view tool, const std::function<int()>& body) {
     hold_standard_streams();
     // A write beyond the limit on file sizes shall fail with a message instead of killing the tool.
     ::signal(SIGXFSZ, SIG_IGN);
+    use_tbb();
     try {
         const int exit_code = body();
         if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "compressor/bake/transfer_baker.h"
-#include "paim/base/parallel.h"
+#include "paim/base/tbb_parallel.h"
 #include "paim/mesh/pose_set.h"
 #include "poses/octopus.h"
 #include "poses/shapes.h"

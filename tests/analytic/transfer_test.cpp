@@ -5,7 +5,7 @@
 #include <string>
 
 #include "compressor/bake/transfer_baker.h"
-#include "paim/base/parallel.h"
+#include "paim/base/tbb_parallel.h"
 #include "paim/light/environment.h"
 #include "paim/mesh/normals.h"
 #include "paim/mesh/pose_set.h"

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "paim/base/parallel.h"
+#include "paim/base/tbb_parallel.h"
 #include "poses/octopus.h"
 #include "tests/temporary_directory.h"
 

@@ -2,8 +2,8 @@
 // models of many pieces of work.
 #include <gtest/gtest.h>
 
-#include "paim/base/parallel.h"
 #include "paim/base/seed.h"
+#include "paim/base/tbb_parallel.h"
 #include "paim/codec/accumulate.h"
 #include "paim/codec/low_rank.h"
 #include "paim/codec/make_decoder.h"

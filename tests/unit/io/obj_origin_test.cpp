@@ -1,7 +1,7 @@
 // Meshes far from the world's origin: digits that float would lose, on any number of threads.
 #include <fmt/format.h>
 
-#include "paim/base/parallel.h"
+#include "paim/base/tbb_parallel.h"
 #include "tests/unit/io/obj_test_files.h"
 
 namespace paim {

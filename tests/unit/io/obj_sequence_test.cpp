@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "paim/base/hash.h"
-#include "paim/base/parallel.h"
+#include "paim/base/tbb_parallel.h"
 #include "paim/mesh/normals.h"
 #include "tests/unit/io/obj_test_files.h"
 

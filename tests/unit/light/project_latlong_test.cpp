@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "paim/base/parallel.h"
 #include "paim/base/seed.h"
+#include "paim/base/tbb_parallel.h"
 #include "paim/light/environment.h"
 #include "paim/sh/basis_reference.h"
 #include "paim/sh/zonal.h"

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "paim/base/parallel.h"
+#include "paim/base/tbb_parallel.h"
 #include "paim/light/environment.h"
 
 namespace paim {

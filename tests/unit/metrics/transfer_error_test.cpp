@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "paim/base/parallel.h"
+#include "paim/base/tbb_parallel.h"
 #include "paim/metrics/pose_space.h"
 #include "tests/unit/metrics/random_planes.h"
 

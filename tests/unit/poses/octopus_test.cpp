@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "paim/base/error.h"
-#include "paim/base/parallel.h"
+#include "paim/base/tbb_parallel.h"
 #include "poses/octopus_motion.h"
 #include "poses/octopus_shape.h"
 #include "tests/unit/poses/mesh_checks.h"

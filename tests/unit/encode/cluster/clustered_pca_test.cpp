@@ -11,8 +11,8 @@
 #include <set>
 
 #include "paim/base/error.h"
-#include "paim/base/parallel.h"
 #include "paim/base/seed.h"
+#include "paim/base/tbb_parallel.h"
 
 namespace paim {
 namespace {

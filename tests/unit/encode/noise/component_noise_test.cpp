@@ -7,8 +7,8 @@
 
 #include "compressor/encode/noise/rank_selection.h"
 #include "compressor/encode/noise/shrinkage.h"
-#include "paim/base/parallel.h"
 #include "paim/base/seed.h"
+#include "paim/base/tbb_parallel.h"
 #include "paim/base/vector.h"
 
 namespace paim {

@@ -9,7 +9,7 @@
 #include "compressor/encode/memory/memory_plan.h"
 #include "compressor/encode/search/problem.h"
 #include "paim/base/error.h"
-#include "paim/base/parallel.h"
+#include "paim/base/tbb_parallel.h"
 #include "paim/codec/component_planes.h"
 #include "paim/format/paim/paim_file.h"
 #include "paim/mesh/cache_order.h"

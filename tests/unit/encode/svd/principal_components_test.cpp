@@ -9,8 +9,8 @@
 
 #include "compressor/encode/svd/left_singular_vectors.h"
 #include "compressor/encode/svd/tsqr.h"
-#include "paim/base/parallel.h"
 #include "paim/base/seed.h"
+#include "paim/base/tbb_parallel.h"
 
 namespace paim {
 namespace {
