@@ -88,7 +88,7 @@ Beginning inspect_beginning(const std::filesystem::path& path) {
         beginning.size_bytes = static_cast<uint64_t>(info.st_size);
         if (beginning.size_bytes < table_end(path)) return beginning;
     }
-    const ContainerReader reader(path, section::kKindAnimation, Extent::beginning);
+    const ContainerReader reader(path, section::kKindAnimation, Extent::prefix);
     beginning.size_bytes = reader.file_size_bytes();
     beginning.prefixes = list_prefixes(reader);
     for (const Section& section : reader.sections()) beginning.checksums.push_back(section.xxh3);

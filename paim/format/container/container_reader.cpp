@@ -1,13 +1,7 @@
 // Reads a section container.
 #include "paim/format/container/container_reader.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -65,62 +59,62 @@ uint64_t saturating_product(uint64_t a, uint64_t b) {
     return __builtin_mul_overflow(a, b, &product) ? std::numeric_limits<uint64_t>::max() : product;
 }
 
-void check_header(const std::string& path, const Header& header, Tag kind, uint64_t size_bytes,
+void check_header(const std::string& name, const Header& header, Tag kind, uint64_t size_bytes,
                   Extent extent) {
-    if (header.magic != container::kMagic) throw_bad_input("{}: not a Paim file", path);
+    if (header.magic != container::kMagic) throw_bad_input("{}: not a Paim file", name);
     if (header.version != container::kVersion) {
-        throw_unsupported("{}: format version {}, expected {}", path, header.version,
+        throw_unsupported("{}: format version {}, expected {}", name, header.version,
                           container::kVersion);
     }
     if (header.header_xxh3 != xxh3(&header, sizeof(header) - sizeof(header.header_xxh3))) {
-        throw_bad_input("{}: damaged: the header's checksum does not match", path);
+        throw_bad_input("{}: damaged: the header's checksum does not match", name);
     }
     if (header.kind != kind) {
-        throw_bad_input("{}: holds '{}', expected '{}'", path, header.kind.str(), kind.str());
+        throw_bad_input("{}: holds '{}', expected '{}'", name, header.kind.str(), kind.str());
     }
     const bool cut = size_bytes < header.file_size_bytes;
-    if (header.file_size_bytes != size_bytes && !(cut && extent == Extent::beginning)) {
+    if (header.file_size_bytes != size_bytes && !(cut && extent == Extent::prefix)) {
         throw_bad_input(
-            "{}: {} bytes, expected {}{}", path, size_bytes, header.file_size_bytes,
+            "{}: {} bytes, expected {}{}", name, size_bytes, header.file_size_bytes,
             cut ? ": the file is cut short (paim-play --progressive plays what is there of a .paim)"
                 : "");
     }
     if (header.num_sections > container::kMaxSections ||
         header.num_sections > (header.file_size_bytes - sizeof(Header)) / sizeof(TableEntry)) {
-        throw_bad_input("{}: {} sections do not fit in {} bytes", path, header.num_sections,
+        throw_bad_input("{}: {} sections do not fit in {} bytes", name, header.num_sections,
                         header.file_size_bytes);
     }
     const uint64_t table_end = sizeof(Header) + header.num_sections * sizeof(TableEntry);
     if (size_bytes < table_end) {
-        throw_bad_input("{}: {} bytes, expected at least the {} of header and section table", path,
+        throw_bad_input("{}: {} bytes, expected at least the {} of header and section table", name,
                         size_bytes, table_end);
     }
 }
 
-Section check_entry(const std::string& path, const TableEntry& entry, uint64_t file_size_bytes,
+Section check_entry(const std::string& name, const TableEntry& entry, uint64_t file_size_bytes,
                     uint64_t table_end) {
     const auto type = static_cast<ScalarType>(entry.type);
     const uint64_t scalar_bytes = scalar_size_bytes(type);
     const uint64_t num_values =
         saturating_product(saturating_product(entry.shape[0], entry.shape[1]), entry.shape[2]);
-    const std::string name = entry.tag.str();
+    const std::string tag = entry.tag.str();
     if (scalar_bytes == 0) {
-        throw_unsupported("{}: section {} {}: unknown value type {}", path, name, entry.index,
+        throw_unsupported("{}: section {} {}: unknown value type {}", name, tag, entry.index,
                           entry.type);
     }
     if (entry.codec > SectionCodec::planes) {
-        throw_unsupported("{}: section {} {}: unknown codec {}", path, name, entry.index,
+        throw_unsupported("{}: section {} {}: unknown codec {}", name, tag, entry.index,
                           static_cast<int>(entry.codec));
     }
     if (saturating_product(num_values, scalar_bytes) != entry.raw_size_bytes ||
         (entry.codec == SectionCodec::none && entry.raw_size_bytes != entry.stored_size_bytes)) {
-        throw_bad_input("{}: section {} {}: {} bytes for {} x {} x {} values of {}", path, name,
+        throw_bad_input("{}: section {} {}: {} bytes for {} x {} x {} values of {}", name, tag,
                         entry.index, entry.stored_size_bytes, entry.shape[0], entry.shape[1],
                         entry.shape[2], scalar_name(type));
     }
     if (entry.offset < table_end || entry.offset > file_size_bytes ||
         entry.stored_size_bytes > file_size_bytes - entry.offset) {
-        throw_bad_input("{}: section {} {}: bytes {} + {} lie outside the file's {}", path, name,
+        throw_bad_input("{}: section {} {}: bytes {} + {} lie outside the file's {}", name, tag,
                         entry.index, entry.offset, entry.stored_size_bytes, file_size_bytes);
     }
     return {{entry.tag, type, entry.index, entry.shape},
@@ -133,32 +127,25 @@ Section check_entry(const std::string& path, const TableEntry& entry, uint64_t f
 }  // namespace
 
 ContainerReader::ContainerReader(const std::filesystem::path& path, Tag kind, Extent extent)
-    : path_(path.string()), descriptor_(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {
-    if (descriptor_ < 0) throw_bad_input("{}: cannot open: {}", path_, std::strerror(errno));
-    try {
-        struct stat info {};
-        if (::fstat(descriptor_, &info) != 0 || !S_ISREG(info.st_mode)) {
-            throw_bad_input("{}: expected a regular file", path_);
-        }
-        file_size_bytes_ = static_cast<uint64_t>(info.st_size);
-        if (file_size_bytes_ < sizeof(Header)) {
-            throw_bad_input("{}: {} bytes, expected at least the {} of a header", path_,
-                            file_size_bytes_, sizeof(Header));
-        }
-        Header header;
-        read_bytes(0, &header, sizeof(header));
-        check_header(path_, header, kind, file_size_bytes_, extent);
-        std::vector<TableEntry> table(header.num_sections);
-        const uint64_t table_bytes = table.size() * sizeof(TableEntry);
-        read_bytes(sizeof(header), table.data(), table_bytes);
-        if (header.table_xxh3 != xxh3(table.data(), table_bytes)) {
-            throw_bad_input("{}: damaged: the section table's checksum does not match", path_);
-        }
-        check_table(table, header.file_size_bytes);
-    } catch (...) {
-        ::close(descriptor_);
-        throw;
+    : ContainerReader(std::make_shared<FileSource>(path), path.string(), kind, extent) {}
+
+ContainerReader::ContainerReader(std::shared_ptr<const ByteSource> source, std::string name,
+                                 Tag kind, Extent extent)
+    : source_(std::move(source)), name_(std::move(name)), file_size_bytes_(source_->size_bytes()) {
+    if (file_size_bytes_ < sizeof(Header)) {
+        throw_bad_input("{}: {} bytes, expected at least the {} of a header", name_,
+                        file_size_bytes_, sizeof(Header));
     }
+    Header header;
+    read_bytes(0, &header, sizeof(header));
+    check_header(name_, header, kind, file_size_bytes_, extent);
+    std::vector<TableEntry> table(header.num_sections);
+    const uint64_t table_bytes = table.size() * sizeof(TableEntry);
+    read_bytes(sizeof(header), table.data(), table_bytes);
+    if (header.table_xxh3 != xxh3(table.data(), table_bytes)) {
+        throw_bad_input("{}: damaged: the section table's checksum does not match", name_);
+    }
+    check_table(table, header.file_size_bytes);
 }
 
 void ContainerReader::check_table(const std::vector<TableEntry>& table, uint64_t whole_size_bytes) {
@@ -169,21 +156,17 @@ void ContainerReader::check_table(const std::vector<TableEntry>& table, uint64_t
     ByteBudget values(most_bytes_of_values(file_size_bytes_));
     sections_.reserve(table.size());
     for (const TableEntry& entry : table) {
-        sections_.push_back(check_entry(path_, entry, whole_size_bytes, table_end));
+        sections_.push_back(check_entry(name_, entry, whole_size_bytes, table_end));
         if (!holds(sections_.back())) continue;
         if (!stored.take(entry.stored_size_bytes)) {
-            throw_bad_input("{}: sections overlap: more than {} bytes in all", path_,
+            throw_bad_input("{}: sections overlap: more than {} bytes in all", name_,
                             stored.most());
         }
         if (!values.take(entry.raw_size_bytes)) {
-            throw_bad_input("{}: sections claim more than {} bytes of values", path_,
+            throw_bad_input("{}: sections claim more than {} bytes of values", name_,
                             values.most());
         }
     }
-}
-
-ContainerReader::~ContainerReader() {
-    if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 const Section* ContainerReader::find(Tag tag, uint32_t index) const {
@@ -196,34 +179,33 @@ const Section* ContainerReader::find(Tag tag, uint32_t index) const {
 const Section& ContainerReader::require(Tag tag, ScalarType type, uint32_t index) const {
     const Section* section = find(tag, index);
     if (section == nullptr)
-        throw_bad_input("{}: section {} {} is missing", path_, tag.str(), index);
-    if (section->spec.type != type) {
-        throw_bad_input("{}: holds {}, expected {}", label(*section),
-                        scalar_name(section->spec.type), scalar_name(type));
-    }
+        throw_bad_input("{}: section {} {} is missing", name_, tag.str(), index);
+    expect_type(*section, type);
     return *section;
 }
 
+void ContainerReader::expect_type(const Section& section, ScalarType type) const {
+    if (section.spec.type != type) {
+        throw_bad_input("{}: holds {}, expected {}", label(section), scalar_name(section.spec.type),
+                        scalar_name(type));
+    }
+}
+
 std::string ContainerReader::label(const Section& section) const {
-    return message("{}: section {} {}", path_, section.spec.tag.str(), section.spec.index);
+    return message("{}: section {} {}", name_, section.spec.tag.str(), section.spec.index);
 }
 
 void ContainerReader::read_bytes(uint64_t offset, void* out, uint64_t size_bytes) const {
-    char* bytes = static_cast<char*>(out);
-    while (size_bytes > 0) {
-        const ssize_t got = ::pread(descriptor_, bytes, size_bytes, static_cast<off_t>(offset));
-        if (got < 0 && errno == EINTR) continue;
-        if (got < 0) throw_bad_input("{}: cannot read: {}", path_, std::strerror(errno));
-        if (got == 0) throw_bad_input("{}: the file became shorter while it was read", path_);
-        bytes += got;
-        offset += static_cast<uint64_t>(got);
-        size_bytes -= static_cast<uint64_t>(got);
+    const size_t got = source_->read(offset, {static_cast<uint8_t*>(out), size_bytes});
+    if (got != size_bytes) {
+        throw_bad_input("{}: ends after {} bytes, expected at least {}", name_, offset + got,
+                        offset + size_bytes);
     }
 }
 
 template <typename T>
 std::vector<T> ContainerReader::read_values(const Section& section, ScalarType type) const {
-    PAIM_CHECK(section.spec.type == type);
+    expect_type(section, type);
     std::vector<T> values(section.spec.num_values());
     if (section.codec == SectionCodec::zstd) {
         const std::vector<uint8_t> stored = read_stored(section);
@@ -292,7 +274,7 @@ void ContainerReader::read_range(const Section& section, uint64_t first, uint64_
         std::transform(halves.begin(), halves.end(), out, from_half);
         return;
     }
-    PAIM_CHECK(section.spec.type == ScalarType::f32);
+    expect_type(section, ScalarType::f32);
     read_bytes(section.offset + first * sizeof(float), out, count * sizeof(float));
 }
 

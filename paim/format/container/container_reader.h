@@ -1,34 +1,40 @@
-// Reads a section container. Whatever the bytes, the answer is right or a clear error: every size
-// is checked against the file's before anything is allocated.
+// Reads a section container from a file, memory or any other source of bytes. Whatever the bytes, the
+// answer is right or a clear error: every size is checked against the source's before anything is
+// allocated.
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "paim/format/container/byte_source.h"
 #include "paim/format/container/container.h"
 
 namespace paim {
 
 // How much of a file there is.
 enum class Extent {
-    whole,      // a file that is cut short is an error
-    beginning,  // at least header and table; holds() tells which sections are there
+    whole,   // a file that is cut short is an error
+    prefix,  // at least header and table; holds() tells which sections are there
 };
 
 class ContainerReader {
   public:
-    // Opens the file and checks header and table. Errors (bad input; unsupported for a newer
-    // version or an unknown codec) name the file, what was expected and what was got.
+    // Checks header and table of what the source has now. `name` stands for it in messages.
+    // Errors (bad input; unsupported for a newer version or an unknown codec) begin with the name
+    // and say what was expected and what was got.
+    ContainerReader(std::shared_ptr<const ByteSource> source, std::string name, Tag kind,
+                    Extent extent = Extent::whole);
+
+    // The same of a file, by its path.
     ContainerReader(const std::filesystem::path& path, Tag kind, Extent extent = Extent::whole);
-    ~ContainerReader();
-    ContainerReader(const ContainerReader&) = delete;
-    ContainerReader& operator=(const ContainerReader&) = delete;
 
     const std::vector<Section>& sections() const { return sections_; }
-    // Of the bytes that are there.
+    // Of the bytes that were there when the reader was made.
     uint64_t file_size_bytes() const { return file_size_bytes_; }
-    const std::string& path() const { return path_; }
+    // What messages call the source: the path of a file.
+    const std::string& path() const { return name_; }
 
     // Whether all bytes of the section are there; reading one that is not is an error.
     bool holds(const Section& section) const {
@@ -44,7 +50,8 @@ class ContainerReader {
     // The stored bytes of a section, its checksum verified, for whoever knows its codec.
     std::vector<uint8_t> read_stored(const Section& section) const;
 
-    // All values of the section, its checksum verified; its codec is none or zstd.
+    // All values of the section, its checksum verified. Errors: bad input if it holds another type,
+    // unsupported if its codec is neither none nor zstd.
     std::vector<uint8_t> read_u8(const Section& section) const;
     std::vector<uint32_t> read_u32(const Section& section) const;
     std::vector<float> read_f32(const Section& section) const;  // an f16 section is widened
@@ -59,17 +66,18 @@ class ContainerReader {
     void verify(const Section& section) const;
     void verify_all() const;
 
-    // "FILE: section TAG INDEX", for messages.
+    // "NAME: section TAG INDEX", for messages.
     std::string label(const Section& section) const;
 
   private:
+    void expect_type(const Section& section, ScalarType type) const;
     template <typename T>
     std::vector<T> read_values(const Section& section, ScalarType type) const;
     void check_table(const std::vector<container::TableEntry>& table, uint64_t whole_size_bytes);
     void read_bytes(uint64_t offset, void* out, uint64_t size_bytes) const;
 
-    std::string path_;
-    int descriptor_ = -1;
+    std::shared_ptr<const ByteSource> source_;
+    std::string name_;
     uint64_t file_size_bytes_ = 0;
     std::vector<Section> sections_;
 };

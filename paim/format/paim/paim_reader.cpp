@@ -43,7 +43,7 @@ Model read_paim(const std::filesystem::path& path, const ReadOptions& options) {
             path.string());
     }
     const ContainerReader reader(path, section::kKindAnimation,
-                                 options.progressive ? Extent::beginning : Extent::whole);
+                                 options.progressive ? Extent::prefix : Extent::whole);
     const Prefix prefix = find_prefix(reader);
     const Metadata metadata(reader.read_text(reader.require(section::kMetadata, ScalarType::u8)),
                             reader.path());

@@ -64,7 +64,7 @@ std::vector<Prefix> list_prefixes(const ContainerReader& reader) {
 }
 
 std::vector<Prefix> read_prefixes(const std::filesystem::path& path) {
-    return list_prefixes(ContainerReader(path, section::kKindAnimation, Extent::beginning));
+    return list_prefixes(ContainerReader(path, section::kKindAnimation, Extent::prefix));
 }
 
 }  // namespace paim
