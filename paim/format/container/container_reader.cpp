@@ -180,11 +180,15 @@ const Section& ContainerReader::require(Tag tag, ScalarType type, uint32_t index
     const Section* section = find(tag, index);
     if (section == nullptr)
         throw_bad_input("{}: section {} {} is missing", name_, tag.str(), index);
-    if (section->spec.type != type) {
-        throw_bad_input("{}: holds {}, expected {}", label(*section),
-                        scalar_name(section->spec.type), scalar_name(type));
-    }
+    expect_type(*section, type);
     return *section;
+}
+
+void ContainerReader::expect_type(const Section& section, ScalarType type) const {
+    if (section.spec.type != type) {
+        throw_bad_input("{}: holds {}, expected {}", label(section), scalar_name(section.spec.type),
+                        scalar_name(type));
+    }
 }
 
 std::string ContainerReader::label(const Section& section) const {
@@ -201,7 +205,7 @@ void ContainerReader::read_bytes(uint64_t offset, void* out, uint64_t size_bytes
 
 template <typename T>
 std::vector<T> ContainerReader::read_values(const Section& section, ScalarType type) const {
-    PAIM_CHECK(section.spec.type == type);
+    expect_type(section, type);
     std::vector<T> values(section.spec.num_values());
     if (section.codec == SectionCodec::zstd) {
         const std::vector<uint8_t> stored = read_stored(section);
@@ -270,7 +274,7 @@ void ContainerReader::read_range(const Section& section, uint64_t first, uint64_
         std::transform(halves.begin(), halves.end(), out, from_half);
         return;
     }
-    PAIM_CHECK(section.spec.type == ScalarType::f32);
+    expect_type(section, ScalarType::f32);
     read_bytes(section.offset + first * sizeof(float), out, count * sizeof(float));
 }
 

@@ -50,7 +50,8 @@ class ContainerReader {
     // The stored bytes of a section, its checksum verified, for whoever knows its codec.
     std::vector<uint8_t> read_stored(const Section& section) const;
 
-    // All values of the section, its checksum verified; its codec is none or zstd.
+    // All values of the section, its checksum verified. Errors: bad input if it holds another type,
+    // unsupported if its codec is neither none nor zstd.
     std::vector<uint8_t> read_u8(const Section& section) const;
     std::vector<uint32_t> read_u32(const Section& section) const;
     std::vector<float> read_f32(const Section& section) const;  // an f16 section is widened
@@ -69,6 +70,7 @@ class ContainerReader {
     std::string label(const Section& section) const;
 
   private:
+    void expect_type(const Section& section, ScalarType type) const;
     template <typename T>
     std::vector<T> read_values(const Section& section, ScalarType type) const;
     void check_table(const std::vector<container::TableEntry>& table, uint64_t whole_size_bytes);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <latch>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -100,6 +101,33 @@ TEST_F(GivenHook, ExceptionsPassItBy) {
         EXPECT_STREQ(error.what(), "3");  // the first one, as indices descend
     }
     EXPECT_EQ(begun, (std::vector<size_t>{4, 3}));  // and nothing begins after it
+}
+
+// Two pieces at once, of which number 1 fails while number 0 has begun, and number 0 after it.
+TEST_F(GivenHook, TheFirstExceptionIsTheOneThatComesThrough) {
+    std::latch zero_began(1), one_ended(1);
+    const ParallelHook hook{[](void* user, size_t, void (*body)(void*, size_t), void* context) {
+                                std::thread zero([&] { body(context, 0); });
+                                body(context, 1);
+                                static_cast<std::latch*>(user)->count_down();
+                                zero.join();
+                            },
+                            Lender::three, &one_ended};
+    set_parallel_hook(&hook);
+    try {
+        parallel_for(2, 1, [&](size_t begin, size_t) {
+            if (begin == 0) {
+                zero_began.count_down();
+                one_ended.wait();
+            } else {
+                zero_began.wait();
+            }
+            throw std::runtime_error(std::to_string(begin));
+        });
+        FAIL() << "expected an exception";
+    } catch (const std::runtime_error& error) {
+        EXPECT_STREQ(error.what(), "1");
+    }
 }
 
 }  // namespace
