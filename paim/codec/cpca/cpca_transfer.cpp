@@ -11,6 +11,23 @@
 
 namespace paim {
 
+namespace {
+
+// The largest magnitude of coefficients, at least 1, as rows are scaled before they meet coefficients. Of
+// integers it is that of their type, which needs no look at them.
+double largest_coefficient(const StoredValues& values) {
+    if (!values.holds_floats()) {
+        return largest_integer(values.holds_i8() ? Precision::i8 : Precision::i16);
+    }
+    double largest = 1.0;
+    for (const float value : values.floats()) {
+        largest = std::max(largest, std::isfinite(value) ? std::abs(double{value}) : HUGE_VAL);
+    }
+    return largest;
+}
+
+}  // namespace
+
 std::unique_ptr<TransferModel> CpcaTransfer::clone() const {
     return std::make_unique<CpcaTransfer>(*this);
 }
@@ -50,14 +67,9 @@ uint64_t CpcaTransfer::vertex_bytes(uint32_t num_components) const {
 }
 
 double CpcaTransfer::vertex_gain() const {
-    std::vector<double> largest(clusters.rows_per_cluster(), 1.0);  // coefficients, by row
-    for (uint32_t j = 0; j < clusters.num_components; ++j) {
-        const StoredValues& values = clusters.coefficients[j];
-        double maximum = 0.0;
-        values.for_each(0, values.size(), [&](size_t, float value) {
-            maximum = std::max(maximum, std::isfinite(value) ? std::abs(double{value}) : HUGE_VAL);
-        });
-        largest[j + 1] = maximum;
+    std::vector<double> largest{1.0};  // by row of a basis; the mean's is always 1
+    for (const StoredValues& values : clusters.coefficients) {
+        largest.push_back(largest_coefficient(values));
     }
     double gain = 0.0;
     for (uint32_t c = 0; c < clusters.num_clusters; ++c) {
