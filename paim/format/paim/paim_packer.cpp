@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include "paim/base/check.h"
 #include "paim/base/error.h"
@@ -85,6 +86,10 @@ StoredValues weight_integers(const LowRankMatrix& matrix) {
 
 std::vector<uint8_t> packed_singular_values(const LowRankMatrix& matrix) {
     const std::vector<float> rounded(matrix.singular_values.begin(), matrix.singular_values.end());
+    if (!rounded.empty() && std::isinf(rounded[0])) {
+        throw_bad_input("a singular value is {}, expected at most {}: scale the poses down",
+                        matrix.singular_values[0], std::numeric_limits<float>::max());
+    }
     return zstd_compress(as_bytes(std::span(rounded)));
 }
 
