@@ -53,7 +53,7 @@ class App {
           loader_(loader),
           window_(options.size.first, options.size.second,
                   options.model_path.filename().string() + " - paim-play"),
-          renderer_(upload_within(options.wanted_limits,
+          renderer_(upload_within(options.wanted.limits(),
                                   [&](const DecodeLimits& limits) {
                                       return std::make_unique<SceneRenderer>(
                                           scene_->model, scene_->environment, limits);
@@ -104,7 +104,7 @@ class App {
         scene->size_bytes = loaded->progress.size_bytes;
         scene->progress = loaded->progress;
         try {
-            upload_within(options_.wanted_limits, [&](const DecodeLimits& limits) {
+            upload_within(options_.wanted.limits(), [&](const DecodeLimits& limits) {
                 renderer_->set_model(scene->model, limits);
             });
         } catch (const Error& error) {
@@ -115,7 +115,7 @@ class App {
         bounds_.emplace(scene->model);
         scene_ = std::move(scene);
         const ViewRange before = std::exchange(range_, range());
-        follow(view_, before, range_, options_.wanted_limits);
+        follow(view_, before, range_, options_.wanted.limits());
         if (loaded->replaced) frame_all();
     }
 

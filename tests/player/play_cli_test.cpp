@@ -234,7 +234,7 @@ TEST_F(PlayTest, RefusesCommandLinesThatMakeNoSense) {
     expect_failure({"--camera", "10,20,0"}, 1, "--camera distance factor");
     expect_failure({"--snapshot", out("a.jpg")}, 1, "ends in .png or .exr");
     expect_failure({"--snapshot", png, "--bench", "3"}, 1, "exclude each other");
-    expect_failure({"--json"}, 1, "--json goes with --snapshot or --bench");
+    expect_failure({"--json"}, 1, "--json needs --snapshot or --bench");
     expect_failure({"--nonsense"}, 1, "--nonsense");
     EXPECT_FALSE(std::filesystem::exists(png));
 }

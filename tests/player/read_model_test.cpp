@@ -127,14 +127,14 @@ TEST(ScaleToUnit, LeavesSceneryFiniteAndPointsAlone) {
 // What a snapshot and the window draw from: the same camera and bounds, in one unit.
 TEST(ScaleToUnit, IsAppliedToEveryFileThatIsLoaded) {
     const TemporaryDirectory directory;
-    for (const bool progressive : {false, true}) {
+    for (const bool prefix : {false, true}) {
         Frame frames[2];
         for (const int exponent : {0, -90}) {
             Model model = make_model(Precision::f32);
             scale_model(model, exponent);
             Options options;
             options.model_path = directory / "a.paim";
-            options.progressive = progressive;
+            options.play_prefix = prefix;
             options.camera = {1.0f, 0.5f, 3.0f};
             write_paim(options.model_path, model);
             const Scene scene = load_scene(options);
