@@ -15,7 +15,7 @@ struct Scene {
     Model model;
     Image environment;                     // lat-long, linear radiance, finite and not negative
     Bounds bounds;                         // of the whole animation
-    uint64_t size_bytes = 0;               // of the .paim file, as far as it is there
+    uint64_t size_bytes = 0;               // of the .paim file, or of the prefix that is there
     std::optional<LoadProgress> progress;  // of a file that is read progressively
 };
 

@@ -58,7 +58,7 @@ Cost frame_cost(const Model& model, const DecodeLimits& limits) {
     };
     cost.bytes += cluster_bytes(model.clusters, cost.cluster_components);
     cost.multiply_adds += of_clusters(cost.cluster_components).per_vertex();
-    // Whole bases are lit, whatever vertices use of them.
+    // All components of the bases are lit, even where vertices use fewer.
     cost.cluster_multiply_adds = of_clusters(model.clusters.num_components).cpu_per_frame;
     return cost;
 }

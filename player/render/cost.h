@@ -14,7 +14,7 @@ struct Cost {
     uint64_t bytes;
     // Per vertex and frame, positions and transfer under coloured light (metrics/rates.h).
     uint64_t multiply_adds;
-    // Per frame beside these: rebuilding and lighting the bases of clusters, on the CPU.
+    // Per frame, in addition: rebuilding and lighting the bases of clusters on the CPU.
     uint64_t cluster_multiply_adds;
     uint32_t geometry_components;  // in use
     uint32_t transfer_components;

@@ -16,7 +16,7 @@ namespace paim::player {
 
 class ModelRenderer {
   public:
-    // Uploads what of the model is within the limits; frames cannot show more. Keeps a reference to
+    // Uploads the model as far as it is within the limits; frames cannot show more. Keeps a reference to
     // the model for what changes with time and light. Throws Error(unsupported) if it does not fit
     // (render/upload_plan.h).
     ModelRenderer(const Model& model, const DecodeLimits& limits);

@@ -29,7 +29,7 @@ class SceneRenderer {
     // Replaces light and background. On an error the old ones stay.
     void set_environment(const Image& environment);
 
-    // What of the model can be shown.
+    // The part of the model that is uploaded.
     const UploadPlan& plan() const { return model_renderer_->plan(); }
 
     // Of the model and its scenery.

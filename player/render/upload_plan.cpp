@@ -49,7 +49,7 @@ int64_t largest_of_vertices(const Model& model, const UploadPlan& plan, int max_
     return std::max({transfer, mean, int64_t{plan.transfer_components}});
 }
 
-// The same of clusters.
+// Texels of the largest texture that transfer takes where vertices share the bases of clusters.
 int64_t largest_of_clusters(const Model& model, const UploadPlan& plan, int max_texture_size) {
     // Textures hold their indices in 16 bits.
     const uint32_t num_clusters = model.clusters.num_clusters;

@@ -14,10 +14,11 @@ constexpr uint32_t kGroupSize = 4;
 struct UploadPlan {
     TransferLayout layout;         // of what can be shown: bands as limited
     uint32_t geometry_components;  // that are uploaded
-    uint32_t transfer_components;  // likewise, or, of clusters, that their bases are rebuilt from
-    uint32_t cluster_components;   // that are uploaded; 0 without clusters
-    uint32_t groups_per_channel;   // texels of one vertex and channel, without clusters
-    int width_log2;                // of all textures
+    uint32_t
+        transfer_components;  // that are uploaded; with clusters, that the bases are rebuilt from
+    uint32_t cluster_components;  // that are uploaded; 0 without clusters
+    uint32_t groups_per_channel;  // texels of one vertex and channel, without clusters
+    int width_log2;               // of all textures
 
     uint32_t num_groups() const { return layout.channels * groups_per_channel; }
     uint32_t cluster_groups() const { return (cluster_components + kGroupSize - 1) / kGroupSize; }
@@ -31,7 +32,7 @@ int64_t geometry_texels(const Model& model, uint32_t num_components);
 int64_t transfer_texels(const Model& model, uint32_t num_components,
                         uint32_t bands);  // no clusters
 
-// Plans the upload of what of the model is within the limits. Throws Error(unsupported) that names
+// Plans the upload of the model as far as it is within the limits. Throws Error(unsupported) that names
 // the texture limit, and the components that would fit, where a texture of at most max_texture_size
 // by max_texture_size cannot hold a part.
 UploadPlan plan_upload(const Model& model, const DecodeLimits& limits, int max_texture_size);

@@ -45,7 +45,7 @@ struct KeyBinding {
     Command command = Command::none;
 };
 
-// A line of the help, and what its keys do.
+// One line of the help with the bindings of its keys.
 struct KeyRow {
     const char* keys;
     const char* meaning;

@@ -28,7 +28,7 @@ namespace {
 class PlayTest : public testing::Test {
   protected:
     PlayTest() {
-        // No test depends on the display of whoever runs it.
+        // Tests do not use the display of the user who runs them.
         ::unsetenv("DISPLAY");
         ::unsetenv("WAYLAND_DISPLAY");
         TestModelOptions options;  // 5 bands, 3 + 5 components, 6 poses
@@ -80,7 +80,7 @@ TEST_F(PlayTest, SnapshotIsThePictureOfTheLibrary) {
     EXPECT_EQ(result.out, "");
     const Image expected = downsample(
         expected_picture(model_, 1.5, -40.0 * kPi / 180.0, 360, 240, Vec3f(0.1f, 0.2f, 0.3f)), 3);
-    // EXR stays linear, whatever the exposure. The limits are those the player promises.
+    // EXR stays linear at any exposure. The limits are those the player promises.
     const Difference difference = compare(expected, read_exr(out("a.exr")));
     EXPECT_LE(difference.mean_relative, 1e-3);
     EXPECT_LE(difference.fraction_off, 0.005);
@@ -90,9 +90,9 @@ TEST_F(PlayTest, SnapshotIsThePictureOfTheLibrary) {
 TEST_F(PlayTest, PicturesDoNotDependOnTheSize) {
     TestModelOptions still;
     still.geometry_components = still.transfer_components = 0;
-    const Model beside = make_test_model(still);
-    std::vector<float> positions = beside.geometry.mean.floats();
-    for (size_t v = 0; v < beside.topology.num_vertices; ++v) positions[v] += 1.2f;
+    const Model scenery = make_test_model(still);
+    std::vector<float> positions = scenery.geometry.mean.floats();
+    for (size_t v = 0; v < scenery.topology.num_vertices; ++v) positions[v] += 1.2f;
     struct Case {
         Precision precision;
         std::vector<std::string> arguments;
@@ -103,8 +103,8 @@ TEST_F(PlayTest, PicturesDoNotDependOnTheSize) {
         TestModelOptions options;
         options.precision = c.precision;
         Model model = make_test_model(options);
-        model.scenery = {beside.topology, beside.albedo, StillPlanes(positions),
-                         StillPlanes(beside.transfer.mean.floats())};
+        model.scenery = {scenery.topology, scenery.albedo, StillPlanes(positions),
+                         StillPlanes(scenery.transfer.mean.floats())};
         std::vector<std::string> arguments{"--snapshot", out("a.exr"), "--size", "64x48"};
         arguments.insert(arguments.end(), c.arguments.begin(), c.arguments.end());
         Image unscaled;

@@ -28,7 +28,7 @@ TEST(ProgressiveRenderer, DrawsAnotherModelAsIfItWereTheFirst) {
     options.geometry_components = 1;
     options.transfer_components = 2;
     const Model coarse = make_test_model(options);
-    options.bands = 3;  // projects the light anew
+    options.bands = 3;  // projects the light again
     options.num_poses = 4;
     const Model other = make_test_model(options);
     const Image environment = make_sky();

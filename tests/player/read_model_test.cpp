@@ -24,16 +24,16 @@ Model make_model(Precision precision) {
     Model model = make_test_model(options);
     std::vector<float> positions = make_test_model({}).geometry.mean.floats();
     for (float& x : positions) x *= 10.0f;
-    StillPlanes stands(std::move(positions));
+    StillPlanes scenery(std::move(positions));
     if (is_integer(precision)) {
         std::vector<int16_t> integers;
-        for (const float x : stands.values.floats()) {
+        for (const float x : scenery.values.floats()) {
             integers.push_back(static_cast<int16_t>(std::lround(1000.0f * x)));
         }
-        stands = StillPlanes(StoredValues(std::move(integers)), {1e-3f, 1e-3f, 1e-3f});
+        scenery = StillPlanes(StoredValues(std::move(integers)), {1e-3f, 1e-3f, 1e-3f});
     }
     const size_t num_values = size_t{model.layout.num_planes()} * model.topology.num_vertices;
-    model.scenery = {model.topology, model.albedo, std::move(stands),
+    model.scenery = {model.topology, model.albedo, std::move(scenery),
                      StillPlanes(std::vector<float>(num_values, 0.1f))};
     return model;
 }

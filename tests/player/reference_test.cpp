@@ -50,15 +50,15 @@ class Pictures : public testing::Test {
         std::vector<std::vector<Vec3f>> radiance(1);
         shade(pose.layout, pose.transfer, model_.albedo,
               turn_about_y(light.coefficients(Vec3f::Zero(), 5), turn_rad), radiance[0]);
-        std::vector<Vec3f> beside;
+        std::vector<Vec3f> scenery;
         if (!model_.scenery.empty()) {
             shade(model_.layout, model_.scenery.transfer.floats(), model_.scenery.albedo,
-                  turn_about_y(light.coefficients(Vec3f::Zero(), 5), turn_rad), beside);
+                  turn_about_y(light.coefficients(Vec3f::Zero(), 5), turn_rad), scenery);
         }
-        radiance[0].insert(radiance[0].end(), beside.begin(), beside.end());
+        radiance[0].insert(radiance[0].end(), scenery.begin(), scenery.end());
         std::vector<Vec3f> positions = from_planes(pose.positions);
-        const std::vector<Vec3f> stands = from_planes(model_.scenery.positions.floats());
-        positions.insert(positions.end(), stands.begin(), stands.end());
+        const std::vector<Vec3f> scenery_positions = from_planes(model_.scenery.positions.floats());
+        positions.insert(positions.end(), scenery_positions.begin(), scenery_positions.end());
         Topology topology = model_.topology;
         topology.append(model_.scenery.topology);
         const Camera camera =

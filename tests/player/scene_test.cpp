@@ -171,11 +171,11 @@ TEST_P(SceneTest, SceneryStandsBesideTheModel) {
         SvdDecoder(model).decode(frame.time, frame.limits, pose);
         std::vector<Vec3f> positions = from_planes(pose.positions);
         std::vector<Vec3f> radiance = vertex_radiance(model, frame.time, frame.limits, light);
-        std::vector<Vec3f> beside;
-        shade(model.layout, model.scenery.transfer.floats(), model.scenery.albedo, light, beside);
-        const std::vector<Vec3f> stands = from_planes(model.scenery.positions.floats());
-        positions.insert(positions.end(), stands.begin(), stands.end());
-        radiance.insert(radiance.end(), beside.begin(), beside.end());
+        std::vector<Vec3f> scenery;
+        shade(model.layout, model.scenery.transfer.floats(), model.scenery.albedo, light, scenery);
+        const std::vector<Vec3f> scenery_positions = from_planes(model.scenery.positions.floats());
+        positions.insert(positions.end(), scenery_positions.begin(), scenery_positions.end());
+        radiance.insert(radiance.end(), scenery.begin(), scenery.end());
         Topology topology = model.topology;
         topology.append(model.scenery.topology);
         const Image expected = ray_cast(topology, positions, radiance, frame.camera, kWidth,
