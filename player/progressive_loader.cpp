@@ -42,18 +42,43 @@ LoadProgress ProgressiveLoader::progress() const {
     return progress_;
 }
 
+void ProgressiveLoader::wait_for_look() {
+    std::unique_lock lock(mutex_);
+    const uint64_t next = looks_begun_ + 1;
+    changed_.wait(lock, [&] { return looks_ended_ >= next || looks_over_; });
+}
+
 void ProgressiveLoader::run(const std::stop_token& stop) {
     while (!stop.stop_requested()) {
         const auto start = Clock::now();
-        if (!look()) return;
+        if (!look()) break;
         // Long files take long to read: no more than half of the time goes into that.
         const auto pause = std::max<Clock::duration>(pace_.interval, Clock::now() - start);
         std::unique_lock lock(mutex_);
         changed_.wait_for(lock, stop, pause, [] { return false; });
     }
+    {
+        const std::scoped_lock lock(mutex_);
+        looks_over_ = true;
+    }
+    changed_.notify_all();
 }
 
 bool ProgressiveLoader::look() {
+    {
+        const std::scoped_lock lock(mutex_);
+        ++looks_begun_;
+    }
+    const bool more = read_what_is_there();
+    {
+        const std::scoped_lock lock(mutex_);
+        ++looks_ended_;
+    }
+    changed_.notify_all();
+    return more;
+}
+
+bool ProgressiveLoader::read_what_is_there() {
     Beginning beginning;
     try {
         beginning = inspect_beginning(path_);

@@ -46,11 +46,17 @@ class ProgressiveLoader {
     // Bytes as of the last look, components as of the last reading.
     LoadProgress progress() const;
 
+    // Waits for the end of a look at the file that begins after this call: what the file held at the
+    // call has been read by then. Returns at once where no more looks come (the model is complete, or
+    // there will be none).
+    void wait_for_look();
+
   private:
     using Clock = std::chrono::steady_clock;
 
     void run(const std::stop_token& stop);
-    bool look();  // false: there is nothing more to read
+    bool look();                // false: there is nothing more to read
+    bool read_what_is_there();  // of one look; false as look()'s
     bool read_more(const Beginning& beginning);
     bool is_same_file(const Beginning& beginning) const;
     void wait_for_start(const Beginning& beginning);
@@ -80,6 +86,8 @@ class ProgressiveLoader {
     std::optional<Error> failure_;  // there will be none
     std::string error_;
     LoadProgress progress_;
+    uint64_t looks_begun_ = 0, looks_ended_ = 0;
+    bool looks_over_ = false;
 
     std::jthread thread_;  // last, for it uses all the others
 };

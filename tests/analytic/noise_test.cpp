@@ -1,10 +1,14 @@
 // What the bake promises of its noise: no bias, how fast it falls, what it costs against plain
 // samplers.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "analysis/study/baked_matrices.h"
+#include "compressor/bake/noise_target.h"
 #include "compressor/bake/transfer_baker.h"
 #include "compressor/encode/noise/component_noise.h"
 #include "compressor/encode/noise/rank_selection.h"
@@ -71,8 +75,15 @@ TEST(BakeNoise, NeedsAFractionOfTheRaysOfPlainSamplers) {
     };
     for (const double rays : {64.0, 256.0}) {
         const double cosine = error(SamplerKind::cosine, rays);
-        EXPECT_LT(cosine, error(SamplerKind::uniform, 20.0 * rays)) << rays;
-        EXPECT_LT(cosine, error(SamplerKind::uniform_sobol, 1.25 * rays)) << rays;
+        const double random = cosine / error(SamplerKind::uniform, 20.0 * rays);
+        const double sobol = cosine / error(SamplerKind::uniform_sobol, 1.25 * rays);
+        RecordProperty(fmt::format("of_random_{}", rays), std::to_string(random));
+        RecordProperty(fmt::format("of_sobol_{}", rays), std::to_string(sobol));
+        // Both factors are observed, not derived: with 64 and 256 rays, errors were 0.87 and 0.63 of
+        // those of random directions, 0.50 and 0.68 of those of low-discrepancy ones. Each is an RMS
+        // over 2000 vertices of unequal noise, known to about 2 %.
+        EXPECT_LT(random, 1.0) << rays;
+        EXPECT_LT(sobol, 1.0) << rays;
     }
 }
 
@@ -114,17 +125,60 @@ double expected_error(const BakedMatrices& baked, uint32_t bands) {
     return std::sqrt(Shrinkage(noise).expected_error(kept).total() / energy);
 }
 
+// The matrix with its mean and the first components alone, neither shrunk nor rounded.
+Eigen::MatrixXf truncated(const Eigen::MatrixXf& matrix, const Eigen::MatrixXd& v, Index kept) {
+    const Eigen::VectorXd mean = matrix.cast<double>().rowwise().mean();
+    const Eigen::MatrixXd centred = matrix.cast<double>().colwise() - mean;
+    const Eigen::MatrixXd within = centred * v.leftCols(kept) * v.leftCols(kept).transpose();
+    return (within.colwise() + mean).cast<float>();
+}
+
 TEST(BakeNoise, IsTakenOutAgainByEncoding) {
     constexpr uint32_t kPoses = 24;
     const PoseSet octopus = poses::make_octopus(1000, kPoses);
-    const Truth truth(bake_matrices(octopus, options(SamplerKind::cosine, 4096, 1000), kPoses));
+    const BakedMatrices exact =
+        bake_matrices(octopus, options(SamplerKind::cosine, 4096, 1000), kPoses);
+    const Truth truth(exact);
     const BakedMatrices baked = bake_matrices(octopus, options(SamplerKind::cosine, 64, 1), kPoses);
     const Eigen::MatrixXf decoded = encoded(baked, 5);
-    EXPECT_LT(truth.error(decoded), 0.65 * truth.error(baked.transfer));
-    EXPECT_LT(truth.flicker(decoded), 0.4 * truth.flicker(baked.transfer));
-    // 2.5 times the rays above the horizon, 5 times the points.
+    RecordProperty("of_bake", std::to_string(truth.error(decoded) / truth.error(baked.transfer)));
+    RecordProperty("flicker_of_bake",
+                   std::to_string(truth.flicker(decoded) / truth.flicker(baked.transfer)));
+
+    // Without shrinkage, and with the best number of components that one who knows the truth can
+    // choose. All of them are the bake itself.
+    const Eigen::MatrixXd v = principal_components(MatrixRows(baked.transfer)).v;
+    double least_error = 1e9, least_flicker = 1e9;
+    Index best = 0;
+    for (Index k = 0; k < Index{kPoses}; ++k) {
+        const Eigen::MatrixXf cut = truncated(baked.transfer, v, k);
+        if (truth.error(cut) < least_error) best = k;
+        least_error = std::min(least_error, truth.error(cut));
+        least_flicker = std::min(least_flicker, truth.flicker(cut));
+    }
+    EXPECT_LT(truth.error(decoded), least_error);
+    EXPECT_LT(truth.flicker(decoded), least_flicker);
+
+    // As the noise of a pose is independent of all others', mean and K components let 1 + K of P
+    // parts through. And they lack what of the truth is beyond them.
+    const double share = (1.0 + static_cast<double>(best)) / kPoses;
+    const Eigen::MatrixXd left =
+        (exact.transfer - truncated(exact.transfer, v, best)).cast<double>();
+    const double lacking =
+        left.squaredNorm() - (1.0 - share) * exact.noise.cast<double>().squaredNorm();
+    const double energy = exact.transfer.cast<double>().squaredNorm();
+    const double expected =
+        std::hypot(std::sqrt(share) * truth.error(baked.transfer), std::sqrt(lacking / energy));
+    RecordProperty("best", std::to_string(best));
+    RecordProperty("least_of_expected", std::to_string(least_error / expected));
+    // In a third of the poses' directions, the noise of 1000 vertices is known to about 5 %.
+    EXPECT_NEAR(least_error / expected, 1.0, 0.05);
+
+    // 2.5 times the rays above the horizon, 5 times the points. That it is so many is observed: the
+    // error was half of theirs.
     const BakedMatrices plain =
         bake_matrices(octopus, options(SamplerKind::uniform_sobol, 5 * 64, 1), kPoses);
+    RecordProperty("of_sobol", std::to_string(truth.error(decoded) / truth.error(plain.transfer)));
     EXPECT_LT(truth.error(decoded), truth.error(plain.transfer));
 }
 
@@ -154,8 +208,11 @@ TEST(BakeNoise, LeavesTheErrorThatTheEncoderExpects) {
         const BakedMatrices baked =
             bake_matrices(octopus, options(SamplerKind::cosine, 64, 1), num_poses);
         const double expected = expected_error(baked, 5);
-        // On real meshes it was within 3.5 %; an RMS over 2000 vertices adds 2 %.
-        EXPECT_NEAR(expected / truth.error(encoded(baked, 5)), 1.0, 0.05) << num_poses;
+        // Observed: off by -1.3, -1.6 and +1.0 % here, by up to 3.5 % on real meshes. The model behind
+        // it is one, so that no bound can be derived; an RMS over 2000 vertices adds 2 %.
+        const double ratio = expected / truth.error(encoded(baked, 5));
+        RecordProperty(fmt::format("expected_{}", num_poses), std::to_string(ratio));
+        EXPECT_NEAR(ratio, 1.0, 0.05) << num_poses;
     }
 }
 
@@ -170,7 +227,10 @@ TEST(BakeNoise, MeetsTheErrorAskedFor) {
         bake.transfer_error = target;
         const BakedMatrices baked = bake_matrices(octopus, bake, 1);
         const double error = (baked.transfer - reference.transfer).norm() / open;
-        // Batches grow by a third to a half, and errors fall by up to 1.5^0.75 with the last one.
+        // Batches grow by a third to a half, and errors fall by up to 1.5^0.75 with the last one: to
+        // 0.74 of the target, and to less at vertices that have hardly any noise. Observed: 0.76 and
+        // 0.88 of the target.
+        RecordProperty(fmt::format("of_target_{}", target), std::to_string(error / target));
         EXPECT_LT(error, target);
         EXPECT_GT(error, 0.6 * target);
         EXPECT_GT(baked.num_rays, 2 * rays_before);
@@ -180,7 +240,25 @@ TEST(BakeNoise, MeetsTheErrorAskedFor) {
     bake.rays = 128;
     const TransferBaker baker(bake);
     const BakedPose pose = baker.bake(octopus.topology(), octopus.load_pose(0), 0);
-    EXPECT_GT(pose.statistics.above_target, 300u);
+    RecordProperty("above", std::to_string(pose.statistics.above_target));
+    // The same by a bake of 128 rays at every vertex, which are other ones.
+    const BakedMatrices at_once = bake_matrices(octopus, options(SamplerKind::cosine, 128, 2), 1);
+    std::vector<double> noise_energy(1000, 0.0);
+    for (Index row = 0; row < at_once.noise.rows(); ++row) {
+        noise_energy[static_cast<size_t>(row) % 1000] += std::pow(at_once.noise(row, 0), 2.0);
+    }
+    std::vector<uint32_t> all(1000);
+    std::iota(all.begin(), all.end(), 0u);
+    const double target_norm = bake.transfer_error * open_transfer_norm(5);
+    const size_t expected =
+        above_noise_target(octopus.topology(), noise_energy, std::vector<uint64_t>(1000, 128),
+                           error_power(SamplerKind::cosine), target_norm * target_norm, all)
+            .size();
+    RecordProperty("above_expected", std::to_string(expected));
+    // A vertex is judged by its neighbours' noise, which six others are judged by too: counts scatter
+    // by at most √(1000 · 0.25 · 7) = 42, differences of two by √2 times that, and three times those
+    // are 180. Vertices that an earlier batch acquitted by luck are fewer than that.
+    EXPECT_NEAR(pose.statistics.above_target, static_cast<double>(expected), 180.0);
     EXPECT_LE(pose.statistics.rays, 128u * 1000u);
 }
 

@@ -1,13 +1,13 @@
 // Bakes that are shared, interrupted and gone on with: the same bytes, whoever baked what when.
-#include <chrono>
 #include <map>
-#include <thread>
 
-#include "paim/base/seed.h"
 #include "tests/cli/tool_test.h"
+#include "tests/directory_watch.h"
 
 namespace paim {
 namespace {
+
+const Arguments kQuick{"--rays", "16", "--bands", "3"};
 
 class Resume : public ToolTest {
   protected:
@@ -22,9 +22,36 @@ class Resume : public ToolTest {
         arguments.insert(arguments.begin(), PAIM_COMPRESS);
         return arguments;
     }
-};
 
-const Arguments kQuick{"--rays", "16", "--bands", "3"};
+    // The process that bakes as with kQuick dies there (interrupted_bake.cpp): the signal.
+    static int bake_until(const std::string& event, uint64_t place, const std::string& poses,
+                          const std::string& output) {
+        const ToolResult dead = run_tool({PAIM_INTERRUPTED_BAKE, poses, output, kQuick[1],
+                                          kQuick[3], event, std::to_string(place)});
+        return -dead.exit_code;
+    }
+
+    // When each pose of a bake was written.
+    static std::map<std::string, std::filesystem::file_time_type> times_of_poses(
+        const std::filesystem::path& bake) {
+        std::map<std::string, std::filesystem::file_time_type> times;
+        if (!std::filesystem::exists(bake)) return times;
+        for (const auto& entry : std::filesystem::directory_iterator(bake)) {
+            const std::string name = entry.path().filename().string();
+            const bool is_pose = name.starts_with("pose_") && name.ends_with(".bin");
+            if (is_pose) times[name] = entry.last_write_time();
+        }
+        return times;
+    }
+
+    static size_t num_unfinished_files(const std::filesystem::path& bake) {
+        size_t count = 0;
+        for (const auto& entry : std::filesystem::directory_iterator(bake)) {
+            count += is_temporary_name(entry.path().filename().string());
+        }
+        return count;
+    }
+};
 
 Arguments quick(const Arguments& more) {
     Arguments options = kQuick;
@@ -46,75 +73,91 @@ TEST_F(Resume, SameBytesOnAnyNumberOfThreads) {
     expect_same(contents_of(path("1")), contents_of(path("2")));
 }
 
-TEST_F(Resume, KilledBakeGoesOnToTheSameBytes) {
+TEST_F(Resume, KilledWhileItWritesAPoseItGoesOnToTheSameBytes) {
     const std::string poses = make_poses("octopus", 4, 1000);
-    const Arguments slow{"--rays", "2048", "--bands", "3"};
-    const Arguments command = bake_command(poses, path("killed.bake"), slow);
-    BackgroundTool tool(with_tool(command));
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-    while (!std::filesystem::exists(path("killed.bake/pose_000000.bin"))) {
-        ASSERT_LT(std::chrono::steady_clock::now(), deadline);
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    tool.kill();
-    ASSERT_EQ(tool.wait(), -SIGKILL);
-    ASSERT_FALSE(std::filesystem::exists(path("killed.bake/pose_000003.bin")));
+    expect_success(compress(bake_command(poses, path("whole.bake"), kQuick)));
+    const std::string bake = path("killed.bake");
+    expect_success(compress(bake_command(poses, bake, quick({"--poses", "0-1"}))));
+    const auto half = std::filesystem::file_size(path("whole.bake/pose_000002.bin")) / 2;
+    ASSERT_GT(half, std::filesystem::file_size(path("whole.bake/mesh.bin")));
+    ASSERT_EQ(bake_until("writing", half, poses, bake), SIGXFSZ);
+    EXPECT_EQ(times_of_poses(bake).size(), 2u);
+    EXPECT_EQ(num_unfinished_files(bake), 1u);  // half of the third
 
-    const ToolResult resumed = compress(command);
+    const ToolResult resumed = compress(bake_command(poses, bake, kQuick));
     EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
-    EXPECT_FALSE(contains(resumed.out, " 0 found")) << resumed.out;
-    expect_success(compress(bake_command(poses, path("whole.bake"), slow)));
-    expect_same(contents_of(path("killed.bake")), contents_of(path("whole.bake")));
+    EXPECT_TRUE(contains(resumed.out, "(2 baked, 2 found)")) << resumed.out;
+    expect_same(contents_of(bake), contents_of(path("whole.bake")));
 }
 
 // Finished poses are never lost nor baked again: their files stay those they were.
 TEST_F(Resume, KilledTwentyTimesItLosesNothingButThePoseInFlight) {
-    namespace fs = std::filesystem;
-    const std::string poses = make_poses("octopus", 30, 1000);
-    const Arguments slow{"--rays", "1024", "--bands", "3"};
-    const Arguments command = bake_command(poses, path("killed.bake"), slow);
-    using Clock = std::chrono::steady_clock;
-    const auto start = Clock::now();
-    expect_success(compress(bake_command(poses, path("whole.bake"), slow)));
-    const std::chrono::duration<double> pose_s = (Clock::now() - start) / 30;
-    const auto poses_found = [&] {
-        std::map<std::string, fs::file_time_type> found;
-        if (!fs::exists(path("killed.bake"))) return found;
-        for (const auto& entry : fs::directory_iterator(path("killed.bake"))) {
-            const std::string name = entry.path().filename().string();
-            const bool is_pose = name.starts_with("pose_") && name.ends_with(".bin");
-            if (is_pose) found[name] = entry.last_write_time();
+    const std::string poses = make_poses("octopus", 16, 1000);
+    expect_success(compress(bake_command(poses, path("whole.bake"), kQuick)));
+    const auto mesh_bytes = std::filesystem::file_size(path("whole.bake/mesh.bin"));
+    const auto pose_bytes = std::filesystem::file_size(path("whole.bake/pose_000000.bin"));
+    const std::string bake = path("killed.bake");
+    for (uint64_t round = 0; round < 20; ++round) {
+        const auto before = times_of_poses(bake);
+        const size_t num_before = before.size();
+        switch (round % 4) {
+            case 0: {  // anywhere in the file, but not yet in the mesh's
+                const uint64_t place = mesh_bytes + (pose_bytes - 1 - mesh_bytes) * round / 19;
+                ASSERT_EQ(bake_until("writing", place, poses, bake), SIGXFSZ) << round;
+                EXPECT_EQ(num_unfinished_files(bake), 1u) << round;
+                EXPECT_EQ(times_of_poses(bake).size(), num_before);
+                break;
+            }
+            case 1:
+                ASSERT_EQ(bake_until("reading", num_before, poses, bake), SIGKILL) << round;
+                EXPECT_EQ(times_of_poses(bake).size(), num_before);
+                break;
+            case 2:  // the next but one: the next may be done before that is read, if hardly ever
+                ASSERT_EQ(bake_until("reading", num_before + 1, poses, bake), SIGKILL) << round;
+                EXPECT_LE(times_of_poses(bake).size(), num_before + 1);
+                break;
+            case 3:
+                ASSERT_EQ(bake_until("after", num_before + 1, poses, bake), SIGKILL) << round;
+                EXPECT_EQ(times_of_poses(bake).size(), num_before + 2);
+                break;
         }
-        return found;
-    };
-    std::map<std::string, fs::file_time_type> finished;
-    RandomStream random(20);
-    int num_killed = 0;
-    for (int round = 0; round < 20; ++round) {
-        BackgroundTool tool(with_tool(command));
-        // In every other round a pose more is finished first; then anywhere within a pose. How fast
-        // the machine is, or how busy, does not matter.
-        const size_t wanted = finished.size() + static_cast<size_t>(round % 2);
-        const auto deadline = Clock::now() + std::chrono::seconds(60);
-        while (poses_found().size() < wanted && Clock::now() < deadline) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        const auto after = times_of_poses(bake);
+        for (const auto& [name, time] : before) {
+            ASSERT_TRUE(after.count(name)) << name << ", round " << round;
+            EXPECT_EQ(after.at(name), time) << name << " was baked again in round " << round;
         }
-        std::this_thread::sleep_for(random.uniform() * pose_s);
-        tool.kill();
-        if (tool.wait() == -SIGKILL) ++num_killed;
-        const auto found = poses_found();
-        for (const auto& [name, time] : finished) {
-            ASSERT_TRUE(found.count(name)) << name;
-            EXPECT_EQ(found.at(name), time) << name << " was baked again in round " << round;
-        }
-        finished = found;
     }
-    // Ten poses are waited for, and about one more may come of each pair of rounds.
-    EXPECT_GE(num_killed, 15);
-    EXPECT_FALSE(finished.empty());
+    const size_t num_finished = times_of_poses(bake).size();
+    const ToolResult resumed = compress(bake_command(poses, bake, kQuick));
+    EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+    EXPECT_TRUE(contains(resumed.out, std::to_string(num_finished) + " found")) << resumed.out;
+    expect_same(contents_of(bake), contents_of(path("whole.bake")));
+}
+
+// The tool itself, somewhere after its first pose: where does not matter.
+TEST_F(Resume, KilledFromOutsideItGoesOnToTheSameBytes) {
+    const std::string poses = make_poses("octopus", 8, 1000);
+    const Arguments slow{"--rays", "512", "--bands", "3"};
+    const Arguments command = bake_command(poses, path("killed.bake"), slow);
+    std::filesystem::create_directory(path("killed.bake"));
+    DirectoryWatch watch(path("killed.bake"));
+    BackgroundTool tool(with_tool(command));
+    ASSERT_TRUE(watch.wait_for("pose_000000.bin"));
+    tool.kill();
+    const int exit_code = tool.wait();
+    EXPECT_TRUE(exit_code == -SIGKILL || exit_code == 0) << exit_code;
+    const auto finished = times_of_poses(path("killed.bake"));
+    EXPECT_TRUE(finished.count("pose_000000.bin"));
+
     const ToolResult resumed = compress(command);
     EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
-    EXPECT_TRUE(contains(resumed.out, std::to_string(finished.size()) + " found")) << resumed.out;
+    const std::string found = std::to_string(finished.size()) + " found)";
+    EXPECT_TRUE(contains(resumed.out, found)) << resumed.out;
+    for (const auto& [name, time] : times_of_poses(path("killed.bake"))) {
+        if (finished.count(name) == 0) continue;
+        EXPECT_EQ(time, finished.at(name)) << name << " was baked again";
+    }
+    expect_success(compress(bake_command(poses, path("whole.bake"), slow)));
     expect_same(contents_of(path("killed.bake")), contents_of(path("whole.bake")));
 }
 

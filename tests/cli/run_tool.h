@@ -12,6 +12,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -67,7 +68,9 @@ class Pipe {
 // Starts arguments[0] (a path) with the rest as its arguments and an empty standard input, and
 // waits for it. Throws std::runtime_error if it cannot be started, or if it still runs after 10
 // minutes, when it is killed.
-inline ToolResult run_tool(const std::vector<std::string>& arguments) {
+// on_output  is called with all that the tool has said, whenever it says more
+inline ToolResult run_tool(const std::vector<std::string>& arguments,
+                           const std::function<void(const ToolResult&)>& on_output = {}) {
     if (arguments.empty()) throw std::runtime_error("run_tool needs the path of a tool");
     detail::Pipe out, err;
     std::vector<char*> argv;
@@ -99,6 +102,7 @@ inline ToolResult run_tool(const std::vector<std::string>& arguments) {
         const int num_ready = ::poll(ends.data(), ends.size(), 1000);
         if (num_ready > 0 && ends[0].revents != 0) out.drain(result.out);
         if (num_ready > 0 && ends[1].revents != 0) err.drain(result.err);
+        if (num_ready > 0 && on_output) on_output(result);
         late = Clock::now() > deadline;
     }
     int status = 0;

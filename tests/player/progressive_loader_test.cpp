@@ -14,31 +14,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kTooLong = 60s;
 constexpr LoaderPace kPace{2ms, 1h};
-
-// What `next` gives, as soon as it gives anything.
-template <typename Next>
-auto wait_for(Next next) {
-    const auto end = std::chrono::steady_clock::now() + kTooLong;
-    auto got = next();
-    while (!got && std::chrono::steady_clock::now() < end) {
-        std::this_thread::sleep_for(1ms);
-        got = next();
-    }
-    return got;
-}
-
-std::optional<std::string> error_of(ProgressiveLoader& loader) {
-    std::string error = loader.take_error();
-    return error.empty() ? std::nullopt : std::optional(error);
-}
-
-// Waits until the loader has looked at a file of so many bytes, and read what it would of it.
-void wait_for_look(ProgressiveLoader& loader, uint64_t size_bytes) {
-    ASSERT_TRUE(wait_for([&] { return loader.progress().size_bytes == size_bytes; }));
-    std::this_thread::sleep_for(20ms);
-}
 
 class ProgressiveLoaderTest : public testing::Test {
   protected:
@@ -81,10 +57,12 @@ TEST_F(ProgressiveLoaderTest, GrowsSectionBySection) {
     for (size_t i = 1; i < prefixes.size(); ++i) {
         // Nothing is read for a component that lacks its last byte.
         file_.grow_to(prefixes[i].size_bytes - 1);
-        wait_for_look(loader, prefixes[i].size_bytes - 1);
+        loader.wait_for_look();
+        EXPECT_EQ(loader.progress().size_bytes, prefixes[i].size_bytes - 1);
         EXPECT_FALSE(loader.take());
         file_.grow_to(prefixes[i].size_bytes);
-        const auto loaded = wait_for([&] { return loader.take(); });
+        loader.wait_for_look();
+        const auto loaded = loader.take();
         ASSERT_TRUE(loaded);
         expect_holds(*loaded, prefixes[i]);
     }
@@ -101,7 +79,8 @@ TEST_F(ProgressiveLoaderTest, WaitsForTheStart) {
             for (const uint64_t size :
                  {uint64_t{10}, uint64_t{64}, uint64_t{1000}, file_.prefixes[0].size_bytes - 1}) {
                 file_.grow_to(size);
-                wait_for_look(loader, size);
+                loader.wait_for_look();
+                EXPECT_EQ(loader.progress().size_bytes, size);
             }
             file_.grow_to(file_.prefixes[2].size_bytes);
         });
@@ -148,17 +127,19 @@ TEST_F(ProgressiveLoaderTest, SaysDamageOnceAndGoesOn) {
     const std::vector<char> good = file_.bytes;
     file_.bytes[prefixes[4].size_bytes - 1] ^= 1;
     file_.grow_to(prefixes[4].size_bytes);
-    const auto error = wait_for([&] { return error_of(loader); });
-    ASSERT_TRUE(error);
-    EXPECT_NE(error->find("checksum"), std::string::npos) << *error;
+    loader.wait_for_look();
+    const std::string error = loader.take_error();
+    EXPECT_NE(error.find("checksum"), std::string::npos) << error;
     file_.grow_to(good.size());
-    wait_for_look(loader, good.size());
+    loader.wait_for_look();
+    EXPECT_EQ(loader.progress().size_bytes, good.size());
     EXPECT_EQ(loader.take_error(), "");
     EXPECT_FALSE(loader.take());
 
     // Sent anew.
     write_file(path_, std::string_view(good.data(), good.size()));
-    const auto loaded = wait_for([&] { return loader.take(); });
+    loader.wait_for_look();
+    const auto loaded = loader.take();
     ASSERT_TRUE(loaded);
     expect_holds(*loaded, prefixes.back());
 }
@@ -168,19 +149,22 @@ TEST_F(ProgressiveLoaderTest, TakesAFileThatReplacesAnother) {
     ProgressiveLoader loader(path_, kPace);
     expect_holds(loader.wait_for_first([] {}), file_.prefixes[5]);
     std::filesystem::remove(path_);
-    wait_for_look(loader, 0);
+    loader.wait_for_look();
+    EXPECT_EQ(loader.progress().size_bytes, 0u);
     EXPECT_FALSE(loader.take());
 
     // Shorter and longer than what was there before.
     GrowingFile other(path_, make_model(9));
     other.grow_to(other.prefixes[1].size_bytes);
-    auto loaded = wait_for([&] { return loader.take(); });
+    loader.wait_for_look();
+    auto loaded = loader.take();
     ASSERT_TRUE(loaded);
     EXPECT_TRUE(loaded->replaced);
     EXPECT_EQ(loaded->model.num_poses(), 9u);
     EXPECT_EQ(loaded->progress.components, 1u);
     other.grow_to(other.bytes.size());
-    loaded = wait_for([&] { return loader.take(); });
+    loader.wait_for_look();
+    loaded = loader.take();
     ASSERT_TRUE(loaded);
     EXPECT_FALSE(loaded->replaced);
     EXPECT_TRUE(loaded->model.complete);

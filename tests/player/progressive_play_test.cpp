@@ -3,12 +3,14 @@
 #include <stdlib.h>
 
 #include <chrono>
+#include <future>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "paim/base/file.h"
 #include "paim/image/exr.h"
 #include "tests/cli/run_tool.h"
+#include "tests/directory_watch.h"
 #include "tests/first_components.h"
 #include "tests/player/growing_file.h"
 #include "tests/player/test_model.h"
@@ -18,6 +20,9 @@
 
 namespace paim::player {
 namespace {
+
+// Nothing takes so long but what never comes.
+constexpr std::chrono::minutes kHung{5};
 
 class ProgressivePlayTest : public testing::Test {
   protected:
@@ -107,23 +112,30 @@ TEST_F(ProgressivePlayTest, TakesABeginningOnlyWhenAsked) {
 TEST_F(ProgressivePlayTest, WindowSharpensToTheWholeFilesPicture) {
     const XServer server(PAIM_XVFB);
     ToolResult result;
+    std::promise<void> waits;
     std::jthread player([&] {
+        bool noted = false;
+        const auto listen = [&](const ToolResult& so_far) {
+            if (noted || so_far.err.find('\n') == std::string::npos) return;
+            noted = true;
+            waits.set_value();
+        };
         result = run_tool({"/bin/sh", "-c",
                            "cd '" + directory_.path().string() + "' && exec " + PAIM_PLAY +
-                               " ball.paim --progressive --size 120x80 --bands 4"});
+                               " ball.paim --progressive --size 120x80 --bands 4"},
+                          listen);
     });
     file_.grow_to(file_.prefixes[0].size_bytes - 1);
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    ASSERT_EQ(waits.get_future().wait_for(kHung), std::future_status::ready);
     file_.grow_to(file_.prefixes[0].size_bytes);
     WindowKeys keys("ball.paim - paim-play");
     keys.press("Home");  // pose 0, paused
     int num_pictures = 0;
     const auto save_view = [&] {
         const std::string name = fmt::format("ball-{:03}.png", ++num_pictures);
+        DirectoryWatch pictures(directory_.path());
         keys.press("s");
-        for (int i = 0; i < 6000 && !std::filesystem::exists(directory_ / name); ++i) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(10));
-        }
+        EXPECT_TRUE(pictures.wait_for(name));
         return read_file(directory_ / name, 1 << 20);
     };
     const auto expected = [&](const std::vector<std::string>& more) {
@@ -139,8 +151,9 @@ TEST_F(ProgressivePlayTest, WindowSharpensToTheWholeFilesPicture) {
     // The camera stays where the first model put it until the animation is framed anew (F).
     for (size_t i = 1; i < file_.prefixes.size(); ++i) file_.grow_to(file_.prefixes[i].size_bytes);
     const std::vector<char> whole = expected({});
+    const auto hung = std::chrono::steady_clock::now() + kHung;
     bool reached = false;
-    for (int i = 0; i < 200 && !reached; ++i) {
+    while (!reached && std::chrono::steady_clock::now() < hung) {
         keys.press("f");
         reached = save_view() == whole;
     }

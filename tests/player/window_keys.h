@@ -4,24 +4,26 @@
 #include <X11/Xlib.h>
 #include <X11/Xutil.h>
 #include <X11/keysym.h>
+#include <poll.h>
 
-#include <chrono>
 #include <stdexcept>
 #include <string>
-#include <thread>
 
 namespace paim::player {
 
 class WindowKeys {
   public:
-    // Waits for at most a minute until there is a window with this title.
+    // Waits until a window with this title is shown. Throws std::runtime_error if no window is shown
+    // for five minutes: only a test that fails takes so long.
     explicit WindowKeys(const std::string& title) : display_(::XOpenDisplay(nullptr)) {
         if (display_ == nullptr) throw std::runtime_error("no display");
-        for (int i = 0; i < 6000 && window_ == 0; ++i) {
-            window_ = find(::XDefaultRootWindow(display_), title);
-            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        const ::Window root = ::XDefaultRootWindow(display_);
+        ::XSelectInput(display_, root, SubstructureNotifyMask);
+        window_ = find(root, title);
+        while (window_ == 0) {
+            if (!wait_for_a_shown_window()) throw std::runtime_error("no window '" + title + "'");
+            window_ = find(root, title);
         }
-        if (window_ == 0) throw std::runtime_error("no window '" + title + "'");
     }
     ~WindowKeys() { ::XCloseDisplay(display_); }
     WindowKeys(const WindowKeys&) = delete;
@@ -46,6 +48,16 @@ class WindowKeys {
     }
 
   private:
+    bool wait_for_a_shown_window() const {
+        constexpr int kHungAfterMs = 300'000;
+        XEvent event{};
+        while (event.type != MapNotify) {
+            pollfd ready{XConnectionNumber(display_), POLLIN, 0};
+            if (::XPending(display_) == 0 && ::poll(&ready, 1, kHungAfterMs) <= 0) return false;
+            ::XNextEvent(display_, &event);
+        }
+        return true;
+    }
     ::Window find(::Window parent, const std::string& title) const {
         ::Window root = 0, above = 0;
         ::Window* children = nullptr;

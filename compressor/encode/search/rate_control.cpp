@@ -1,11 +1,9 @@
 // Steps that meet a target, measured.
 #include "compressor/encode/search/rate_control.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "compressor/encode/quantise/float_part.h"
 #include "compressor/encode/quantise/trim_bands.h"
+#include "compressor/encode/search/step_scaling.h"
 #include "paim/base/error.h"
 
 namespace paim {
@@ -24,21 +22,12 @@ Model build(const EncodeProblem& problem, const Scenery& scenery, const Coding& 
     return model;
 }
 
-// Errors above the floor grow about as the step does.
-void scale_step(double from, double to, double floor, double slack, Quantiser& quantiser) {
-    const double now = from * from - floor * floor;
-    const double wanted = to * to - floor * floor;
-    if (now > 0.0 && wanted > 0.0) {
-        quantiser.step *= std::clamp(slack * std::sqrt(wanted / now), 0.5, 1.25);
-    }
-}
-
 // Floats have no step: one more component.
 void adjust(Quantiser& quantiser, Precision precision, bool coarser, double error, double target,
             double floor) {
     constexpr double kSlack = 0.997;
     if (is_integer(precision)) {
-        scale_step(error, target, floor, kSlack, quantiser);
+        quantiser.step = scaled_step(quantiser.step, error, target, floor, kSlack);
     } else if (!coarser && error > target) {
         ++quantiser.num_components;
     }
@@ -83,11 +72,12 @@ std::optional<RefinedModel> refine(const EncodeProblem& problem, const Quantised
 void scale_steps(const EncodeProblem& problem, const Targets& from, const Targets& to,
                  Coding& coding) {
     if (is_integer(coding.transfer.precision)) {
-        scale_step(from.transfer, to.transfer, problem.floor.transfer.total(), 1.0,
-                   coding.transfer.quantiser);
+        double& step = coding.transfer.quantiser.step;
+        step = scaled_step(step, from.transfer, to.transfer, problem.floor.transfer.total(), 1.0);
     }
     if (is_integer(coding.geometry_precision)) {
-        scale_step(from.geometry, to.geometry, 0.0, 1.0, coding.geometry);
+        double& step = coding.geometry.step;
+        step = scaled_step(step, from.geometry, to.geometry, 0.0, 1.0);
     }
 }
 

@@ -5,6 +5,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "compressor/encode/cluster/cluster_members.h"
@@ -215,20 +217,33 @@ TEST(Clustering, CoherenceShortensBorders) {
         if (v < 1199) graph.neighbour.push_back(v + 1);
         graph.first.push_back(static_cast<uint32_t>(graph.neighbour.size()));
     }
-    ClusteringOptions options;
-    options.num_clusters = 8;
-    options.assumed_components = 2;
-    const auto num_borders = [&](float coherence) {
+    const auto num_borders = [&](float coherence, uint64_t seed) {
+        ClusteringOptions options;
+        options.num_clusters = 8;
+        options.assumed_components = 2;
         options.coherence = coherence;
+        options.seed = seed;
         const Clustering clustering = cluster_points(points, options, &graph);
         EXPECT_GT(clustering.num_clusters, 1u);
-        uint32_t count = 0;
+        double count = 0.0;
         for (size_t v = 1; v < 1200; ++v) {
             count += clustering.cluster[v] != clustering.cluster[v - 1];
         }
         return count;
     };
-    EXPECT_LT(2 * num_borders(1.0f), num_borders(0.0f));
+    // How many there are without depends on the seed: some 1014 ± 22. With coherence there are fewer
+    // than any seed makes them, by six times that scatter.
+    constexpr int kSeeds = 8;
+    double mean = 0.0, squares = 0.0;
+    for (uint64_t seed = 1; seed <= kSeeds; ++seed) {
+        const double count = num_borders(0.0f, seed);
+        mean += count / kSeeds;
+        squares += count * count / kSeeds;
+    }
+    const double scatter = std::sqrt(std::max(0.0, squares - mean * mean));
+    for (uint64_t seed = 1; seed <= 3; ++seed) {
+        EXPECT_LT(num_borders(1.0f, seed), mean - 6.0 * scatter) << seed;
+    }
 }
 
 }  // namespace

@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 
 #include "compressor/encode/memory/memory_plan.h"
+#include "compressor/encode/quantise/quantise.h"
 #include "compressor/encode/search/problem.h"
 #include "paim/base/error.h"
 #include "paim/base/parallel.h"
@@ -302,17 +305,66 @@ TEST_F(TargetEncode, TakesSheetsOfFewVertices) {
     }
 }
 
-TEST_F(TargetEncode, VeryFineTargetsAreMetOrRefused) {
+// What rounding leaves where steps are as fine as 16 bits allow, Σ of weighted squares over rows and
+// poses: a twelfth of the step's square for each value that is not zero.
+double error_of_sixteen_bits(const ScaledFactors& factors,
+                             const std::vector<double>& plane_weight) {
+    const double step =
+        smallest_step(factors, {1.0, factors.num_components(), plane_weight}, Precision::i16);
+    auto count = factors.mean.size();
+    for (const std::vector<float>& component : factors.components) {
+        count += component.size() -
+                 static_cast<size_t>(std::count(component.begin(), component.end(), 0.0f));
+    }
+    return step * step / 12.0 * static_cast<double>(count) * factors.num_poses();
+}
+
+TEST_F(TargetEncode, MeetsVeryFineTargetsDownToSixteenBits) {
     const BakeReader bake = this->bake({.num_poses = 5, .noise = 0.0});
-    // Steps of 2^-15 of the largest value, 1.5, leave some 1e-5 of each component, beside an RMS of 0.3.
-    for (const double error : {1e-3, 1e-4, 2e-5, 1e-6}) {
-        try {
-            const TargetSummary summary = encode(bake, target(bake, error));
-            EXPECT_LE(summary.error.transfer.total(), error);
-        } catch (const Error& refused) {
-            EXPECT_EQ(refused.code(), ExitCode::threshold_exceeded) << error << refused.what();
-            EXPECT_LT(error, 1e-3);
-        }
+    EXPECT_LE(encode(bake, target(bake, 1e-3)).error.transfer.total(), 1e-3);
+    EncodeTarget fine = target(bake, 1e-4);
+    fine.geometry_error = 1e-3;
+    EXPECT_LE(encode(bake, fine).error.transfer.total(), 1e-4);
+
+    // Squares of roundings scatter by √0.8 of their mean. Of positions, a lattice's two coordinates
+    // have 20 different values each and are 2 of 7 parts of the whole (three of the mean, four
+    // components of the height): √(0.8 / 20) · √2 / 7 = 4 %, and three times that is allowed.
+    constexpr double kAbove = 1.12, kBelow = 0.88;
+    const EncodeProblem problem = read_problem(bake, options_, target(bake, 1e-6));
+    const double transfer = std::sqrt(
+        error_of_sixteen_bits(problem.transfer, problem.plane_weight) / problem.transfer_energy);
+    EXPECT_LT(transfer, 1e-4);
+    fine.transfer_error = kAbove * transfer;
+    EXPECT_LE(encode(bake, fine).error.transfer.total(), kAbove * transfer);
+    std::filesystem::remove(output_);
+    fine.transfer_error = kBelow * transfer;
+    expect_refused(bake, fine, ExitCode::threshold_exceeded, "needs values of more than 16 bits");
+
+    // Positions have their own steps and their own end.
+    const double distance = std::sqrt(error_of_sixteen_bits(problem.geometry, {1.0, 1.0, 1.0}) /
+                                      (400.0 * bake.num_poses()));
+    const double geometry = distance / problem.floor.geometry.diagonal;
+    fine.transfer_error = 1e-3;
+    fine.geometry_error = kAbove * geometry;
+    EXPECT_LE(encode(bake, fine).error.geometry.rms(), kAbove * distance);
+    std::filesystem::remove(output_);
+    fine.geometry_error = kBelow * geometry;
+    expect_refused(bake, fine, ExitCode::threshold_exceeded,
+                   "needs positions of more than 16 bits");
+}
+
+// Without a geometry error, positions are 50 times as good, relative to the diagonal: their 16 bits end
+// before those of the transfer do. Floats, which the message names, meet the same target.
+TEST_F(TargetEncode, VeryFineTargetsOfBothPartsTakeFloats) {
+    const BakeReader bake = this->bake({.num_poses = 5, .noise = 0.0});
+    expect_refused(bake, target(bake, 1e-4), ExitCode::threshold_exceeded,
+                   "needs positions of more than 16 bits: allow a larger --geometry-error, or use "
+                   "--precision f32");
+    options_.precision = Precision::f32;
+    for (const double error : {1e-4, 1e-6}) {
+        const TargetSummary summary = encode(bake, target(bake, error));
+        EXPECT_LE(summary.error.transfer.total(), error);
+        EXPECT_LE(summary.error.geometry.rms(), summary.geometry_target);
     }
 }
 

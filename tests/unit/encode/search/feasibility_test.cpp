@@ -1,0 +1,87 @@
+// What a bake cannot give is refused, with the reason that weighs most and the best there is.
+#include "compressor/encode/search/feasibility.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "paim/base/error.h"
+#include "tests/temporary_directory.h"
+#include "tests/unit/encode/search/target_bake.h"
+
+namespace paim {
+namespace {
+
+class Feasibility : public testing::Test {
+  protected:
+    Feasibility() {
+        EncodeTarget target;
+        target.transfer_error = 0.1;
+        target.spectrum = BandPower::flat(4);
+        problem_.emplace(read_problem(bake_, {}, target));
+    }
+
+    // What check_reachable() says; empty if nothing.
+    std::string refusal(double transfer_error) const {
+        try {
+            check_reachable(*problem_, transfer_error);
+            return {};
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ExitCode::threshold_exceeded);
+            return error.what();
+        }
+    }
+
+    std::string name() const { return (directory_ / "x.bake").string(); }
+
+    const TemporaryDirectory directory_;
+    const BakeReader bake_ = write_target_bake(directory_ / "x.bake", {.width = 4, .num_poses = 3});
+    std::optional<EncodeProblem> problem_;
+};
+
+TEST_F(Feasibility, AllowsWhatIsAboveTheBestThereIs) {
+    problem_->floor.transfer.error = 0.03;
+    problem_->floor.transfer.missing_bands = 0.04;
+    EXPECT_EQ(refusal(0.0501), "");  // √(0.03² + 0.04²) = 0.05
+    EXPECT_NE(refusal(0.0499), "");
+    problem_->floor.transfer.missing_bands = 0.0;
+    EXPECT_EQ(refusal(0.0301), "");
+    EXPECT_NE(refusal(0.03), "");  // nothing is left for coding it
+}
+
+TEST_F(Feasibility, SaysWhetherNoiseOrBandsAreInTheWay) {
+    TransferError& best = problem_->floor.transfer;
+    best.error = 0.04;
+    best.missing_bands = 0.03;
+    EXPECT_EQ(refusal(0.02), name() +
+                                 ": a transfer error of 2 % is asked for, but the bake's noise "
+                                 "leaves 5 % at best: bake with more --rays");
+    std::swap(best.error, best.missing_bands);
+    EXPECT_EQ(refusal(0.02),
+              name() +
+                  ": a transfer error of 2 % is asked for, but its 4 bands leave out "
+                  "4 % of what light of this spectrum shows: the best is 5 %; bake "
+                  "with more --bands");
+    // Bands that were not asked for are an error, and no bands that the bake lacks.
+    best.error = 0.05;
+    best.missing_bands = 0.0;
+    problem_->layout.bands = 2;
+    EXPECT_EQ(refusal(0.02),
+              name() +
+                  ": a transfer error of 2 % is asked for, but 2 of its 4 bands leave "
+                  "5 % at best: keep more --bands");
+}
+
+TEST_F(Feasibility, CountsWhatStandsStillToo) {
+    problem_->floor.transfer = {};
+    problem_->floor.scenery.emplace();
+    problem_->floor.scenery->transfer.error = 0.03;
+    EXPECT_EQ(refusal(0.031), "");
+    EXPECT_EQ(refusal(0.02), name() +
+                                 ": a transfer error of 2 % is asked for, but of the scenery the "
+                                 "bake's noise leaves 3 % at best: bake with more --rays");
+    EXPECT_EQ(problem_->least_error(), 0.03);
+}
+
+}  // namespace
+}  // namespace paim
