@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
         Options options;
         if (const int code = parse_options(argc, argv, options); code >= 0) return code;
         if (options.play_prefix && options.opens_window()) {
-            run_growing(options);
+            run_app_from_prefix(options);
             return 0;
         }
         Scene scene = load_scene(options);

@@ -45,7 +45,7 @@ struct Options {
     std::optional<int> bench_frames;
     std::optional<int> window_frames;  // then quit
     bool json = false;
-    bool play_prefix = false;  // --progressive: of a file that is not complete, what is there
+    bool play_prefix = false;  // --progressive: the prefix that is there of an incomplete file
 
     bool opens_window() const { return !snapshot_path && !bench_frames; }
 };

@@ -32,7 +32,7 @@ uint32_t limit_of(const char* option, const char* what, std::optional<uint32_t> 
 }  // namespace
 
 Scene load_scene(Options& options) {
-    if (options.play_prefix) return make_scene(options, load_beginning(options.model_path));
+    if (options.play_prefix) return make_scene(options, load_prefix(options.model_path));
     LoadedModel loaded;
     loaded.model = read_model(options.model_path);
     loaded.bounds = sequence_bounds(loaded.model);

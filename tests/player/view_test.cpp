@@ -40,7 +40,7 @@ Limits limits_of(const ViewState& view) {
             limits.cluster_components};
 }
 
-TEST(ViewState, FollowsAModelThatGrows) {
+TEST(ViewState, FollowsAModelThatGetsMoreComponents) {
     const DecodeLimits all;
     constexpr ViewRange kMore{4, 4, 9, 6, 2};
     ViewState view = start();

@@ -21,7 +21,7 @@ Image draw(SceneRenderer& renderer, const Model& model) {
     return renderer.render(frame, kWidth, kHeight, 1);
 }
 
-TEST(ProgressiveRenderer, DrawsAnotherModelAsIfItWereTheFirst) {
+TEST(PrefixRenderer, DrawsAnotherModelAsIfItWereTheFirst) {
     const auto context = gl::make_headless_context();
     TestModelOptions options;
     const Model whole = make_test_model(options);
@@ -32,15 +32,15 @@ TEST(ProgressiveRenderer, DrawsAnotherModelAsIfItWereTheFirst) {
     options.num_poses = 4;
     const Model other = make_test_model(options);
     const Image environment = make_sky();
-    SceneRenderer growing(other, environment, {});
-    Image last = draw(growing, other);
+    SceneRenderer renderer(other, environment, {});
+    Image last = draw(renderer, other);
     for (const Model* model : {&coarse, &whole, &other, &coarse}) {
-        growing.set_model(*model, {});
-        const Image image = draw(growing, *model);
+        renderer.set_model(*model, {});
+        const Image image = draw(renderer, *model);
         EXPECT_NE(image.pixels, last.pixels);
         SceneRenderer fresh(*model, environment, {});
         EXPECT_EQ(image.pixels, draw(fresh, *model).pixels);
-        EXPECT_EQ(growing.texture_bytes(), fresh.texture_bytes());
+        EXPECT_EQ(renderer.texture_bytes(), fresh.texture_bytes());
         last = image;
     }
 }
