@@ -14,7 +14,7 @@
 #include "paim/image/png.h"
 #include "player/gl/check.h"
 #include "player/gl/window.h"
-#include "player/progressive_loader.h"
+#include "player/prefix_loader.h"
 #include "player/render/pose_bounds_cache.h"
 #include "player/render/scene_renderer.h"
 #include "player/render/tone_mapper.h"
@@ -46,14 +46,14 @@ auto upload_within(const DecodeLimits& wanted, Upload upload) {
 
 class App {
   public:
-    // loader  of a file that grows, or nullptr
-    App(const Options& options, Scene scene, ProgressiveLoader* loader)
+    // loader  of a file that is still being written, or nullptr
+    App(const Options& options, Scene scene, PrefixLoader* loader)
         : options_(options),
           scene_(std::make_unique<Scene>(std::move(scene))),
           loader_(loader),
           window_(options.size.first, options.size.second,
                   options.model_path.filename().string() + " - paim-play"),
-          renderer_(upload_within(options.wanted_limits,
+          renderer_(upload_within(options.wanted.limits(),
                                   [&](const DecodeLimits& limits) {
                                       return std::make_unique<SceneRenderer>(
                                           *scene_->asset, scene_->environment, limits);
@@ -104,7 +104,7 @@ class App {
         scene->size_bytes = loaded->progress.size_bytes;
         scene->progress = loaded->progress;
         try {
-            upload_within(options_.wanted_limits, [&](const DecodeLimits& limits) {
+            upload_within(options_.wanted.limits(), [&](const DecodeLimits& limits) {
                 renderer_->set_asset(*scene->asset, limits);
             });
         } catch (const Error& error) {
@@ -115,7 +115,7 @@ class App {
         bounds_.emplace(*scene->asset);
         scene_ = std::move(scene);
         const ViewRange before = std::exchange(range_, range());
-        follow(view_, before, range_, options_.wanted_limits);
+        follow(view_, before, range_, options_.wanted.limits());
         if (loaded->replaced) frame_all();
     }
 
@@ -258,7 +258,7 @@ class App {
 
     const Options& options_;
     std::unique_ptr<Scene> scene_;
-    ProgressiveLoader* loader_;
+    PrefixLoader* loader_;
     gl::Window window_;
     std::string renderer_name_ = window_.renderer();
     std::unique_ptr<SceneRenderer> renderer_;
@@ -281,10 +281,10 @@ void run_app(const Options& options, Scene scene) {
     App(options, std::move(scene), nullptr).run();
 }
 
-void run_growing(Options& options) {
-    ProgressiveLoader loader(options.model_path);
+void run_app_from_prefix(Options& options) {
+    PrefixLoader loader(options.model_path);
     LoadedAsset first = loader.wait_for_first([&] {
-        fmt::print(stderr, "paim-play: note: {}: waiting for the beginning that can be played\n",
+        fmt::print(stderr, "paim-play: note: {}: waiting for the first part that can be played\n",
                    options.model_path.string());
     });
     Scene scene = make_scene(options, std::move(first));

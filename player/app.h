@@ -10,9 +10,9 @@ namespace paim::player {
 // Error(unsupported) where there is no display, which says to use --snapshot.
 void run_app(const Options& options, Scene scene);
 
-// The same of a file that is still being written: starts with the beginning that can be played, for
-// which it waits, with a note on stderr, and shows more as it comes. Errors as load_scene()'s and
-// ProgressiveLoader's.
-void run_growing(Options& options);
+// Plays a file that is still being written. Waits, with a note on stderr, for a prefix of it that can
+// be played; shows more detail when the prefix has become longer. Errors as load_scene()'s and
+// PrefixLoader's.
+void run_app_from_prefix(Options& options);
 
 }  // namespace paim::player

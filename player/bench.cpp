@@ -84,7 +84,7 @@ void run_bench(const Options& options, const Scene& scene) {
     frame.bounds.extend(scene.bounds.upper);
     SceneRenderer renderer(*scene.asset, scene.environment, options.limits);
     const gl::Target target(options.size.first * samples, options.size.second * samples);
-    const gl::Target pixel(1, 1);  // leaves hardly anything to do but the vertices
+    const gl::Target pixel(1, 1);  // so that almost all of the work is that of the vertices
     const int num_frames = *options.bench_frames;
     const uint32_t num_poses = scene.asset->num_poses();
     const Times whole = measure_gpu(renderer, frame, target, num_frames, num_poses);

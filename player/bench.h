@@ -1,4 +1,4 @@
-// How long a frame takes, beside the same decoding and shading on the CPU.
+// Times a frame, and the same decoding and shading on the CPU for comparison.
 #pragma once
 
 #include "player/options.h"

@@ -13,8 +13,8 @@ int main(int argc, char** argv) {
     return paim::cli::run_main("paim-play", [&] {
         Options options;
         if (const int code = parse_options(argc, argv, options); code >= 0) return code;
-        if (options.progressive && options.opens_window()) {
-            run_growing(options);
+        if (options.play_prefix && options.opens_window()) {
+            run_app_from_prefix(options);
             return 0;
         }
         Scene scene = load_scene(options);

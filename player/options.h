@@ -1,6 +1,7 @@
 // The command line of paim-play.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <utility>
@@ -17,11 +18,22 @@ struct CameraOptions {
     float distance_factor = 1.0f;
 };
 
+// How much of the file's detail is asked for; nothing: all that it has.
+struct WantedLimits {
+    std::optional<uint32_t> geometry_components;
+    std::optional<uint32_t> transfer_components;
+    std::optional<uint32_t> bands;
+    std::optional<uint32_t> cluster_components;
+
+    // The same numbers, where nothing was asked for the largest there are.
+    DecodeLimits limits() const;
+};
+
 struct Options {
     std::filesystem::path model_path;
     std::optional<std::filesystem::path> environment_path;  // else the built-in sky
-    DecodeLimits limits;         // no more than the file has, once it is loaded
-    DecodeLimits wanted_limits;  // as they were given, for a file that grows
+    WantedLimits wanted;
+    DecodeLimits limits;  // as wanted, but no more than the file has; set when it is loaded
     ToneCurve tone_curve;
     double pose = 0.0;
     double env_rotation_rad = 0.0;
@@ -33,7 +45,7 @@ struct Options {
     std::optional<int> bench_frames;
     std::optional<int> window_frames;  // then quit
     bool json = false;
-    bool progressive = false;  // play what is there of a file that is not all there
+    bool play_prefix = false;  // --progressive: the prefix that is there of an incomplete file
 
     bool opens_window() const { return !snapshot_path && !bench_frames; }
 };

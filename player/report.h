@@ -11,7 +11,7 @@
 
 namespace paim::player {
 
-// File, mesh, what of it is in use and what that costs, picture size, driver.
+// Describes the file, the mesh, the detail in use and its cost, the picture's size and the driver.
 // driver  as its context describes itself
 nlohmann::ordered_json describe_frame(const Options& options, const Scene& scene,
                                       const SceneRenderer& renderer, const std::string& driver,

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
@@ -17,22 +18,21 @@ namespace paim::player {
 
 namespace {
 
+// What is wanted, or all that is available, with a note if that is less.
 // all_there  the file will not have more
-void lower_limit(const char* option, const char* what, uint32_t& limit, uint32_t available,
-                 bool all_there) {
-    if (limit == DecodeLimits().bands || (limit > available && !all_there)) {
-        limit = available;
-    } else if (limit > available) {
+uint32_t limit_of(const char* option, const char* what, std::optional<uint32_t> wanted,
+                  uint32_t available, bool all_there) {
+    if (wanted && *wanted > available && all_there) {
         fmt::print(stderr, "paim-play: note: {} {}: the file has {} {}, using all of them\n",
-                   option, limit, available, what);
-        limit = available;
+                   option, *wanted, available, what);
     }
+    return std::min(wanted.value_or(available), available);
 }
 
 }  // namespace
 
 Scene load_scene(Options& options) {
-    if (options.progressive) return make_scene(options, load_beginning(options.model_path));
+    if (options.play_prefix) return make_scene(options, load_prefix(options.model_path));
     LoadedAsset loaded;
     loaded.asset = read_asset(options.model_path);
     loaded.bounds = sequence_bounds(*loaded.asset);
@@ -46,7 +46,7 @@ Scene make_scene(Options& options, LoadedAsset loaded) {
     scene.asset = std::move(loaded.asset);
     scene.bounds = loaded.bounds;
     scene.size_bytes = loaded.progress.size_bytes;
-    if (options.progressive) scene.progress = loaded.progress;
+    if (options.play_prefix) scene.progress = loaded.progress;
     const Asset& asset = *scene.asset;
     const CodedMesh& mesh = asset.moving();
 
@@ -55,14 +55,18 @@ Scene make_scene(Options& options, LoadedAsset loaded) {
         throw_usage("--pose: expected 0 to {} ({} has {} poses), got {}", last_pose,
                     options.model_path.string(), asset.num_poses(), options.pose);
     }
+    const WantedLimits& wanted = options.wanted;
     DecodeLimits& limits = options.limits;
-    lower_limit("--geometry-components", "geometry components", limits.geometry_components,
-                mesh.positions.num_components, asset.complete);
-    lower_limit("--transfer-components", "transfer components", limits.transfer_components,
-                mesh.transfer->matrix.num_components, asset.complete);
-    lower_limit("--cluster-components", "cluster components", limits.cluster_components,
-                mesh.transfer->num_vertex_components(), true);
-    lower_limit("--bands", "bands", limits.bands, mesh.layout.in_bands, true);
+    limits.geometry_components =
+        limit_of("--geometry-components", "geometry components", wanted.geometry_components,
+                 mesh.positions.num_components, asset.complete);
+    limits.transfer_components =
+        limit_of("--transfer-components", "transfer components", wanted.transfer_components,
+                 mesh.transfer->matrix.num_components, asset.complete);
+    limits.cluster_components =
+        limit_of("--cluster-components", "cluster components", wanted.cluster_components,
+                 mesh.transfer->num_vertex_components(), true);
+    limits.bands = limit_of("--bands", "bands", wanted.bands, mesh.layout.in_bands, true);
 
     scene.environment =
         options.environment_path ? load_environment(*options.environment_path) : make_sky();

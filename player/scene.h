@@ -7,7 +7,7 @@
 #include "paim/codec/asset.h"
 #include "paim/image/image.h"
 #include "paim/mesh/bounds.h"
-#include "player/file_beginning.h"
+#include "player/file_prefix.h"
 #include "player/options.h"
 
 namespace paim::player {
@@ -16,15 +16,15 @@ struct Scene {
     std::shared_ptr<const Asset> asset;
     Image environment;                     // lat-long, linear radiance, finite and not negative
     Bounds bounds;                         // of the whole animation
-    uint64_t size_bytes = 0;               // of the .paim file, as far as it is there
-    std::optional<LoadProgress> progress;  // of a file of which a prefix is there
+    uint64_t size_bytes = 0;               // of the .paim file, or of the prefix that is there
+    std::optional<LoadProgress> progress;  // of the prefix, where the options ask for one
 };
 
 // Reads the animation and the environment. Lowers the options' limits to what the file has, with a
 // note on stderr. Errors name the file; Error(usage) if the pose is beyond the last.
 Scene load_scene(Options& options);
 
-// The same, of an animation whose prefix has been read.
+// The same of an animation that has been read: all of it, or a prefix.
 Scene make_scene(Options& options, LoadedAsset loaded);
 
 // Reads a lat-long map that can light a scene. Errors (bad input) name the file.

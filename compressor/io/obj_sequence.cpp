@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <limits>
 #include <utility>
 
 #include "compressor/io/obj_albedo.h"
@@ -77,8 +78,19 @@ void ObjSequence::check_files() {
     const size_t failed = first_failed.load();
     if (failed < files_.size()) std::rethrow_exception(failures[failed]);
     for (size_t i = 1; i < bounds.size(); ++i) bounds[0].extend(bounds[i]);
+    check_size(bounds[0]);
     origin_ = options_.origin.value_or(choose_origin(bounds[0]));
     for (size_t i = 0; i < files_.size(); ++i) check_local(i, all_bounds[i]);
+}
+
+// Floats below the normal ones have fewer digits the smaller they are: rays would start within the
+// surface.
+void ObjSequence::check_size(const BoundsD& bounds) const {
+    constexpr auto kSmallest = static_cast<double>(std::numeric_limits<float>::min());
+    const double diagonal = bounds.diagonal();
+    if (!(diagonal > 0.0) || diagonal >= kSmallest) return;
+    throw_bad_input("{}: the mesh is {:.3g} across, expected at least {:.3g}: scale it up",
+                    files_[0].string(), diagonal, kSmallest);
 }
 
 // Rounding is monotonic: where the bounds are finite in local(), all between them is.

@@ -35,7 +35,8 @@ class ObjSequence : public PoseSource {
     // files  at least one; find_obj_files() gives them. The same file may be several poses.
     // Errors (bad input): any file unreadable, above 4 GiB, damaged, unlike the first, or with a
     // coordinate that is no float when counted from the origin; of several, the first in the order
-    // of the sequence is reported, on any number of threads (coordinates after all else).
+    // of the sequence is reported, on any number of threads (coordinates after all else). A mesh
+    // smaller than normal floats (1.2e-38).
     explicit ObjSequence(std::vector<std::filesystem::path> files, const ObjOptions& options = {});
 
     const Topology& topology() const override { return topology_; }
@@ -53,6 +54,7 @@ class ObjSequence : public PoseSource {
 
   private:
     void check_files();
+    void check_size(const BoundsD& bounds) const;
     void check_local(size_t file, const BoundsD& bounds) const;
     void build_from_first();
     ParsedObj parse(uint32_t p, bool with_materials) const;

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -17,8 +18,8 @@ namespace paim::player::gl {
 
 namespace {
 
-// Where textures are bound to be written: beyond the units of those that a program reads, some of
-// which may be bound already. OpenGL 3.3 and OpenGL ES 3.0 have 32 units at least.
+// The unit where a texture is bound to be written. Programs read from lower units, whose bindings stay
+// as they are. OpenGL 3.3 and OpenGL ES 3.0 have 32 units at least.
 constexpr GLenum kUploadUnit = GL_TEXTURE31;
 
 struct Format {
@@ -47,12 +48,20 @@ Format gl_format(TexelFormat format) {
     return {GL_RGBA32F, GL_RGBA, GL_FLOAT, 4, 16};
 }
 
+// Whether values of this type fill a texture of the format.
 template <typename Value>
-std::vector<Value> convert(std::span<const float> values) {
-    std::vector<Value> converted(values.size());
-    std::transform(values.begin(), values.end(), converted.begin(),
-                   [](float value) { return static_cast<Value>(value); });
-    return converted;
+bool fits(TexelFormat format) {
+    const GLenum type = gl_format(format).type;
+    if (std::is_same_v<Value, int16_t>) return type == GL_SHORT;
+    if (std::is_same_v<Value, int8_t>) return type == GL_BYTE;
+    return type == GL_FLOAT || type == GL_HALF_FLOAT;
+}
+
+std::vector<Eigen::half> to_half(std::span<const float> values) {
+    std::vector<Eigen::half> halves(values.size());
+    std::transform(values.begin(), values.end(), halves.begin(),
+                   [](float value) { return static_cast<Eigen::half>(value); });
+    return halves;
 }
 
 }  // namespace
@@ -95,57 +104,55 @@ DataTexture::DataTexture(std::string name, TexelFormat format, int width_log2, i
                              height_, 1e-6 * bytes_per_texel(format) * width_ * height_));
 }
 
-void DataTexture::upload(const Fill& fill) const {
+template <typename Value>
+void DataTexture::upload_as(const Fill<Value>& fill) const {
+    PAIM_CHECK(fits<Value>(format_));
     const auto row_values =
         static_cast<size_t>(width_) * static_cast<size_t>(values_per_texel(format_));
     const int num_rows = std::min(height_, std::max(1, (1 << 16) / width_));
-    std::vector<float> values;
+    std::vector<Value> values;
     for (int row = 0; row < height_; row += num_rows) {
         const int rows = std::min(num_rows, height_ - row);
         const int64_t first = int64_t{row} * width_;
         const int64_t count = std::min(int64_t{rows} * width_, num_texels_ - first);
-        values.assign(static_cast<size_t>(rows) * row_values, 0.0f);
+        values.assign(static_cast<size_t>(rows) * row_values, Value{0});
         fill(first,
              std::span(values).first(static_cast<size_t>(count * values_per_texel(format_))));
-        upload_rows(row, width_, rows, values);
+        if constexpr (std::is_same_v<Value, float>) {
+            if (format_ == TexelFormat::rgba16f) {
+                upload_rows(row, width_, rows, to_half(values).data());
+                continue;
+            }
+        }
+        upload_rows(row, width_, rows, values.data());
     }
     check_errors(fmt::format("uploading {}", name_));
 }
 
+template void DataTexture::upload_as(const Fill<float>& fill) const;
+template void DataTexture::upload_as(const Fill<int16_t>& fill) const;
+template void DataTexture::upload_as(const Fill<int8_t>& fill) const;
+
 void DataTexture::update(std::span<const float> values) const {
     const auto texel_values = static_cast<size_t>(values_per_texel(format_));
     const size_t row_values = static_cast<size_t>(width_) * texel_values;
+    PAIM_CHECK(format_ == TexelFormat::r32f || format_ == TexelFormat::rgba32f);
     PAIM_CHECK_LE(values.size(), static_cast<size_t>(num_texels_) * texel_values);
     const size_t num_rows = values.size() / row_values;
     const std::span<const float> rest = values.subspan(num_rows * row_values);
     if (num_rows > 0) {
-        upload_rows(0, width_, static_cast<int>(num_rows), values.first(num_rows * row_values));
+        upload_rows(0, width_, static_cast<int>(num_rows), values.data());
     }
     if (rest.empty()) return;
-    upload_rows(static_cast<int>(num_rows), static_cast<int>(rest.size() / texel_values), 1, rest);
+    upload_rows(static_cast<int>(num_rows), static_cast<int>(rest.size() / texel_values), 1,
+                rest.data());
 }
 
-void DataTexture::upload_rows(int first_row, int width, int num_rows,
-                              std::span<const float> values) const {
+void DataTexture::upload_rows(int first_row, int width, int num_rows, const void* values) const {
     const Format gl = gl_format(format_);
-    const auto send = [&](const void* data) {
-        glActiveTexture(kUploadUnit);
-        glBindTexture(GL_TEXTURE_2D, handle_.id());
-        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, first_row, width, num_rows, gl.external, gl.type,
-                        data);
-    };
-    switch (format_) {
-        case TexelFormat::r32f:
-        case TexelFormat::rgba32f:
-            return send(values.data());
-        case TexelFormat::rgba16f:
-            return send(convert<Eigen::half>(values).data());
-        case TexelFormat::r16i:
-        case TexelFormat::rgba16i:
-            return send(convert<int16_t>(values).data());
-        case TexelFormat::rgba8i:
-            return send(convert<int8_t>(values).data());
-    }
+    glActiveTexture(kUploadUnit);
+    glBindTexture(GL_TEXTURE_2D, handle_.id());
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, first_row, width, num_rows, gl.external, gl.type, values);
 }
 
 int fitting_width_log2(int64_t num_texels, int max_size) {

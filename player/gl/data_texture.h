@@ -29,20 +29,23 @@ const char* sampler_type(TexelFormat format);
 
 class DataTexture {
   public:
-    // Writes texels [first, first + values.size() / values_per_texel) into values: integers too,
-    // which floats hold exactly.
-    using Fill = std::function<void(int64_t first, std::span<float> values)>;
+    // Writes texels [first, first + values.size() / values_per_texel) into values.
+    template <typename Value>
+    using Fill = std::function<void(int64_t first, std::span<Value> values)>;
 
     // Room for num_texels >= 1, rows of 2^width_log2 texels. Throws Error(unsupported) if the
     // texture would be higher than this driver's largest one, or does not fit into memory; `name`
     // says what it holds.
     DataTexture(std::string name, TexelFormat format, int width_log2, int64_t num_texels);
 
-    // Fills all texels, a few rows at a time; the rest of the last row becomes zero.
-    void upload(const Fill& fill) const;
+    // Fills all texels, a few rows at a time; the rest of the last row becomes zero. Values are of the
+    // format's own type (checked): integers as wide as its own, or floats, for half floats as well.
+    void upload(const Fill<float>& fill) const { upload_as(fill); }
+    void upload(const Fill<int16_t>& fill) const { upload_as(fill); }
+    void upload(const Fill<int8_t>& fill) const { upload_as(fill); }
 
-    // Overwrites the first texels. values.size() is a multiple of values_per_texel.
-    // Allocates nothing where the values are floats of 32 bits.
+    // Overwrites the first texels of a format of 32-bit floats (checked); allocates nothing.
+    // values.size() is a multiple of values_per_texel.
     void update(std::span<const float> values) const;
 
     const TextureHandle& handle() const { return handle_; }
@@ -54,8 +57,10 @@ class DataTexture {
     }
 
   private:
-    // Texels [0, width) of so many rows.
-    void upload_rows(int first_row, int width, int num_rows, std::span<const float> values) const;
+    template <typename Value>
+    void upload_as(const Fill<Value>& fill) const;
+    // Texels [0, width) of so many rows, of the format's type.
+    void upload_rows(int first_row, int width, int num_rows, const void* values) const;
 
     TextureHandle handle_;
     std::string name_;

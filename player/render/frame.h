@@ -15,7 +15,7 @@ struct Background {
 };
 
 // Lengths are in the model's unit. Cameras and depths take squares of them in single precision, so
-// that the model has to be of about unit size (player/read_model.h).
+// that the model has to be of about unit size (player/read_asset.h).
 struct Frame {
     double time = 0.0;  // in poses
     DecodeLimits limits;

@@ -15,11 +15,14 @@ struct Lane {
     size_t first = 0;  // that of vertex 0
 };
 
-// Gathers texels first … first + out.size() / 4 − 1 of those where texel = group · V + v, in steps.
+// Writes the texels first … first + out.size() / 4 − 1, in steps; texel group · V + v is vertex v of a
+// group.
 // num_vertices  V, at least 1
 // lane_of       of lane 0 … 3 of a group
+// Value         float, int16_t or int8_t; holds every value exactly
+template <typename Value>
 void gather_groups(uint32_t num_vertices, const std::function<Lane(uint32_t, uint32_t)>& lane_of,
-                   int64_t first, std::span<float> out);
+                   int64_t first, std::span<Value> out);
 
 // Groups of the planes of a mean or component, channel after channel; what is left of a channel's
 // last group is zero.

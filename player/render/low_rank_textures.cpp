@@ -50,22 +50,22 @@ LowRankTextures::LowRankTextures(std::string name, const LowRank& matrix,
     : name_(std::move(name)),
       matrix_(matrix),
       num_components_(num_components),
-      num_wide_(split_of(matrix, num_components).num_wide),
+      num_int16_(split_of(matrix, num_components).num_int16),
       mean_(upload_mean(name_, matrix, planes, width_log2)),
-      wide_(upload_components(name_, matrix, planes, 0, num_wide_,
-                              split_of(matrix, num_components).wide, width_log2)),
-      narrow_(upload_components(name_, matrix, planes, num_wide_, num_components,
-                                TexelFormat::rgba8i, width_log2)),
+      int16_(upload_components(name_, matrix, planes, 0, num_int16_,
+                               split_of(matrix, num_components).int16, width_log2)),
+      int8_(upload_components(name_, matrix, planes, num_int16_, num_components,
+                              TexelFormat::rgba8i, width_log2)),
       weights_(fmt::format("the {} weights", name_), TexelFormat::r32f, width_log2,
                at_least_one(num_components)) {}
 
 std::string LowRankTextures::defines() const {
-    return fmt::format("#define {0}_mean_sampler {1}\n#define {0}_wide_sampler {2}\n", name_,
-                       gl::sampler_type(mean_.format()), gl::sampler_type(wide_.format()));
+    return fmt::format("#define {0}_mean_sampler {1}\n#define {0}_int16_sampler {2}\n", name_,
+                       gl::sampler_type(mean_.format()), gl::sampler_type(int16_.format()));
 }
 
 uint64_t LowRankTextures::size_bytes() const {
-    return mean_.size_bytes() + wide_.size_bytes() + narrow_.size_bytes() + weights_.size_bytes();
+    return mean_.size_bytes() + int16_.size_bytes() + int8_.size_bytes() + weights_.size_bytes();
 }
 
 int LowRankTextures::bind(const gl::Program& program, int unit, double time,
@@ -78,13 +78,13 @@ int LowRankTextures::bind(const gl::Program& program, int unit, double time,
         program.set_texture((name_ + what).c_str(), unit++, texture.handle());
     };
     set_texture("_mean", mean_);
-    set_texture("_wide", wide_);
-    set_texture("_narrow", narrow_);
+    set_texture("_int16", int16_);
+    set_texture("_int8", int8_);
     set_texture("_weights", weights_);
     const uint32_t used = std::min(num_components, num_components_);
-    const uint32_t used_wide = std::min(used, num_wide_);
-    program.set(("num_" + name_ + "_wide").c_str(), static_cast<int>(used_wide));
-    program.set(("num_" + name_ + "_narrow").c_str(), static_cast<int>(used - used_wide));
+    const uint32_t used_int16 = std::min(used, num_int16_);
+    program.set(("num_" + name_ + "_int16").c_str(), static_cast<int>(used_int16));
+    program.set(("num_" + name_ + "_int8").c_str(), static_cast<int>(used - used_int16));
     return unit;
 }
 

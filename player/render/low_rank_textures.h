@@ -32,10 +32,10 @@ class LowRankTextures {
     std::string name_;
     const LowRank& matrix_;
     uint32_t num_components_;
-    uint32_t num_wide_;
+    uint32_t num_int16_;
     gl::DataTexture mean_;
-    gl::DataTexture wide_;    // components 0 … num_wide − 1
-    gl::DataTexture narrow_;  // the others, of 8-bit integers
+    gl::DataTexture int16_;  // components 0 … num_int16 − 1 (value_textures.h)
+    gl::DataTexture int8_;   // the others
     gl::DataTexture weights_;
     std::vector<float> scratch_;
 };

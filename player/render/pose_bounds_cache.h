@@ -23,7 +23,8 @@ class PoseBoundsCache {
 
     const Asset& asset_;
     uint32_t num_components_ = 0;
-    std::vector<std::optional<Bounds>> bounds_;  // [P] with num_components_, as far as known
+    std::vector<std::optional<Bounds>>
+        bounds_;  // [P] with num_components_; empty: not computed yet
 };
 
 }  // namespace paim::player

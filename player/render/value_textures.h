@@ -9,11 +9,12 @@
 
 namespace paim::player {
 
-// How a list of arrays is shared out between two textures. Small integers are mostly at the end,
-// for components are stored in order of weight.
+// How a list of arrays is shared out between two textures: one of 8-bit integers for the last arrays,
+// as far as these hold such, and one of 16-bit integers, or of floats, for those before. Components
+// are stored in order of weight, so that small integers are mostly at the end.
 struct FormatSplit {
-    uint32_t num_wide;     // the first that are not all 8-bit integers
-    gl::TexelFormat wide;  // that holds all of these: 32-bit floats where floats and integers meet
+    uint32_t num_int16;     // arrays in the first texture
+    gl::TexelFormat int16;  // its format: 32-bit floats where floats and integers meet
 };
 
 // floats  the format of floats among themselves

@@ -1,5 +1,5 @@
 // The environment seen through each pixel: bilinear and wrapping in longitude, by hand, because
-// hardware filters with eight bits of fraction, too few beside a sun, and takes derivatives across
+// hardware filters with eight bits of fraction, too few next to a sun, and takes derivatives across
 // the seam at longitude pi.
 uniform sampler2D environment;  // lat-long, row 0 on top, as in OpenEXR
 uniform mat3 light_axes;        // right, up, backward of the camera, in the light's own frame

@@ -13,59 +13,53 @@ namespace paim::player {
 
 namespace {
 
-struct Binding {
-    int key;
-    bool shift;
-    Command command;
-};
-
-constexpr std::array kBindings = {
-    Binding{GLFW_KEY_SPACE, false, Command::play_pause},
-    Binding{GLFW_KEY_LEFT, false, Command::previous_pose},
-    Binding{GLFW_KEY_RIGHT, false, Command::next_pose},
-    Binding{GLFW_KEY_HOME, false, Command::first_pose},
-    Binding{GLFW_KEY_END, false, Command::last_pose},
-    Binding{GLFW_KEY_LEFT_BRACKET, false, Command::fewer_transfer_components},
-    Binding{GLFW_KEY_RIGHT_BRACKET, false, Command::more_transfer_components},
-    Binding{GLFW_KEY_LEFT_BRACKET, true, Command::fewer_cluster_components},
-    Binding{GLFW_KEY_RIGHT_BRACKET, true, Command::more_cluster_components},
-    Binding{GLFW_KEY_SEMICOLON, false, Command::fewer_geometry_components},
-    Binding{GLFW_KEY_APOSTROPHE, false, Command::more_geometry_components},
-    Binding{GLFW_KEY_B, true, Command::fewer_bands},
-    Binding{GLFW_KEY_B, false, Command::more_bands},
-    Binding{GLFW_KEY_E, true, Command::lower_exposure},
-    Binding{GLFW_KEY_E, false, Command::raise_exposure},
-    Binding{GLFW_KEY_G, true, Command::lower_gamma},
-    Binding{GLFW_KEY_G, false, Command::raise_gamma},
-    Binding{GLFW_KEY_COMMA, false, Command::turn_light_clockwise},
-    Binding{GLFW_KEY_PERIOD, false, Command::turn_light_counter_clockwise},
-    Binding{GLFW_KEY_L, false, Command::auto_turn},
-    Binding{GLFW_KEY_K, false, Command::next_background},
-    Binding{GLFW_KEY_F, false, Command::frame_all},
-    Binding{GLFW_KEY_S, false, Command::snapshot},
-    Binding{GLFW_KEY_TAB, false, Command::toggle_panel},
-    Binding{GLFW_KEY_H, false, Command::toggle_help},
-    Binding{GLFW_KEY_ESCAPE, false, Command::quit},
-};
-
-constexpr std::array kHelp = {
-    KeyHelp{"Space", "play or pause"},
-    KeyHelp{"Left, Right", "one pose back, forth"},
-    KeyHelp{"Home, End", "first, last pose"},
-    KeyHelp{"[  ]", "fewer, more transfer components"},
-    KeyHelp{"Shift+[  ]", "fewer, more cluster components"},
-    KeyHelp{";  '", "fewer, more geometry components"},
-    KeyHelp{"Shift+B, B", "fewer, more bands"},
-    KeyHelp{"Shift+E, E", "exposure down, up by 1/4 stop"},
-    KeyHelp{"Shift+G, G", "gamma down, up; below 1 is sRGB"},
-    KeyHelp{",  .", "turn the light by 5 degrees"},
-    KeyHelp{"L", "turn the light by itself"},
-    KeyHelp{"K", "next background: environment, black, grey, white"},
-    KeyHelp{"F", "frame the whole animation"},
-    KeyHelp{"S", "save the view as a PNG"},
-    KeyHelp{"Tab", "hide or show the panels"},
-    KeyHelp{"H", "hide or show this help"},
-    KeyHelp{"Esc", "quit"},
+constexpr std::array kKeys = {
+    KeyRow{"Space", "play or pause", {GLFW_KEY_SPACE, false, Command::play_pause}},
+    KeyRow{"Left, Right",
+           "one pose back, forth",
+           {GLFW_KEY_LEFT, false, Command::previous_pose},
+           {GLFW_KEY_RIGHT, false, Command::next_pose}},
+    KeyRow{"Home, End",
+           "first, last pose",
+           {GLFW_KEY_HOME, false, Command::first_pose},
+           {GLFW_KEY_END, false, Command::last_pose}},
+    KeyRow{"[  ]",
+           "fewer, more transfer components",
+           {GLFW_KEY_LEFT_BRACKET, false, Command::fewer_transfer_components},
+           {GLFW_KEY_RIGHT_BRACKET, false, Command::more_transfer_components}},
+    KeyRow{"Shift+[  ]",
+           "fewer, more cluster components",
+           {GLFW_KEY_LEFT_BRACKET, true, Command::fewer_cluster_components},
+           {GLFW_KEY_RIGHT_BRACKET, true, Command::more_cluster_components}},
+    KeyRow{";  '",
+           "fewer, more geometry components",
+           {GLFW_KEY_SEMICOLON, false, Command::fewer_geometry_components},
+           {GLFW_KEY_APOSTROPHE, false, Command::more_geometry_components}},
+    KeyRow{"Shift+B, B",
+           "fewer, more bands",
+           {GLFW_KEY_B, true, Command::fewer_bands},
+           {GLFW_KEY_B, false, Command::more_bands}},
+    KeyRow{"Shift+E, E",
+           "exposure down, up by 1/4 stop",
+           {GLFW_KEY_E, true, Command::lower_exposure},
+           {GLFW_KEY_E, false, Command::raise_exposure}},
+    KeyRow{"Shift+G, G",
+           "gamma down, up; below 1 is sRGB",
+           {GLFW_KEY_G, true, Command::lower_gamma},
+           {GLFW_KEY_G, false, Command::raise_gamma}},
+    KeyRow{",  .",
+           "turn the light by 5 degrees",
+           {GLFW_KEY_COMMA, false, Command::turn_light_clockwise},
+           {GLFW_KEY_PERIOD, false, Command::turn_light_counter_clockwise}},
+    KeyRow{"L", "keep the light turning", {GLFW_KEY_L, false, Command::auto_turn}},
+    KeyRow{"K",
+           "next background: environment, black, grey, white",
+           {GLFW_KEY_K, false, Command::next_background}},
+    KeyRow{"F", "show the whole animation", {GLFW_KEY_F, false, Command::frame_all}},
+    KeyRow{"S", "save the view as a PNG file", {GLFW_KEY_S, false, Command::snapshot}},
+    KeyRow{"Tab", "hide or show the panels", {GLFW_KEY_TAB, false, Command::toggle_panel}},
+    KeyRow{"H", "hide or show this help", {GLFW_KEY_H, false, Command::toggle_help}},
+    KeyRow{"Esc", "quit", {GLFW_KEY_ESCAPE, false, Command::quit}},
 };
 
 constexpr float kExposureStep = 0.25f;
@@ -118,107 +112,130 @@ void next_background(Background& background) {
     }
 }
 
+// The following carry out some of the commands each, and return whether this was one of them.
+
+bool change_pose(Command command, ViewState& view, const ViewRange& range) {
+    switch (command) {
+        case Command::play_pause:
+            view.playing = !view.playing;
+            return true;
+        case Command::previous_pose:
+            step_pose(view, range, -1);
+            return true;
+        case Command::next_pose:
+            step_pose(view, range, 1);
+            return true;
+        case Command::first_pose:
+            show_pose(view, 0.0);
+            return true;
+        case Command::last_pose:
+            show_pose(view, static_cast<double>(range.num_poses) - 1.0);
+            return true;
+        default:
+            return false;
+    }
+}
+
+bool change_limits(Command command, DecodeLimits& limits, const ViewRange& range) {
+    switch (command) {
+        case Command::fewer_transfer_components:
+            limits.transfer_components = fewer(limits.transfer_components, 0);
+            return true;
+        case Command::more_transfer_components:
+            limits.transfer_components =
+                more(limits.transfer_components, range.transfer_components);
+            return true;
+        case Command::fewer_cluster_components:
+            limits.cluster_components = fewer(limits.cluster_components, 0);
+            return true;
+        case Command::more_cluster_components:
+            limits.cluster_components = more(limits.cluster_components, range.cluster_components);
+            return true;
+        case Command::fewer_geometry_components:
+            limits.geometry_components = fewer(limits.geometry_components, 0);
+            return true;
+        case Command::more_geometry_components:
+            limits.geometry_components =
+                more(limits.geometry_components, range.geometry_components);
+            return true;
+        case Command::fewer_bands:
+            limits.bands = fewer(limits.bands, 1);
+            return true;
+        case Command::more_bands:
+            limits.bands = more(limits.bands, range.bands);
+            return true;
+        default:
+            return false;
+    }
+}
+
+void turn_light(ViewState& view, double degrees) {
+    view.env_rotation_deg = std::remainder(view.env_rotation_deg + degrees, 360.0);
+}
+
+bool change_display(Command command, ViewState& view) {
+    switch (command) {
+        case Command::lower_exposure:
+            view.tone_curve.exposure_ev -= kExposureStep;
+            return true;
+        case Command::raise_exposure:
+            view.tone_curve.exposure_ev += kExposureStep;
+            return true;
+        case Command::lower_gamma:
+            change_gamma(view, -kGammaStep);
+            return true;
+        case Command::raise_gamma:
+            change_gamma(view, kGammaStep);
+            return true;
+        case Command::turn_light_clockwise:
+            turn_light(view, -kTurnStepDegrees);
+            return true;
+        case Command::turn_light_counter_clockwise:
+            turn_light(view, kTurnStepDegrees);
+            return true;
+        case Command::auto_turn:
+            view.turning = !view.turning;
+            return true;
+        case Command::next_background:
+            next_background(view.background);
+            return true;
+        case Command::toggle_panel:
+            view.show_panel = !view.show_panel;
+            return true;
+        case Command::toggle_help:
+            view.show_help = !view.show_help;
+            return true;
+        default:
+            return false;
+    }
+}
+
 }  // namespace
 
-std::span<const KeyHelp> key_help() {
-    return kHelp;
+std::span<const KeyRow> key_table() {
+    return kKeys;
 }
 
 std::string keys_help() {
     std::string text = "Keys in the window:\n";
-    for (const KeyHelp& line : kHelp) {
-        text += fmt::format("  {:<12}  {}\n", line.keys, line.meaning);
-    }
+    for (const KeyRow& row : kKeys) text += fmt::format("  {:<12}  {}\n", row.keys, row.meaning);
     return text;
 }
 
 Command command_of_key(int glfw_key, bool shift) {
-    for (const Binding& binding : kBindings) {
-        if (binding.key == glfw_key && binding.shift == shift) return binding.command;
+    for (const KeyRow& row : kKeys) {
+        for (const KeyBinding& binding : {row.first, row.second}) {
+            if (binding.command == Command::none) continue;
+            if (binding.glfw_key == glfw_key && binding.shift == shift) return binding.command;
+        }
     }
     return Command::none;
 }
 
 void apply(Command command, ViewState& view, const ViewRange& range) {
-    DecodeLimits& limits = view.limits;
-    switch (command) {
-        case Command::play_pause:
-            view.playing = !view.playing;
-            break;
-        case Command::previous_pose:
-            step_pose(view, range, -1);
-            break;
-        case Command::next_pose:
-            step_pose(view, range, 1);
-            break;
-        case Command::first_pose:
-            show_pose(view, 0.0);
-            break;
-        case Command::last_pose:
-            show_pose(view, static_cast<double>(range.num_poses) - 1.0);
-            break;
-        case Command::fewer_transfer_components:
-            limits.transfer_components = fewer(limits.transfer_components, 0);
-            break;
-        case Command::more_transfer_components:
-            limits.transfer_components =
-                more(limits.transfer_components, range.transfer_components);
-            break;
-        case Command::fewer_cluster_components:
-            limits.cluster_components = fewer(limits.cluster_components, 0);
-            break;
-        case Command::more_cluster_components:
-            limits.cluster_components = more(limits.cluster_components, range.cluster_components);
-            break;
-        case Command::fewer_geometry_components:
-            limits.geometry_components = fewer(limits.geometry_components, 0);
-            break;
-        case Command::more_geometry_components:
-            limits.geometry_components =
-                more(limits.geometry_components, range.geometry_components);
-            break;
-        case Command::fewer_bands:
-            limits.bands = fewer(limits.bands, 1);
-            break;
-        case Command::more_bands:
-            limits.bands = more(limits.bands, range.bands);
-            break;
-        case Command::lower_exposure:
-            view.tone_curve.exposure_ev -= kExposureStep;
-            break;
-        case Command::raise_exposure:
-            view.tone_curve.exposure_ev += kExposureStep;
-            break;
-        case Command::lower_gamma:
-            change_gamma(view, -kGammaStep);
-            break;
-        case Command::raise_gamma:
-            change_gamma(view, kGammaStep);
-            break;
-        case Command::turn_light_clockwise:
-            view.env_rotation_deg = std::remainder(view.env_rotation_deg - kTurnStepDegrees, 360.0);
-            break;
-        case Command::turn_light_counter_clockwise:
-            view.env_rotation_deg = std::remainder(view.env_rotation_deg + kTurnStepDegrees, 360.0);
-            break;
-        case Command::auto_turn:
-            view.turning = !view.turning;
-            break;
-        case Command::next_background:
-            next_background(view.background);
-            break;
-        case Command::toggle_panel:
-            view.show_panel = !view.show_panel;
-            break;
-        case Command::toggle_help:
-            view.show_help = !view.show_help;
-            break;
-        case Command::none:
-        case Command::frame_all:
-        case Command::snapshot:
-        case Command::quit:
-            break;
-    }
+    if (change_pose(command, view, range)) return;
+    if (change_limits(command, view.limits, range)) return;
+    change_display(command, view);
 }
 
 }  // namespace paim::player

@@ -39,13 +39,21 @@ enum class Command {
     quit,
 };
 
-// A line of the help.
-struct KeyHelp {
-    const char* keys;
-    const char* meaning;
+struct KeyBinding {
+    int glfw_key = 0;
+    bool shift = false;
+    Command command = Command::none;
 };
 
-std::span<const KeyHelp> key_help();
+// One line of the help with the bindings of its keys.
+struct KeyRow {
+    const char* keys;
+    const char* meaning;
+    KeyBinding first;
+    KeyBinding second = {};  // of a pair of keys
+};
+
+std::span<const KeyRow> key_table();
 
 // The table as text, for --help.
 std::string keys_help();

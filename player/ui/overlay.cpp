@@ -114,11 +114,11 @@ void draw_scrub_bar(const ViewRange& range, ViewState& view) {
 void draw_help() {
     if (begin_panel("help", 1.0f, 0.0f)) {
         if (ImGui::BeginTable("keys", 2)) {
-            for (const KeyHelp& line : key_help()) {
+            for (const KeyRow& row : key_table()) {
                 ImGui::TableNextColumn();
-                text(line.keys);
+                text(row.keys);
                 ImGui::TableNextColumn();
-                text(line.meaning);
+                text(row.meaning);
             }
             ImGui::TableNextColumn();
             text("drag");

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <span>
 #include <vector>
 
 namespace paim::player {
@@ -43,7 +44,7 @@ TEST(GatherGroups, PutsFourPlanesIntoATexelFromAnyStart) {
                 gather_groups(
                     kVertices,
                     [&](uint32_t group, uint32_t lane) { return view.lane(planes, group, lane); },
-                    first, out);
+                    first, std::span(out));
                 for (uint32_t texel = first; texel < end; ++texel) {
                     for (uint32_t lane = 0; lane < 4; ++lane) {
                         ASSERT_EQ(out[4 * (texel - first) + lane],
@@ -54,6 +55,25 @@ TEST(GatherGroups, PutsFourPlanesIntoATexelFromAnyStart) {
             }
         }
     }
+}
+
+// Integers stay what they are at both ends of their range, also where two kinds share a texture.
+TEST(GatherGroups, KeepsIntegers) {
+    const StoredValues bytes = std::vector<int8_t>{-128, 127, 0, -1};
+    const StoredValues words = std::vector<int16_t>{-32768, 32767, 129, -129};
+    const auto lane_of = [&](uint32_t, uint32_t lane) {
+        return lane == 0 ? Lane{&bytes, 0} : lane == 2 ? Lane{&words, 0} : Lane{};
+    };
+    std::vector<int16_t> both(16, 7);
+    gather_groups(4, lane_of, 0, std::span(both));
+    EXPECT_EQ(both, (std::vector<int16_t>{-128, 0, -32768, 0, 127, 0, 32767, 0, 0, 0, 129, 0, -1, 0,
+                                          -129, 0}));
+    const auto byte_lane = [&](uint32_t, uint32_t lane) {
+        return lane == 1 ? Lane{&bytes, 0} : Lane{};
+    };
+    std::vector<int8_t> from_bytes(8, 7);
+    gather_groups(4, byte_lane, 2, std::span(from_bytes));
+    EXPECT_EQ(from_bytes, (std::vector<int8_t>{0, 0, 0, 0, 0, -1, 0, 0}));
 }
 
 }  // namespace

@@ -190,13 +190,13 @@ TEST_P(MeshRendererTest, UploadsIntegersAsTheyAre) {
     TestAssetOptions options;  // 5 bands: 7 texels a vertex; 3 + 5 components
     const uint64_t num_vertices = make_test_asset(options).moving().topology.num_vertices;
     const uint64_t light = 16 * 3 * 7, albedo = 16;
-    const auto bytes = [&](uint64_t geometry_mean, uint64_t geometry_wide, uint64_t geometry_narrow,
+    const auto bytes = [&](uint64_t geometry_mean, uint64_t geometry_int16, uint64_t geometry_int8,
                            uint64_t transfer) {
         const auto at_least = [&](uint64_t texel, uint64_t count) {
             return std::max(texel, texel * count * num_vertices);
         };
-        return at_least(geometry_mean, 1) + at_least(8, geometry_wide) +
-               at_least(4, geometry_narrow) + 4 * 3 + albedo + transfer;
+        return at_least(geometry_mean, 1) + at_least(8, geometry_int16) +
+               at_least(4, geometry_int8) + 4 * 3 + albedo + transfer;
     };
     options.precision = i16;
     EXPECT_EQ(MeshRenderer(make_test_asset(options).moving(), {}).texture_bytes(),

@@ -29,7 +29,7 @@ namespace {
 class PlayTest : public testing::Test {
   protected:
     PlayTest() {
-        // No test depends on the display of the person who runs it.
+        // Tests do not use the display of the user who runs them.
         ::unsetenv("DISPLAY");
         ::unsetenv("WAYLAND_DISPLAY");
         TestAssetOptions options;  // 5 bands, 3 + 5 components, 6 poses
@@ -81,7 +81,7 @@ TEST_F(PlayTest, SnapshotIsThePictureOfTheLibrary) {
     EXPECT_EQ(result.out, "");
     const Image expected = downsample(
         expected_picture(asset_, 1.5, -40.0 * kPi / 180.0, 360, 240, Vec3f(0.1f, 0.2f, 0.3f)), 3);
-    // EXR stays linear, whatever the exposure. The limits are those the player promises.
+    // EXR stays linear at any exposure. The limits are those the player promises.
     const Difference difference = compare(expected, read_exr(out("a.exr")));
     EXPECT_LE(difference.mean_relative, 1e-3);
     EXPECT_LE(difference.fraction_off, 0.005);
@@ -232,7 +232,7 @@ TEST_F(PlayTest, RefusesCommandLinesThatMakeNoSense) {
     expect_failure({"--camera", "10,20,0"}, 1, "--camera distance factor");
     expect_failure({"--snapshot", out("a.jpg")}, 1, "ends in .png or .exr");
     expect_failure({"--snapshot", png, "--bench", "3"}, 1, "exclude each other");
-    expect_failure({"--json"}, 1, "--json goes with --snapshot or --bench");
+    expect_failure({"--json"}, 1, "--json needs --snapshot or --bench");
     expect_failure({"--nonsense"}, 1, "--nonsense");
     EXPECT_FALSE(std::filesystem::exists(png));
 }

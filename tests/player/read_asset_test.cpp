@@ -138,14 +138,14 @@ TEST(ScaleToUnit, LeavesStillPartsFiniteAndPointsAlone) {
 // What a snapshot and the window draw from: the same camera and bounds, in one unit.
 TEST(ScaleToUnit, IsAppliedToEveryFileThatIsLoaded) {
     const TemporaryDirectory directory;
-    for (const bool progressive : {false, true}) {
+    for (const bool prefix : {false, true}) {
         Frame frames[2];
         for (const int exponent : {0, -90}) {
             Asset asset = make_asset(Precision::f32);
             scale_asset(asset, exponent);
             Options options;
             options.model_path = directory / "a.paim";
-            options.progressive = progressive;
+            options.play_prefix = prefix;
             options.camera = {1.0f, 0.5f, 3.0f};
             write_paim(options.model_path, asset);
             const Scene scene = load_scene(options);

@@ -6,6 +6,9 @@
 
 #include <array>
 #include <cmath>
+#include <set>
+#include <string>
+#include <tuple>
 
 #include "player/render/clip_from_world.h"
 #include "player/render/cost.h"
@@ -37,7 +40,7 @@ Limits limits_of(const ViewState& view) {
             limits.cluster_components};
 }
 
-TEST(ViewState, FollowsAnAssetThatGrows) {
+TEST(ViewState, FollowsAnAssetThatGetsMoreComponents) {
     const DecodeLimits all;
     constexpr ViewRange kMore{4, 4, 9, 6, 2};
     ViewState view = start();
@@ -159,6 +162,38 @@ TEST(Keys, ChangeToneLightAndBackground) {
     EXPECT_EQ(view.background.kind, Background::Kind::environment);
     press(GLFW_KEY_H, false, view);
     EXPECT_TRUE(view.show_help);
+}
+
+// All that keys may change.
+auto state_of(const ViewState& view) {
+    return std::tuple(view.time, view.playing, limits_of(view), view.tone_curve.exposure_ev,
+                      view.tone_curve.gamma, view.env_rotation_deg, view.turning,
+                      view.background.kind, view.show_help, view.show_panel);
+}
+
+TEST(Keys, EveryCommandHasAKeyOfItsOwnAndAnEffect) {
+    std::set<Command> reached;
+    for (const KeyRow& row : key_table()) {
+        for (const KeyBinding& binding : {row.first, row.second}) {
+            if (binding.command == Command::none) continue;
+            EXPECT_EQ(command_of_key(binding.glfw_key, binding.shift), binding.command);
+            EXPECT_TRUE(reached.insert(binding.command).second) << row.keys;
+        }
+        EXPECT_NE(keys_help().find(row.meaning), std::string::npos);
+    }
+    ViewState middle = start();  // where every command has something to change
+    middle.time = 1.5;
+    middle.limits = {2, 3, 4, 1};
+    middle.tone_curve.gamma = 2.0f;
+    for (int j = 1; j <= static_cast<int>(Command::quit); ++j) {
+        const auto command = static_cast<Command>(j);
+        EXPECT_EQ(reached.count(command), 1u) << j;
+        ViewState view = middle;
+        apply(command, view, kRange);
+        const bool is_of_the_window = command == Command::frame_all ||
+                                      command == Command::snapshot || command == Command::quit;
+        EXPECT_EQ(state_of(view) == state_of(middle), is_of_the_window) << j;
+    }
 }
 
 TEST(Keys, NameTheCommandsOfTheWindow) {

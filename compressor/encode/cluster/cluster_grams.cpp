@@ -89,13 +89,15 @@ MatrixXd projected_start(const MatrixXf& projected, std::span<const uint32_t> me
     for (Index m = 0; m < rows.rows(); ++m) {
         rows.row(m) = projected.col(members[static_cast<size_t>(m)]).cast<double>().transpose();
     }
-    const Eigen::RowVectorXd mean = rows.colwise().mean();
-    rows.rowwise() -= mean;
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(rows.transpose() * rows);
     const Index known = std::min(count, rows.cols());
     RandomStream random(key);
     MatrixXd start =
         MatrixXd::NullaryExpr(rows.rows(), count, [&] { return random.uniform() - 0.5; });
+    // Points that are all zero are projected to no dimension, where there is nothing to solve for.
+    if (known == 0) return orthonormal_basis(start);
+    const Eigen::RowVectorXd mean = rows.colwise().mean();
+    rows.rowwise() -= mean;
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(rows.transpose() * rows);
     start.leftCols(known) = rows * solver.eigenvectors().rightCols(known).rowwise().reverse();
     return orthonormal_basis(start);
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <utility>
 
 #include "paim/base/check.h"
@@ -91,6 +92,11 @@ class Packer {
         return {spec(ScalarType::f32), SectionCodec::zstd, [matrix = row.matrix] {
                     const std::vector<float> rounded(matrix->singular_values.begin(),
                                                      matrix->singular_values.end());
+                    if (!rounded.empty() && std::isinf(rounded[0])) {
+                        throw_bad_input(
+                            "a singular value is {}, expected at most {}: scale the poses down",
+                            matrix->singular_values[0], std::numeric_limits<float>::max());
+                    }
                     return zstd_compress(as_bytes(std::span(rounded)));
                 }};
     }

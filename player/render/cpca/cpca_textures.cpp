@@ -67,10 +67,10 @@ DataTexture upload_indices(const VertexClusters& clusters, const UploadPlan& pla
     DataTexture texture("the clusters", TexelFormat::r16i, plan.width_log2,
                         at_least_one(num_vertices));
     if (num_vertices == 0) return texture;
-    texture.upload([&](int64_t first, std::span<float> out) {
+    texture.upload([&](int64_t first, std::span<int16_t> out) {
         const uint32_t* from = clusters.cluster.data() + first;
         std::transform(from, from + out.size(), out.begin(),
-                       [](uint32_t cluster) { return static_cast<float>(cluster); });
+                       [](uint32_t cluster) { return static_cast<int16_t>(cluster); });
     });
     return texture;
 }
@@ -100,11 +100,11 @@ CpcaTextures::CpcaTextures(const CodedMesh& mesh, const UploadPlan& plan)
     : clusters_(clusters_of(mesh)),
       plan_(plan),
       player_(*mesh.transfer.as<CpcaTransfer>(), mesh.layout),
-      num_wide_groups_((split_of(clusters_, plan).num_wide + kGroupSize - 1) / kGroupSize),
+      num_int16_groups_((split_of(clusters_, plan).num_int16 + kGroupSize - 1) / kGroupSize),
       cluster_(upload_indices(clusters_, plan)),
-      wide_(upload_coefficients(clusters_, plan, 0, num_wide_groups_,
-                                split_of(clusters_, plan).wide)),
-      narrow_(upload_coefficients(clusters_, plan, num_wide_groups_, cluster_groups(plan),
+      int16_(upload_coefficients(clusters_, plan, 0, num_int16_groups_,
+                                split_of(clusters_, plan).int16)),
+      int8_(upload_coefficients(clusters_, plan, num_int16_groups_, cluster_groups(plan),
                                   TexelFormat::rgba8i)),
       basis_radiance_("the radiance of bases", TexelFormat::rgba32f, plan.width_log2,
                 int64_t{clusters_.num_clusters} * basis_texels(plan)) {
@@ -112,12 +112,12 @@ CpcaTextures::CpcaTextures(const CodedMesh& mesh, const UploadPlan& plan)
 }
 
 std::string CpcaTextures::defines() const {
-    return fmt::format("#define CLUSTERED\n#define coefficients_wide_sampler {}\n",
-                       gl::sampler_type(wide_.format()));
+    return fmt::format("#define CLUSTERED\n#define coefficients_int16_sampler {}\n",
+                       gl::sampler_type(int16_.format()));
 }
 
 uint64_t CpcaTextures::size_bytes() const {
-    return cluster_.size_bytes() + wide_.size_bytes() + narrow_.size_bytes() +
+    return cluster_.size_bytes() + int16_.size_bytes() + int8_.size_bytes() +
            basis_radiance_.size_bytes();
 }
 
@@ -145,15 +145,15 @@ int CpcaTextures::bind(const gl::Program& program, int unit, const Frame& frame,
                           const LightCoefficients& light) {
     update_basis_radiance(frame, light);
     program.set_texture("cluster", unit++, cluster_.handle());
-    program.set_texture("coefficients_wide", unit++, wide_.handle());
-    program.set_texture("coefficients_narrow", unit++, narrow_.handle());
+    program.set_texture("coefficients_int16", unit++, int16_.handle());
+    program.set_texture("coefficients_int8", unit++, int8_.handle());
     program.set_texture("basis_radiance", unit++, basis_radiance_.handle());
     const uint32_t components = std::min(frame.limits.cluster_components, plan_.cluster_components);
     const uint32_t groups = (components + kGroupSize - 1) / kGroupSize;
-    const uint32_t wide_groups = std::min(groups, num_wide_groups_);
+    const uint32_t int16_groups = std::min(groups, num_int16_groups_);
     program.set("product_texels", static_cast<int>(basis_texels(plan_)));
-    program.set("num_wide_groups", static_cast<int>(wide_groups));
-    program.set("num_narrow_groups", static_cast<int>(groups - wide_groups));
+    program.set("num_int16_groups", static_cast<int>(int16_groups));
+    program.set("num_int8_groups", static_cast<int>(groups - int16_groups));
     return unit;
 }
 

@@ -27,10 +27,10 @@ class CpcaTextures : public TransferTextures {
     const VertexClusters& clusters_;
     UploadPlan plan_;
     CpcaPlayer player_;
-    uint32_t num_wide_groups_;  // of four components that are not all 8-bit integers
+    uint32_t num_int16_groups_;  // of four components, before those of 8-bit integers alone
     gl::DataTexture cluster_;
-    gl::DataTexture wide_;    // coefficients of the first groups
-    gl::DataTexture narrow_;  // of the others
+    gl::DataTexture int16_;  // coefficients of the first groups
+    gl::DataTexture int8_;   // of the others
     gl::DataTexture basis_radiance_;
     std::vector<Vec3f> row_radiance_;
     std::vector<float> scratch_;  // as the texture holds them

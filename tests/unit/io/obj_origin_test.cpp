@@ -65,6 +65,18 @@ TEST(ObjOrigin, RefusesWhatNoFloatHoldsFromThere) {
                    "0.obj");
 }
 
+TEST(ObjOrigin, RefusesMeshesBelowNormalFloats) {
+    // Normal floats begin at 1.18e-38. All poses count, and a point has no size to be refused.
+    const std::string face = "f 1 2 3\n";
+    const std::string small = "v 0 0 0\nv 1e-39 0 0\nv 0 1e-39 0\n" + face;
+    const std::string large = "v 0 0 0\nv 2e-38 0 0\nv 0 1e-39 0\n" + face;
+    const std::string error = sequence_error({small, small});
+    EXPECT_TRUE(error.starts_with("0.obj: the mesh is 1.41e-39 across, expected at least 1.18e-38"))
+        << error;
+    EXPECT_EQ(sequence_error({small, large}), "no error");
+    EXPECT_EQ(sequence_error({"v 5 0 0\nv 5 0 0\nv 5 0 0\n" + face}), "no error");
+}
+
 TEST(ObjOrigin, DoesNotDependOnThreads) {
     std::vector<std::string> contents;
     for (int i = 0; i < 30; ++i) {

@@ -248,6 +248,17 @@ TEST(ClusteredPca, OfEqualPointsIsTheirMean) {
     EXPECT_EQ(reconstruct(points, pca, 2), matrix.cast<double>());
 }
 
+// The transfer of a mesh that no light reaches; the larger cluster has no Gram matrix.
+TEST(ClusteredPca, OfZerosIsNothing) {
+    for (const Index num_points : {Index{50}, Index{kMaxGramMembers + 10}}) {
+        const MatrixXf matrix = MatrixXf::Zero(num_points, 12);
+        const ClusteredPca pca = clustered_pca(MatrixPoints(matrix, 3), with(4, 2));
+        EXPECT_EQ(pca.num_clusters, 1u);
+        EXPECT_EQ(pca.squared_error(0), 0.0);
+        EXPECT_EQ(pca.coefficients, MatrixXf::Zero(num_points, 2));
+    }
+}
+
 TEST(ClusteredPca, OfFewerPointsThanClustersOrComponents) {
     for (Index num_points = 1; num_points <= 6; ++num_points) {
         const MatrixXf matrix = random_matrix(num_points, 12, 62);

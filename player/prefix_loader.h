@@ -1,5 +1,5 @@
-// Reads a .paim that is still being written, on a thread of its own: a coarser animation as soon as
-// there is one, then one with more components whenever more of them are whole.
+// Reads a .paim that is still being written, on a thread of its own: a coarse animation from the first
+// prefix that can be played, then one with more components from every longer prefix.
 #pragma once
 
 #include <chrono>
@@ -13,24 +13,24 @@
 #include <vector>
 
 #include "paim/base/error.h"
-#include "player/file_beginning.h"
+#include "player/file_prefix.h"
 
 namespace paim::player {
 
-// How often a file is looked at, and how long it may stand still before it can be played.
+// The time between two looks at a file, and how long it may stay as it is before it can be played.
 struct LoaderPace {
     std::chrono::milliseconds interval{100};
     std::chrono::milliseconds patience{30000};
 };
 
-class ProgressiveLoader {
+class PrefixLoader {
   public:
     // Starts reading; the file need not be there yet.
-    explicit ProgressiveLoader(std::filesystem::path path, const LoaderPace& pace = LoaderPace());
-    // Waits until what is being read has been.
-    ~ProgressiveLoader() = default;
-    ProgressiveLoader(const ProgressiveLoader&) = delete;
-    ProgressiveLoader& operator=(const ProgressiveLoader&) = delete;
+    explicit PrefixLoader(std::filesystem::path path, const LoaderPace& pace = LoaderPace());
+    // Waits until the current look has ended.
+    ~PrefixLoader() = default;
+    PrefixLoader(const PrefixLoader&) = delete;
+    PrefixLoader& operator=(const PrefixLoader&) = delete;
 
     // The first model that can be played. Calls on_wait once if there are not enough bytes for it.
     // Errors as read_paim()'s; bad input if no byte comes for as long as `patience`.
@@ -39,8 +39,8 @@ class ProgressiveLoader {
     // The newest model since the last call, if there is one; never waits.
     std::optional<LoadedAsset> take();
 
-    // What went wrong since the last call, or empty. What was read before stays good, and what
-    // comes later is read all the same.
+    // The error since the last call, or empty. Earlier models stay valid, and longer prefixes are still
+    // read.
     std::string take_error();
 
     // Bytes as of the last look, components as of the last reading.
@@ -57,9 +57,9 @@ class ProgressiveLoader {
     void run(const std::stop_token& stop);
     bool look();                // false: there is nothing more to read
     bool read_what_is_there();  // of one look; false as look()'s
-    bool read_more(const Beginning& beginning);
-    bool is_same_file(const Beginning& beginning) const;
-    void wait_for_start(const Beginning& beginning);
+    bool read_more(const FilePrefix& prefix);
+    bool is_same_file(const FilePrefix& prefix) const;
+    void wait_for_start(const FilePrefix& prefix);
     void report(const Error& error);
 
     const std::filesystem::path path_;

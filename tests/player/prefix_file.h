@@ -1,4 +1,4 @@
-// A file that is written in pieces.
+// A file of which longer and longer prefixes are written.
 #pragma once
 
 #include <filesystem>
@@ -13,18 +13,19 @@
 
 namespace paim::player {
 
-class GrowingFile {
+class PrefixFile {
   public:
-    // Of the .paim that the asset makes, no byte is at `path` yet. Needs `path`.whole, too.
-    GrowingFile(const std::filesystem::path& path, const Asset& asset) : path_(path) {
+    // Will write the .paim of the asset to `path`, where there is nothing yet. The whole file is at
+    // `path`.whole.
+    PrefixFile(const std::filesystem::path& path, const Asset& asset) : path_(path) {
         const std::filesystem::path whole = path.string() + ".whole";
         write_paim(whole, asset);
         bytes = read_file(whole, uint64_t{1} << 30);
         prefixes = read_prefixes(whole);
     }
 
-    // Appends, so that there are so many bytes.
-    void grow_to(uint64_t size_bytes) {
+    // Appends to the file until it has this size.
+    void write_up_to(uint64_t size_bytes) {
         std::ofstream file(path_, std::ios::binary | std::ios::app);
         file.write(bytes.data() + written_, static_cast<std::streamsize>(size_bytes - written_));
         written_ = size_bytes;

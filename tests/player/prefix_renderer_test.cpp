@@ -21,7 +21,7 @@ Image draw(SceneRenderer& renderer, const Asset& asset) {
     return renderer.render(frame, kWidth, kHeight, 1);
 }
 
-TEST(ProgressiveRenderer, DrawsAnotherAssetAsIfItWereTheFirst) {
+TEST(PrefixRenderer, DrawsAnotherAssetAsIfItWereTheFirst) {
     const auto context = gl::make_headless_context();
     TestAssetOptions options;
     const Asset whole = make_test_asset(options);

@@ -1,11 +1,11 @@
-// What there is of a file, byte by byte.
-#include "player/file_beginning.h"
+// Prefixes of a file, byte by byte.
+#include "player/file_prefix.h"
 
 #include <gtest/gtest.h>
 
 #include "paim/base/error.h"
 #include "paim/codec/sequence_bounds.h"
-#include "tests/player/growing_file.h"
+#include "tests/player/prefix_file.h"
 #include "tests/player/test_asset.h"
 #include "tests/temporary_directory.h"
 
@@ -19,45 +19,45 @@ TEST(LoadProgress, IsSaidInWords) {
     EXPECT_EQ(progress_text({12000, 0, 0, 0}), "12 kB");
 }
 
-TEST(FileBeginning, GrowsFromNothingToAll) {
+TEST(FilePrefix, IsInspectedAtEveryLength) {
     const TemporaryDirectory directory;
     const auto path = directory / "a.paim";
     TestAssetOptions options;
     options.num_rings = 3;
     const Asset asset = make_test_asset(options);
-    GrowingFile file(path, asset);
+    PrefixFile file(path, asset);
     const uint64_t num_bytes = file.bytes.size();
-    EXPECT_EQ(inspect_beginning(path).size_bytes, 0u);
+    EXPECT_EQ(inspect_prefix(path).size_bytes, 0u);
     size_t held = 0;  // prefixes
     bool has_table = false;
     for (uint64_t size = 1; size <= num_bytes; ++size) {
-        file.grow_to(size);
-        const Beginning beginning = inspect_beginning(path);
-        ASSERT_EQ(beginning.size_bytes, size);
-        ASSERT_TRUE(!has_table || !beginning.prefixes.empty()) << size;
-        has_table = !beginning.prefixes.empty();
+        file.write_up_to(size);
+        const FilePrefix prefix = inspect_prefix(path);
+        ASSERT_EQ(prefix.size_bytes, size);
+        ASSERT_TRUE(!has_table || !prefix.prefixes.empty()) << size;
+        has_table = !prefix.prefixes.empty();
         if (held < file.prefixes.size() && file.prefixes[held].size_bytes == size) ++held;
-        ASSERT_EQ(beginning.playable_bytes(), held == 0 ? 0 : file.prefixes[held - 1].size_bytes);
+        ASSERT_EQ(prefix.playable_bytes(), held == 0 ? 0 : file.prefixes[held - 1].size_bytes);
         if (has_table) {
-            ASSERT_EQ(beginning.progress(), (LoadProgress{size, num_bytes, 0, 8}));
+            ASSERT_EQ(prefix.progress(), (LoadProgress{size, num_bytes, 0, 8}));
         }
     }
     EXPECT_EQ(held, file.prefixes.size());
     EXPECT_TRUE(has_table);
 
-    const LoadedAsset loaded = load_beginning(path);
+    const LoadedAsset loaded = load_prefix(path);
     EXPECT_TRUE(loaded.asset->complete);
     EXPECT_EQ(loaded.progress, (LoadProgress{num_bytes, num_bytes, 8, 8}));
     EXPECT_EQ(loaded.bounds.lower, sequence_bounds(asset).lower);
     EXPECT_EQ(loaded.bounds.upper, sequence_bounds(asset).upper);
 }
 
-TEST(FileBeginning, TellsDamageFromWhatIsMissing) {
+TEST(FilePrefix, TellsDamageFromWhatIsMissing) {
     const TemporaryDirectory directory;
     const auto path = directory / "a.paim";
     const auto expect_error = [&](const std::string& text) {
         try {
-            inspect_beginning(path);
+            inspect_prefix(path);
             ADD_FAILURE() << "expected an error: " << text;
         } catch (const Error& error) {
             EXPECT_EQ(error.code(), ExitCode::bad_input);
@@ -72,16 +72,16 @@ TEST(FileBeginning, TellsDamageFromWhatIsMissing) {
     std::filesystem::create_directory(path);
     expect_error("expected a regular file");
 
-    GrowingFile header(directory / "b.paim", make_test_asset({}));
+    PrefixFile header(directory / "b.paim", make_test_asset({}));
     header.bytes[12] ^= 1;  // of its kind
-    header.grow_to(64);
-    EXPECT_THROW(inspect_beginning(directory / "b.paim"), Error);
-    GrowingFile table(directory / "c.paim", make_test_asset({}));
+    header.write_up_to(64);
+    EXPECT_THROW(inspect_prefix(directory / "b.paim"), Error);
+    PrefixFile table(directory / "c.paim", make_test_asset({}));
     table.bytes[64] ^= 1;
-    table.grow_to(127);
-    EXPECT_TRUE(inspect_beginning(directory / "c.paim").prefixes.empty());
-    table.grow_to(table.prefixes[0].size_bytes);
-    EXPECT_THROW(inspect_beginning(directory / "c.paim"), Error);
+    table.write_up_to(127);
+    EXPECT_TRUE(inspect_prefix(directory / "c.paim").prefixes.empty());
+    table.write_up_to(table.prefixes[0].size_bytes);
+    EXPECT_THROW(inspect_prefix(directory / "c.paim"), Error);
 }
 
 }  // namespace

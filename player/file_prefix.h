@@ -1,4 +1,4 @@
-// The beginning of a .paim that is still being written: how much there is, and what it plays.
+// A prefix of a .paim that is still being written: its length, and the animation that it holds.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace paim::player {
 
-// How much of a file is there.
+// The part of a file that is there.
 struct LoadProgress {
     uint64_t size_bytes = 0;
     uint64_t whole_size_bytes = 0;  // 0: not known yet
@@ -25,10 +25,11 @@ struct LoadProgress {
 // "62 % of 1.2 MB, 9 of 23 components"; 100 % only of a whole file.
 std::string progress_text(const LoadProgress& progress);
 
-// What a look at a file finds.
-struct Beginning {
+// A prefix of a file, at the moment when it was looked at.
+struct FilePrefix {
     uint64_t size_bytes = 0;
-    std::vector<Prefix> prefixes;     // empty: header and section table are not there yet
+    // Those of the whole file that can be played; empty: header and section table are not there yet.
+    std::vector<Prefix> prefixes;
     std::vector<uint64_t> checksums;  // of the sections: another animation has others
     uint64_t inode = 0;               // another file has another
 
@@ -36,8 +37,8 @@ struct Beginning {
     LoadProgress progress() const;    // with no component read
 };
 
-// A file that is not there has no bytes. Errors as read_paim()'s, if header or table are damaged.
-Beginning inspect_beginning(const std::filesystem::path& path);
+// A missing file has no bytes. Errors as read_paim()'s if header or table are damaged.
+FilePrefix inspect_prefix(const std::filesystem::path& path);
 
 struct LoadedAsset {
     std::shared_ptr<const Asset> asset;
@@ -46,10 +47,10 @@ struct LoadedAsset {
     bool replaced = false;  // comes from another file than the model before
 };
 
-// What of the file can be played now, without its bounds. Errors as read_paim()'s.
-LoadedAsset read_beginning(const std::filesystem::path& path, const Beginning& beginning);
+// Reads what the prefix holds, without bounds. Errors as read_paim()'s.
+LoadedAsset read_prefix(const std::filesystem::path& path, const FilePrefix& prefix);
 
-// The same of what is there at this moment, with bounds.
-LoadedAsset load_beginning(const std::filesystem::path& path);
+// Reads the prefix that is there now, with bounds.
+LoadedAsset load_prefix(const std::filesystem::path& path);
 
 }  // namespace paim::player

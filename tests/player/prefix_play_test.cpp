@@ -13,7 +13,7 @@
 #include "tests/cli/run_tool.h"
 #include "tests/directory_watch.h"
 #include "tests/first_components.h"
-#include "tests/player/growing_file.h"
+#include "tests/player/prefix_file.h"
 #include "tests/player/test_asset.h"
 #include "tests/player/window_keys.h"
 #include "tests/player/x_server.h"
@@ -25,9 +25,9 @@ namespace {
 // Nothing takes so long but what never comes.
 constexpr std::chrono::minutes kHung{5};
 
-class ProgressivePlayTest : public testing::Test {
+class PrefixPlayTest : public testing::Test {
   protected:
-    ProgressivePlayTest() {
+    PrefixPlayTest() {
         ::unsetenv("DISPLAY");
         ::unsetenv("WAYLAND_DISPLAY");
     }
@@ -46,13 +46,13 @@ class ProgressivePlayTest : public testing::Test {
     TemporaryDirectory directory_;
     std::filesystem::path path_ = directory_ / "ball.paim";
     Asset asset_ = make_test_asset({});  // 5 bands, 3 + 5 components, 6 poses
-    GrowingFile file_{path_, asset_};
+    PrefixFile file_{path_, asset_};
 };
 
-TEST_F(ProgressivePlayTest, SnapshotOfABeginningIsThatOfAFileWithItsComponents) {
+TEST_F(PrefixPlayTest, SnapshotOfAPrefixIsThatOfAFileWithItsComponents) {
     size_t num_limited = 0;
     for (const Prefix& prefix : file_.prefixes) {
-        file_.grow_to(prefix.size_bytes);
+        file_.write_up_to(prefix.size_bytes);
         const ToolResult result = snapshot(path_, out("a.exr"), {"--progressive"});
         ASSERT_EQ(result.exit_code, 0) << result.err;
         EXPECT_EQ(result.err, "");
@@ -84,8 +84,8 @@ TEST_F(ProgressivePlayTest, SnapshotOfABeginningIsThatOfAFileWithItsComponents) 
     EXPECT_GE(num_limited, 1u);
 }
 
-TEST_F(ProgressivePlayTest, TakesABeginningOnlyWhenAsked) {
-    file_.grow_to(file_.prefixes[3].size_bytes);
+TEST_F(PrefixPlayTest, TakesAPrefixOnlyWhenAsked) {
+    file_.write_up_to(file_.prefixes[3].size_bytes);
     const ToolResult refused = snapshot(path_, out("a.png"));
     EXPECT_EQ(refused.exit_code, 2);
     EXPECT_NE(refused.err.find("the file is cut short"), std::string::npos) << refused.err;
@@ -108,9 +108,9 @@ TEST_F(ProgressivePlayTest, TakesABeginningOnlyWhenAsked) {
     EXPECT_NE(nothing.err.find("that can be played"), std::string::npos) << nothing.err;
 }
 
-// The window is opened on a file that is not there yet; then it grows to the end, and what the
-// window shows becomes the picture of the whole file, at the pose that it was stopped at.
-TEST_F(ProgressivePlayTest, WindowSharpensToTheWholeFilesPicture) {
+// The window is opened on a file that is not there yet. When the whole file is, the window shows its
+// picture, at the pose where it was stopped.
+TEST_F(PrefixPlayTest, WindowSharpensToTheWholeFilesPicture) {
     const XServer server(PAIM_XVFB);
     ToolResult result;
     std::promise<void> waits;
@@ -126,9 +126,9 @@ TEST_F(ProgressivePlayTest, WindowSharpensToTheWholeFilesPicture) {
                                " ball.paim --progressive --size 120x80 --bands 4"},
                           listen);
     });
-    file_.grow_to(file_.prefixes[0].size_bytes - 1);
+    file_.write_up_to(file_.prefixes[0].size_bytes - 1);
     ASSERT_EQ(waits.get_future().wait_for(kHung), std::future_status::ready);
-    file_.grow_to(file_.prefixes[0].size_bytes);
+    file_.write_up_to(file_.prefixes[0].size_bytes);
     WindowKeys keys("ball.paim - paim-play");
     keys.press("Home");  // pose 0, paused
     int num_pictures = 0;
@@ -150,7 +150,7 @@ TEST_F(ProgressivePlayTest, WindowSharpensToTheWholeFilesPicture) {
     EXPECT_EQ(save_view(), expected({"--progressive"}));
 
     // The camera stays where the first asset put it until the animation is framed again (F).
-    for (size_t i = 1; i < file_.prefixes.size(); ++i) file_.grow_to(file_.prefixes[i].size_bytes);
+    for (size_t i = 1; i < file_.prefixes.size(); ++i) file_.write_up_to(file_.prefixes[i].size_bytes);
     const std::vector<char> whole = expected({});
     const auto hung = std::chrono::steady_clock::now() + kHung;
     bool reached = false;
@@ -164,7 +164,7 @@ TEST_F(ProgressivePlayTest, WindowSharpensToTheWholeFilesPicture) {
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(result.out, "");
     EXPECT_EQ(result.err,
-              "paim-play: note: ball.paim: waiting for the beginning that can be played\n");
+              "paim-play: note: ball.paim: waiting for the first part that can be played\n");
 }
 
 }  // namespace

@@ -1,12 +1,12 @@
-// Files that grow, are replaced, are damaged.
-#include "player/progressive_loader.h"
+// Prefixes that become longer, files that are replaced or damaged.
+#include "player/prefix_loader.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "paim/codec/sequence_bounds.h"
 #include "tests/first_components.h"
-#include "tests/player/growing_file.h"
+#include "tests/player/prefix_file.h"
 #include "tests/player/test_asset.h"
 #include "tests/temporary_directory.h"
 
@@ -17,7 +17,7 @@ using namespace std::chrono_literals;
 
 constexpr LoaderPace kPace{2ms, 1h};
 
-class ProgressiveLoaderTest : public testing::Test {
+class PrefixLoaderTest : public testing::Test {
   protected:
     static Asset make_asset(uint32_t num_poses) {
         TestAssetOptions options;
@@ -44,24 +44,24 @@ class ProgressiveLoaderTest : public testing::Test {
     TemporaryDirectory directory_;
     std::filesystem::path path_ = directory_ / "a.paim";
     Asset asset_ = make_asset(6);
-    GrowingFile file_{path_, asset_};
+    PrefixFile file_{path_, asset_};
 };
 
-TEST_F(ProgressiveLoaderTest, GrowsSectionBySection) {
+TEST_F(PrefixLoaderTest, ReadsEveryPrefix) {
     const std::vector<Prefix>& prefixes = file_.prefixes;
-    file_.grow_to(prefixes[0].size_bytes);
-    ProgressiveLoader loader(path_, kPace);
+    file_.write_up_to(prefixes[0].size_bytes);
+    PrefixLoader loader(path_, kPace);
     bool waited = false;
     expect_holds(loader.wait_for_first([&] { waited = true; }), prefixes[0]);
     EXPECT_FALSE(waited);
     ASSERT_EQ(prefixes.size(), 9u);
     for (size_t i = 1; i < prefixes.size(); ++i) {
         // Nothing is read for a component that lacks its last byte.
-        file_.grow_to(prefixes[i].size_bytes - 1);
+        file_.write_up_to(prefixes[i].size_bytes - 1);
         loader.wait_for_look();
         EXPECT_EQ(loader.progress().size_bytes, prefixes[i].size_bytes - 1);
         EXPECT_FALSE(loader.take());
-        file_.grow_to(prefixes[i].size_bytes);
+        file_.write_up_to(prefixes[i].size_bytes);
         loader.wait_for_look();
         const auto loaded = loader.take();
         ASSERT_TRUE(loaded);
@@ -70,8 +70,8 @@ TEST_F(ProgressiveLoaderTest, GrowsSectionBySection) {
     EXPECT_EQ(loader.take_error(), "");
 }
 
-TEST_F(ProgressiveLoaderTest, WaitsForTheStart) {
-    ProgressiveLoader loader(path_, kPace);
+TEST_F(PrefixLoaderTest, WaitsForTheStart) {
+    PrefixLoader loader(path_, kPace);
     int num_waits = 0;
     std::jthread writer;
     const LoadedAsset first = loader.wait_for_first([&] {
@@ -79,20 +79,20 @@ TEST_F(ProgressiveLoaderTest, WaitsForTheStart) {
         writer = std::jthread([&] {
             for (const uint64_t size :
                  {uint64_t{10}, uint64_t{64}, uint64_t{1000}, file_.prefixes[0].size_bytes - 1}) {
-                file_.grow_to(size);
+                file_.write_up_to(size);
                 loader.wait_for_look();
                 EXPECT_EQ(loader.progress().size_bytes, size);
             }
-            file_.grow_to(file_.prefixes[2].size_bytes);
+            file_.write_up_to(file_.prefixes[2].size_bytes);
         });
     });
     EXPECT_EQ(num_waits, 1);
     expect_holds(first, file_.prefixes[2]);
 }
 
-TEST_F(ProgressiveLoaderTest, GivesUpOnAFileThatStandsStill) {
+TEST_F(PrefixLoaderTest, GivesUpOnAFileThatStandsStill) {
     const auto expect_failure = [&](const std::string& text) {
-        ProgressiveLoader loader(path_, {2ms, 100ms});
+        PrefixLoader loader(path_, {2ms, 100ms});
         try {
             loader.wait_for_first([] {});
             ADD_FAILURE() << "expected an error: " << text;
@@ -103,35 +103,35 @@ TEST_F(ProgressiveLoaderTest, GivesUpOnAFileThatStandsStill) {
     };
     expect_failure(
         ": 0 bytes, expected at least a header and section table, and no more came for 0.1 s");
-    file_.grow_to(100);
+    file_.write_up_to(100);
     expect_failure(
         ": 100 bytes, expected at least a header and section table, and no more came for 0.1 s");
     const uint64_t playable = file_.prefixes[0].size_bytes;
-    file_.grow_to(playable - 1);
+    file_.write_up_to(playable - 1);
     expect_failure(fmt::format(
         ": {} bytes, expected at least the {} that can be played, and no more came for 0.1 s",
         playable - 1, playable));
 }
 
-TEST_F(ProgressiveLoaderTest, RefusesAtOnceWhatIsNoAnimation) {
+TEST_F(PrefixLoaderTest, RefusesAtOnceWhatIsNoAnimation) {
     write_file(path_, "neither now nor with more bytes");
-    ProgressiveLoader loader(path_, kPace);
+    PrefixLoader loader(path_, kPace);
     EXPECT_THROW(loader.wait_for_first([] {}), Error);
 }
 
-TEST_F(ProgressiveLoaderTest, SaysDamageOnceAndGoesOn) {
+TEST_F(PrefixLoaderTest, SaysDamageOnceAndGoesOn) {
     const std::vector<Prefix>& prefixes = file_.prefixes;
-    file_.grow_to(prefixes[3].size_bytes);
-    ProgressiveLoader loader(path_, kPace);
+    file_.write_up_to(prefixes[3].size_bytes);
+    PrefixLoader loader(path_, kPace);
     expect_holds(loader.wait_for_first([] {}), prefixes[3]);
 
     const std::vector<char> good = file_.bytes;
     file_.bytes[prefixes[4].size_bytes - 1] ^= 1;
-    file_.grow_to(prefixes[4].size_bytes);
+    file_.write_up_to(prefixes[4].size_bytes);
     loader.wait_for_look();
     const std::string error = loader.take_error();
     EXPECT_NE(error.find("checksum"), std::string::npos) << error;
-    file_.grow_to(good.size());
+    file_.write_up_to(good.size());
     loader.wait_for_look();
     EXPECT_EQ(loader.progress().size_bytes, good.size());
     EXPECT_EQ(loader.take_error(), "");
@@ -145,9 +145,9 @@ TEST_F(ProgressiveLoaderTest, SaysDamageOnceAndGoesOn) {
     expect_holds(*loaded, prefixes.back());
 }
 
-TEST_F(ProgressiveLoaderTest, TakesAFileThatReplacesAnother) {
-    file_.grow_to(file_.prefixes[5].size_bytes);
-    ProgressiveLoader loader(path_, kPace);
+TEST_F(PrefixLoaderTest, TakesAFileThatReplacesAnother) {
+    file_.write_up_to(file_.prefixes[5].size_bytes);
+    PrefixLoader loader(path_, kPace);
     expect_holds(loader.wait_for_first([] {}), file_.prefixes[5]);
     std::filesystem::remove(path_);
     loader.wait_for_look();
@@ -155,15 +155,15 @@ TEST_F(ProgressiveLoaderTest, TakesAFileThatReplacesAnother) {
     EXPECT_FALSE(loader.take());
 
     // Shorter and longer than what was there before.
-    GrowingFile other(path_, make_asset(9));
-    other.grow_to(other.prefixes[1].size_bytes);
+    PrefixFile other(path_, make_asset(9));
+    other.write_up_to(other.prefixes[1].size_bytes);
     loader.wait_for_look();
     auto loaded = loader.take();
     ASSERT_TRUE(loaded);
     EXPECT_TRUE(loaded->replaced);
     EXPECT_EQ(loaded->asset->num_poses(), 9u);
     EXPECT_EQ(loaded->progress.components, 1u);
-    other.grow_to(other.bytes.size());
+    other.write_up_to(other.bytes.size());
     loader.wait_for_look();
     loaded = loader.take();
     ASSERT_TRUE(loaded);

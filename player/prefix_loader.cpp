@@ -1,5 +1,5 @@
-// Watching a file that grows.
-#include "player/progressive_loader.h"
+// Watching a file that is being written.
+#include "player/prefix_loader.h"
 
 #include <fmt/format.h>
 
@@ -10,13 +10,13 @@
 
 namespace paim::player {
 
-ProgressiveLoader::ProgressiveLoader(std::filesystem::path path, const LoaderPace& pace)
+PrefixLoader::PrefixLoader(std::filesystem::path path, const LoaderPace& pace)
     : path_(std::move(path)),
       pace_(pace),
       waiting_since_(Clock::now()),
       thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
-LoadedAsset ProgressiveLoader::wait_for_first(const std::function<void()>& on_wait) {
+LoadedAsset PrefixLoader::wait_for_first(const std::function<void()>& on_wait) {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return newest_ || failure_ || waiting_; });
     if (!newest_ && !failure_) {
@@ -29,28 +29,28 @@ LoadedAsset ProgressiveLoader::wait_for_first(const std::function<void()>& on_wa
     return *std::exchange(newest_, std::nullopt);
 }
 
-std::optional<LoadedAsset> ProgressiveLoader::take() {
+std::optional<LoadedAsset> PrefixLoader::take() {
     const std::scoped_lock lock(mutex_);
     return std::exchange(newest_, std::nullopt);
 }
 
-std::string ProgressiveLoader::take_error() {
+std::string PrefixLoader::take_error() {
     const std::scoped_lock lock(mutex_);
     return std::exchange(error_, {});
 }
 
-LoadProgress ProgressiveLoader::progress() const {
+LoadProgress PrefixLoader::progress() const {
     const std::scoped_lock lock(mutex_);
     return progress_;
 }
 
-void ProgressiveLoader::wait_for_look() {
+void PrefixLoader::wait_for_look() {
     std::unique_lock lock(mutex_);
     const uint64_t next = looks_begun_ + 1;
     changed_.wait(lock, [&] { return looks_ended_ >= next || looks_over_; });
 }
 
-void ProgressiveLoader::run(const std::stop_token& stop) {
+void PrefixLoader::run(const std::stop_token& stop) {
     while (!stop.stop_requested()) {
         const auto start = Clock::now();
         if (!look()) break;
@@ -66,7 +66,7 @@ void ProgressiveLoader::run(const std::stop_token& stop) {
     changed_.notify_all();
 }
 
-bool ProgressiveLoader::look() {
+bool PrefixLoader::look() {
     {
         const std::scoped_lock lock(mutex_);
         ++looks_begun_;
@@ -80,14 +80,14 @@ bool ProgressiveLoader::look() {
     return more;
 }
 
-bool ProgressiveLoader::read_what_is_there() {
-    Beginning beginning;
+bool PrefixLoader::read_what_is_there() {
+    FilePrefix prefix;
     try {
-        beginning = inspect_beginning(path_);
-        return read_more(beginning);
+        prefix = inspect_prefix(path_);
+        return read_more(prefix);
     } catch (const Error& error) {
         // What is written over while it is read looks damaged and is not.
-        if (!beginning.prefixes.empty() && !is_same_file(beginning)) {
+        if (!prefix.prefixes.empty() && !is_same_file(prefix)) {
             tried_bytes_ = 0;
             return true;
         }
@@ -99,33 +99,33 @@ bool ProgressiveLoader::read_what_is_there() {
     return !failure_;
 }
 
-bool ProgressiveLoader::read_more(const Beginning& beginning) {
-    const bool other = !beginning.prefixes.empty() && beginning.checksums != checksums_;
+bool PrefixLoader::read_more(const FilePrefix& prefix) {
+    const bool other = !prefix.prefixes.empty() && prefix.checksums != checksums_;
     if (other) {
         replaced_ = replaced_ || !checksums_.empty();
-        checksums_ = beginning.checksums;
+        checksums_ = prefix.checksums;
         tried_bytes_ = 0;
         bounds_.reset();
     }
-    const uint64_t playable_bytes = beginning.playable_bytes();
+    const uint64_t playable_bytes = prefix.playable_bytes();
     if (tried_in_vain_) {  // a damaged file may be mended by another that has the same table
-        tried_bytes_ = beginning.inode != tried_inode_ ? 0 : std::min(tried_bytes_, playable_bytes);
+        tried_bytes_ = prefix.inode != tried_inode_ ? 0 : std::min(tried_bytes_, playable_bytes);
     }
     {
         const std::scoped_lock lock(mutex_);
         const uint32_t components = other ? 0 : progress_.components;
-        progress_ = beginning.progress();
+        progress_ = prefix.progress();
         progress_.components = components;
     }
     if (playable_bytes <= tried_bytes_) {
-        wait_for_start(beginning);
+        wait_for_start(prefix);
         const std::scoped_lock lock(mutex_);
         return !failure_;
     }
     tried_bytes_ = playable_bytes;
-    tried_inode_ = beginning.inode;
+    tried_inode_ = prefix.inode;
     tried_in_vain_ = true;
-    LoadedAsset loaded = read_beginning(path_, beginning);
+    LoadedAsset loaded = read_prefix(path_, prefix);
     const uint32_t geometry_components = loaded.asset->moving().positions.num_components;
     if (!bounds_ || bounds_components_ != geometry_components) {
         bounds_ = sequence_bounds(*loaded.asset);
@@ -147,16 +147,16 @@ bool ProgressiveLoader::read_more(const Beginning& beginning) {
     return !complete;
 }
 
-bool ProgressiveLoader::is_same_file(const Beginning& beginning) const {
+bool PrefixLoader::is_same_file(const FilePrefix& prefix) const {
     try {
-        const Beginning now = inspect_beginning(path_);
-        return now.checksums == beginning.checksums && now.size_bytes >= beginning.size_bytes;
+        const FilePrefix now = inspect_prefix(path_);
+        return now.checksums == prefix.checksums && now.size_bytes >= prefix.size_bytes;
     } catch (const std::exception&) {
         return false;
     }
 }
 
-void ProgressiveLoader::wait_for_start(const Beginning& beginning) {
+void PrefixLoader::wait_for_start(const FilePrefix& prefix) {
     const auto now = Clock::now();
     {
         const std::scoped_lock lock(mutex_);
@@ -164,22 +164,22 @@ void ProgressiveLoader::wait_for_start(const Beginning& beginning) {
         waiting_ = true;
     }
     changed_.notify_all();
-    if (beginning.size_bytes != waiting_bytes_) {
-        waiting_bytes_ = beginning.size_bytes;
+    if (prefix.size_bytes != waiting_bytes_) {
+        waiting_bytes_ = prefix.size_bytes;
         waiting_since_ = now;
     }
     if (now - waiting_since_ < pace_.patience) return;
     const auto patience_s = std::chrono::duration<double>(pace_.patience).count();
     const std::string expected =
-        beginning.prefixes.empty()
+        prefix.prefixes.empty()
             ? "a header and section table"
-            : fmt::format("the {} that can be played", beginning.prefixes.front().size_bytes);
+            : fmt::format("the {} that can be played", prefix.prefixes.front().size_bytes);
     report(Error(ExitCode::bad_input,
                  fmt::format("{}: {} bytes, expected at least {}, and no more came for {} s",
-                             path_.string(), beginning.size_bytes, expected, patience_s)));
+                             path_.string(), prefix.size_bytes, expected, patience_s)));
 }
 
-void ProgressiveLoader::report(const Error& error) {
+void PrefixLoader::report(const Error& error) {
     {
         const std::scoped_lock lock(mutex_);
         if (!started_) {

@@ -1,5 +1,5 @@
-// Looking at the beginning of a file.
-#include "player/file_beginning.h"
+// Inspecting and reading the prefix of a file that is there.
+#include "player/file_prefix.h"
 
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -21,7 +21,7 @@ namespace {
 using container::Header;
 using container::TableEntry;
 
-// How many bytes header and section table take, or 0 where the header is none that counts.
+// Bytes of header and section table; 0 if the header is not a valid one.
 uint64_t table_end(const std::filesystem::path& path) {
     Header header;
     std::ifstream file(path, std::ios::binary);
@@ -60,7 +60,7 @@ std::string progress_text(const LoadProgress& progress) {
                        progress.whole_components);
 }
 
-uint64_t Beginning::playable_bytes() const {
+uint64_t FilePrefix::playable_bytes() const {
     uint64_t playable = 0;
     for (const Prefix& prefix : prefixes) {
         if (prefix.size_bytes <= size_bytes) playable = prefix.size_bytes;
@@ -68,7 +68,7 @@ uint64_t Beginning::playable_bytes() const {
     return playable;
 }
 
-LoadProgress Beginning::progress() const {
+LoadProgress FilePrefix::progress() const {
     LoadProgress progress{size_bytes, 0, 0, 0};
     if (!prefixes.empty()) {
         const Prefix& whole = prefixes.back();
@@ -79,34 +79,34 @@ LoadProgress Beginning::progress() const {
     return progress;
 }
 
-Beginning inspect_beginning(const std::filesystem::path& path) {
-    Beginning beginning;
+FilePrefix inspect_prefix(const std::filesystem::path& path) {
+    FilePrefix prefix;
     struct stat info {};
-    if (::stat(path.c_str(), &info) != 0 && errno == ENOENT) return beginning;
-    beginning.inode = info.st_ino;
+    if (::stat(path.c_str(), &info) != 0 && errno == ENOENT) return prefix;
+    prefix.inode = info.st_ino;
     if (S_ISREG(info.st_mode)) {
-        beginning.size_bytes = static_cast<uint64_t>(info.st_size);
-        if (beginning.size_bytes < table_end(path)) return beginning;
+        prefix.size_bytes = static_cast<uint64_t>(info.st_size);
+        if (prefix.size_bytes < table_end(path)) return prefix;
     }
     const ContainerReader reader(path, section::kKindAnimation, Extent::prefix);
-    beginning.size_bytes = reader.file_size_bytes();
-    beginning.prefixes = list_prefixes(reader);
-    for (const Section& section : reader.sections()) beginning.checksums.push_back(section.xxh3);
-    return beginning;
+    prefix.size_bytes = reader.file_size_bytes();
+    prefix.prefixes = list_prefixes(reader);
+    for (const Section& section : reader.sections()) prefix.checksums.push_back(section.xxh3);
+    return prefix;
 }
 
-LoadedAsset read_beginning(const std::filesystem::path& path, const Beginning& beginning) {
+LoadedAsset read_prefix(const std::filesystem::path& path, const FilePrefix& prefix) {
     LoadedAsset loaded;
     loaded.asset = read_asset(path, {.prefix = true});
-    loaded.progress = beginning.progress();
+    loaded.progress = prefix.progress();
     loaded.progress.components = num_components(loaded.asset->moving());
-    // More may have come since the look.
+    // More may have been written since the prefix was inspected.
     if (loaded.asset->complete) loaded.progress.size_bytes = loaded.progress.whole_size_bytes;
     return loaded;
 }
 
-LoadedAsset load_beginning(const std::filesystem::path& path) {
-    LoadedAsset loaded = read_beginning(path, inspect_beginning(path));
+LoadedAsset load_prefix(const std::filesystem::path& path) {
+    LoadedAsset loaded = read_prefix(path, inspect_prefix(path));
     loaded.bounds = sequence_bounds(*loaded.asset);
     return loaded;
 }

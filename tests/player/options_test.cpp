@@ -1,0 +1,79 @@
+// The command line of paim-play: every option lands in its own place.
+#include "player/options.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <vector>
+
+namespace paim::player {
+namespace {
+
+Options parse(std::vector<const char*> arguments) {
+    arguments.insert(arguments.begin(), "paim-play");
+    Options options;
+    EXPECT_EQ(parse_options(static_cast<int>(arguments.size()), arguments.data(), options), -1);
+    return options;
+}
+
+TEST(PlayOptions, AreConvertedToTheirUnits) {
+    const Options options = parse(
+        {"a.paim",   "--pose",     "2.5",       "--size",         "40x30",        "--camera",
+         "90,-45,3", "--env",      "light.exr", "--env-rotation", "180",          "--background",
+         "0,0.5,1",  "--exposure", "-2",        "--gamma",        "2.2",          "--supersample",
+         "3",        "--snapshot", "b.exr",     "--json",         "--progressive"});
+    EXPECT_EQ(options.model_path, "a.paim");
+    EXPECT_EQ(options.pose, 2.5);
+    EXPECT_EQ(options.size, std::pair(40, 30));
+    EXPECT_FLOAT_EQ(options.camera.azimuth_rad, static_cast<float>(kPi / 2.0));
+    EXPECT_FLOAT_EQ(options.camera.elevation_rad, static_cast<float>(-kPi / 4.0));
+    EXPECT_EQ(options.camera.distance_factor, 3.0f);
+    EXPECT_EQ(options.environment_path, "light.exr");
+    EXPECT_DOUBLE_EQ(options.env_rotation_rad, kPi);
+    EXPECT_EQ(options.background.kind, Background::Kind::color);
+    EXPECT_EQ(options.background.color, Vec3f(0.0f, 0.5f, 1.0f));
+    EXPECT_EQ(options.tone_curve.exposure_ev, -2.0f);
+    EXPECT_EQ(options.tone_curve.gamma, 2.2f);
+    EXPECT_EQ(options.supersample, 3);
+    EXPECT_EQ(options.snapshot_path, "b.exr");
+    EXPECT_TRUE(options.json);
+    EXPECT_TRUE(options.play_prefix);
+    EXPECT_FALSE(options.opens_window());
+}
+
+TEST(PlayOptions, HaveDefaults) {
+    const Options options = parse({"a.paim"});
+    EXPECT_EQ(options.pose, 0.0);
+    EXPECT_EQ(options.size, std::pair(1280, 720));
+    EXPECT_FLOAT_EQ(options.camera.azimuth_rad, kDefaultAzimuth_rad);
+    EXPECT_FLOAT_EQ(options.camera.elevation_rad, kDefaultElevation_rad);
+    EXPECT_EQ(options.camera.distance_factor, 1.0f);
+    EXPECT_FALSE(options.environment_path || options.supersample || options.bench_frames ||
+                 options.window_frames || options.json || options.play_prefix);
+    EXPECT_EQ(options.background.kind, Background::Kind::environment);
+    EXPECT_EQ(options.tone_curve.gamma, 0.0f);
+    EXPECT_TRUE(options.opens_window());
+    EXPECT_FALSE(parse({"a.paim", "--bench", "7"}).opens_window());
+    EXPECT_EQ(parse({"a.paim", "--bench", "7"}).bench_frames, 7);
+    EXPECT_EQ(parse({"a.paim", "--frames", "8"}).window_frames, 8);
+    EXPECT_TRUE(parse({"a.paim", "--frames", "8"}).opens_window());
+}
+
+TEST(PlayOptions, LimitWhatIsAskedForAndNothingElse) {
+    const Options options = parse({"a.paim", "--geometry-components", "0", "--bands", "4",
+                                   "--cluster-components", "1000000000"});
+    EXPECT_EQ(options.wanted.geometry_components, 0u);
+    EXPECT_FALSE(options.wanted.transfer_components);
+    EXPECT_EQ(options.wanted.bands, 4u);
+    EXPECT_EQ(options.wanted.cluster_components, 1000000000u);
+    const DecodeLimits limits = options.wanted.limits();
+    EXPECT_EQ(limits.geometry_components, 0u);
+    EXPECT_EQ(limits.transfer_components, std::numeric_limits<uint32_t>::max());
+    EXPECT_EQ(limits.bands, 4u);
+    EXPECT_EQ(limits.cluster_components, 1000000000u);
+    EXPECT_EQ(parse({"a.paim", "--transfer-components", "3"}).wanted.limits().transfer_components,
+              3u);
+}
+
+}  // namespace
+}  // namespace paim::player
