@@ -1,6 +1,6 @@
 // Diffuse shadowed transfer of one pose (E1).
-// Based on: Sloan, Kautz and Snyder, Precomputed Radiance Transfer for Real-Time Rendering in Dynamic,
-//           Low-Frequency Lighting Environments, 2002
+// Based on: Sloan, Kautz and Snyder, Precomputed Radiance Transfer for Real-Time Rendering in
+//           Dynamic, Low-Frequency Lighting Environments, 2002
 #pragma once
 
 #include <cstdint>
@@ -18,25 +18,27 @@
 
 namespace paim {
 
-// Raised whenever the same options give other bytes, so that bakes of different builds do not mix.
+// Raised whenever the same options give different bytes, so that bakes of different builds do not
+// mix.
 constexpr uint32_t kBakerVersion = 4;
 
-// Every vertex shoots two independent halves of its rays (half_sums.h). Their mean is the transfer,
-// half their difference its noise. With a fixed count all rays of a vertex are shot at once; with an
-// error target they are shot in batches, a third to a half of all before, until the noise of the vertex
-// as its neighbours tell it (noise_target.h) is below the target. Light that bounces is added to the halves
-// afterwards (bounces.h): the target is one for the light that comes straight from the sky.
+// Every vertex traces two independent halves of its rays (split_estimate.h). Their mean is the
+// transfer, half their difference its noise. With a fixed count, all rays of a vertex are traced at
+// once. With a noise target they are traced in batches, each a third to a half of all rays before it,
+// until the noise of the vertex, as estimated from its neighbours (noise_target.h), is below the
+// target. Light that bounces is added to the halves afterwards (bounces.h): the target is one for
+// light that comes directly from the sky.
 class TransferBaker {
   public:
-    // albedo   of the meshes to bake; counts only where light bounces
-    // scenery  blocks light too, and bounces it
+    // albedo   of the meshes to bake; used only if light bounces
+    // scenery  also blocks light and bounces it
     explicit TransferBaker(const BakeOptions& options, Albedo albedo = {}, StaticMesh scenery = {});
 
-    // The scenery, without anything else. Light bounces off it in poses only once this was called.
+    // Bakes the scenery without the poses. Must be called before bake() if light bounces off it.
     BakedPose bake_scenery();
 
     // pose     positions [V] finite, normals [V] unit or zero (transfer 0)
-    // p        the pose's number, which keys the random streams
+    // p        the number of the pose, which keys the random numbers
     // Deterministic on any number of threads. Errors: those of RayScene.
     BakedPose bake(const Topology& topology, const Pose& pose, uint32_t p) const;
 
