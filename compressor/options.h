@@ -5,12 +5,12 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "compressor/bake/transfer_baker.h"
-#include "compressor/encode/encode.h"
+#include "compressor/bake/bake_options.h"
+#include "compressor/encode/options.h"
 #include "compressor/scene/floor.h"
-#include "compressor/target_options.h"
 
 namespace paim {
 
@@ -21,7 +21,7 @@ struct CompressOptions {
     std::vector<std::string> inputs;  // OBJ files, patterns, directories
     bool keep_order = false;
     BakeOptions bake;
-    std::string normals = "faces";
+    std::string normals = "faces";  // or "file"
     std::optional<Vec3f> albedo;
     std::optional<FloorOptions> floor;
     std::vector<std::string> statics;  // OBJ files of scenery
@@ -32,13 +32,16 @@ struct CompressOptions {
     std::filesystem::path bake_directory;  // of `encode`
     EncodeOptions encode;
     std::optional<EncodeTarget> target;  // without its spectrum
-    std::string band_power;              // flat, natural or a file
+    std::string band_power = "flat";     // or "natural" or a file
 
     std::filesystem::path output;
     int num_threads = 0;
     bool json = false;
     bool quiet = false;
 };
+
+// The last group of options in the help.
+constexpr const char* kRunningGroup = "Running";
 
 // Parses the command line. Returns nothing when the tool is done (help, version, usage error), with
 // the exit code in exit_code. Throws Error(usage) for values out of range.

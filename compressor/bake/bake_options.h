@@ -7,24 +7,24 @@
 
 namespace paim {
 
-// Whether poses share their random numbers.
+// Whether poses share their random numbers (--pose-noise).
 enum class Streams : uint32_t {
-    per_pose,  // independent in every pose: noise averages out over the poses, but flickers
-    shared,    // the same in every pose: noise moves with the mesh, and stays
-    mixed,     // one half of the rays shared, one per pose
+    per_pose,  // independent in every pose: the noise averages out over the poses, but flickers
+    shared,    // the same in every pose: the noise moves with the mesh and does not average out
+    mixed,     // half of the rays shared by all poses, the other half independent
 };
 
-// What options and manifests call it: "per-pose", "shared" or "mixed".
+// The name in manifests: "per-pose", "shared" or "mixed".
 const char* streams_name(Streams streams);
 
 constexpr Streams kStreams[] = {Streams::per_pose, Streams::shared, Streams::mixed};
 
 struct BakeOptions {
     uint32_t bands = 5;   // 1 … sh::kMaxBands
-    uint32_t rays = 512;  // per vertex, even, 2 … 2^24; with a transfer_error, the most
+    uint32_t rays = 512;  // per vertex, even, 2 … 2^24; with a transfer_error, the limit
     uint64_t seed = 1;
-    // Above 0: each vertex is baked until the estimated error of its transfer (noise_target.h), as a
-    // fraction of the transfer of an open vertex, is at most this.
+    // The noise target, if above 0: rays are traced at each vertex until the estimated error of its
+    // transfer (noise_target.h) is at most this fraction of the transfer of an unshadowed vertex.
     double transfer_error = 0.0;
     SamplerKind sampler = SamplerKind::cosine;
     Streams streams = Streams::per_pose;
@@ -34,7 +34,7 @@ struct BakeOptions {
 // The key of the rays of one half (0 or 1) of a vertex.
 uint64_t half_key(const BakeOptions& options, uint32_t p, uint32_t v, uint32_t half);
 
-// The L2 norm of the transfer of an open vertex, whichever way it faces:
+// The L2 norm of the transfer of an unshadowed vertex, which does not depend on its normal:
 // √(Σ_l (â_l/π)² (2l+1)/4π) over the bands.
 double open_transfer_norm(uint32_t bands);
 

@@ -1,5 +1,4 @@
-// Bakes a whole sequence into a .bake directory, pose by pose, going on where an earlier run
-// stopped.
+// Bakes a whole sequence into a .bake directory, pose by pose. Resumes where an earlier run stopped.
 #pragma once
 
 #include <filesystem>
@@ -19,19 +18,19 @@ struct BakeSummary {
     PoseStatistics total;  // of all poses in range; RMS values over all of them
 };
 
-// What a sequence stands on and among.
+// The floor and the scenery of a sequence.
 struct Surroundings {
-    std::string floor;   // description of the ground that the poses have got; empty if none
+    std::string floor;   // description of the ground under the poses; empty if there is none
     StaticMesh scenery;  // blocks and bounces the poses' light; baked once, without the poses
 };
 
-// What decides the bytes of the bake of this sequence with these options.
+// Everything that decides the bytes of this bake.
 BakeIdentity bake_identity(const PoseSource& source, const BakeOptions& options,
                            const std::string& normals, const Surroundings& surroundings = {});
 
-// Bakes poses first … last (inclusive), and scenery, that are not there yet.
-// on_pose   called after each pose, found or baked, with its number
-// Errors: those of BakeWriter, of the source and of RayScene. Finished poses stay whatever happens.
+// Bakes the poses first … last (inclusive) and the scenery, unless they are baked already.
+// on_pose   called with the number of each pose once it is baked or found
+// Errors: those of BakeWriter, of the source and of RayScene. Finished poses stay in any case.
 BakeSummary bake_sequence(const PoseSource& source, const BakeOptions& options,
                           const std::string& normals, const std::filesystem::path& directory,
                           uint32_t first, uint32_t last,

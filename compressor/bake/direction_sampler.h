@@ -1,4 +1,4 @@
-// The directions in which a vertex looks, and how much each counts.
+// The directions of a vertex's rays and their weights.
 #pragma once
 
 #include <cstdint>
@@ -15,14 +15,14 @@ enum class SamplerKind : uint32_t {
     uniform_sobol,  // uniform over the sphere, low-discrepancy
 };
 
-// What options and manifests call it: "cosine", "uniform" or "uniform-sobol".
+// The name in options and manifests: "cosine", "uniform" or "uniform-sobol".
 const char* sampler_name(SamplerKind kind);
 
 constexpr SamplerKind kSamplerKinds[] = {SamplerKind::cosine, SamplerKind::uniform,
                                          SamplerKind::uniform_sobol};
 
-// The power of the number of rays with which the squared error of a mean over directions falls: 1 for
-// random points; 1.5 for low-discrepancy ones, as is found where occluders have edges.
+// The power of the number of rays with which the squared error of a mean over directions falls: 1
+// for random points; 1.5, measured where occluders have edges, for low-discrepancy points.
 double error_power(SamplerKind kind);
 
 // Directions to trace. Weights are padded with zeros like the directions.

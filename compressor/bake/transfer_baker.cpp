@@ -1,6 +1,6 @@
 // Diffuse shadowed transfer of one pose.
-// Based on: Sloan, Kautz and Snyder, Precomputed Radiance Transfer for Real-Time Rendering in Dynamic,
-//           Low-Frequency Lighting Environments, 2002
+// Based on: Sloan, Kautz and Snyder, Precomputed Radiance Transfer for Real-Time Rendering in
+//           Dynamic, Low-Frequency Lighting Environments, 2002
 #include "compressor/bake/transfer_baker.h"
 
 #include <algorithm>
@@ -46,7 +46,8 @@ std::vector<std::unique_ptr<DirectionSampler>> make_batches(const BakeOptions& o
     return batches;
 }
 
-// â_l / π for each coefficient, [bands²]: the transfer of an unoccluded vertex is this times y_i(n).
+// â_l / π for each coefficient, [bands²]. The transfer of an unoccluded vertex is this times
+// y_i(n).
 std::vector<double> cosine_lobe_by_coefficient(uint32_t bands) {
     std::vector<double> lobe(size_t{bands} * bands);
     for (size_t i = 0; i < lobe.size(); ++i) {

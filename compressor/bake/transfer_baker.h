@@ -1,6 +1,6 @@
 // Diffuse shadowed transfer of one pose (E1).
-// Based on: Sloan, Kautz and Snyder, Precomputed Radiance Transfer for Real-Time Rendering in Dynamic,
-//           Low-Frequency Lighting Environments, 2002
+// Based on: Sloan, Kautz and Snyder, Precomputed Radiance Transfer for Real-Time Rendering in
+//           Dynamic, Low-Frequency Lighting Environments, 2002
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,8 @@
 
 namespace paim {
 
-// Raised whenever the same options give other bytes, so that bakes of different builds do not mix.
+// Raised whenever the same options give different bytes, so that bakes of different builds do not
+// mix.
 constexpr uint32_t kBakerVersion = 4;
 
 // Every vertex traces its rays in two halves with random numbers of their own (split_estimate.h). The
@@ -30,15 +31,15 @@ constexpr uint32_t kBakerVersion = 4;
 // that comes straight from the sky.
 class TransferBaker {
   public:
-    // albedo   of the meshes to bake; counts only where light bounces
-    // scenery  blocks light too, and bounces it
+    // albedo   of the meshes to bake; used only if light bounces
+    // scenery  also blocks light and bounces it
     explicit TransferBaker(const BakeOptions& options, Albedo albedo = {}, StaticMesh scenery = {});
 
-    // The scenery, without anything else. Light bounces off it in poses only once this was called.
+    // Bakes the scenery without the poses. Must be called before bake() if light bounces off it.
     BakedPose bake_scenery();
 
     // pose     positions [V] finite, normals [V] unit or zero (transfer 0)
-    // p        the pose's number, which keys the random streams
+    // p        the number of the pose, which keys the random numbers
     // Deterministic on any number of threads. Errors: those of RayScene.
     BakedPose bake(const Topology& topology, const Pose& pose, uint32_t p) const;
 

@@ -1,5 +1,6 @@
-// A .bake directory becomes a .paim file.
-// Based on: Cardoso and Kry, Error Analysis of Precomputed Radiance Transfer for Deforming Geometry, 2012
+// Encodes a .bake directory as a .paim file, row by row.
+// Based on: Cardoso and Kry, Error Analysis of Precomputed Radiance Transfer for Deforming Geometry,
+//           2012
 #include "compressor/encode/encode.h"
 
 #include <nlohmann/json.hpp>

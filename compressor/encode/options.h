@@ -60,8 +60,8 @@ struct EncodeTarget {
     BandPower spectrum = BandPower::flat(1);
 };
 
-// Where a transfer error E is asked for and no geometry error: E / 50 of the diagonal. A figure that
-// is a thousand pixels high then errs by 0.2 pixels at 1 % and by one pixel at 5 %.
+// The geometry error for a transfer error E, if none is asked for: E / 50 of the diagonal. A figure
+// that is a thousand pixels high then errs by 0.2 pixels at 1 % and by one pixel at 5 %.
 constexpr double kGeometryPerTransferError = 1.0 / 50.0;
 
 // One way to code the transfer that was tried.

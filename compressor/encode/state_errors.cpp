@@ -1,4 +1,4 @@
-// Makes a .paim say how far it is from its bake.
+// Measures a .paim against its bake and states the errors in it.
 #include "compressor/encode/state_errors.h"
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-// Makes a .paim say how far it is from its bake.
+// Measures a .paim against its bake and states the errors in it.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace paim {
 
-// Measures the file against the bake that it was just made from and rewrites it, all or nothing, with
-// the errors in its provenance ("measured"). The whole model is in memory meanwhile.
+// Measures the file against the bake that it was made from and rewrites it, all or nothing, with the
+// errors in its provenance ("measured"). Holds the whole model in memory.
 // Errors: unsupported as check_measuring_memory() (the file stays as it is); output failed.
 AssetError state_errors(const std::filesystem::path& file, const BakeReader& bake,
                         const BandPower& spectrum, uint64_t memory_bytes);

@@ -7,11 +7,13 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <memory>
 #include <system_error>
 #include <vector>
 
 #include "paim/base/error.h"
 #include "paim/base/version.h"
+#include "paim/cli/help.h"
 
 namespace paim::cli {
 
@@ -26,6 +28,11 @@ bool parse_number(std::string_view text, double& value) {
 }  // namespace
 
 int parse(CLI::App& app, int argc, const char* const* argv) {
+    const auto formatter = std::make_shared<HelpFormatter>();
+    app.formatter(formatter);
+    for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) {
+        command->formatter(formatter);
+    }
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& success) {  // --help, --version
@@ -47,6 +54,25 @@ int parse(CLI::App& app, int argc, const char* const* argv) {
     return -1;
 }
 
+CLI::Validator one_of(std::vector<std::string> names) {
+    const auto check = [names = std::move(names)](std::string& text) -> std::string {
+        if (std::find(names.begin(), names.end(), text) != names.end()) return {};
+        return fmt::format("expected one of {}, got '{}'", fmt::join(names, ", "), text);
+    };
+    return CLI::Validator(check, "");
+}
+
+std::string choice_text(const std::vector<std::string>& names, const std::string& current) {
+    return fmt::format("{{{}}}={}", fmt::join(names, ","), current);
+}
+
+CLI::Option* add_choice(CLI::App& app, const std::string& option, std::string& value,
+                        const std::vector<std::string>& names, const std::string& help) {
+    return app.add_option(option, value, help)
+        ->check(one_of(names))
+        ->option_text(choice_text(names, value));
+}
+
 double parse_fraction(const std::string& text, const std::string& option) {
     std::string_view number = text;
     const bool percent = number.ends_with('%');
@@ -56,6 +82,14 @@ double parse_fraction(const std::string& text, const std::string& option) {
         throw_usage("{}: expected a fraction such as 0.05 or 5%, got '{}'", option, text);
     }
     return percent ? value / 100.0 : value;
+}
+
+double parse_share(const std::string& text, const std::string& option) {
+    const double value = parse_fraction(text, option);
+    if (!(value > 0.0 && value < 1.0)) {
+        throw_usage("{}: expected more than 0 and less than 1 (or 100%), got '{}'", option, text);
+    }
+    return value;
 }
 
 uint64_t parse_bytes(const std::string& text, const std::string& option) {

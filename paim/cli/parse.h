@@ -8,13 +8,15 @@
 #include <cstdint>
 #include <string>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include "paim/base/vector.h"
 
 namespace paim::cli {
 
-// Parses argv. Prints help or version and returns 0, or prints what is wrong and returns
-// ExitCode::usage; returns -1 when the tool should go on.
+// Parses argv. Prints help (help.h) or the version and returns 0, or prints what is wrong and
+// returns ExitCode::usage; returns -1 when the tool should go on.
 int parse(CLI::App& app, int argc, const char* const* argv);
 
 // A check for options: a whole number (or, for floating-point T, a finite one) from lowest to
@@ -35,8 +37,39 @@ CLI::Validator in_range(T lowest, T highest) {
     return CLI::Validator(check, "");
 }
 
+// A check for options: one of the names.
+CLI::Validator one_of(std::vector<std::string> names);
+
+// How the help shows an option with these names and a current one.
+std::string choice_text(const std::vector<std::string>& names, const std::string& current);
+
+// Adds an option that takes one of the names, and shows them with the current value in the help.
+CLI::Option* add_choice(CLI::App& app, const std::string& option, std::string& value,
+                        const std::vector<std::string>& names, const std::string& help);
+
+// The same for an enum: `value` becomes the choice of the name.
+template <typename Value>
+CLI::Option* add_choice(CLI::App& app, const std::string& option, Value& value,
+                        const std::vector<std::pair<std::string, Value>>& choices,
+                        const std::string& help) {
+    std::vector<std::string> names;
+    std::string current;
+    for (const auto& [name, choice] : choices) {
+        names.push_back(name);
+        if (choice == value) current = name;
+    }
+    return app.add_option(option, value, help)
+        ->transform(CLI::CheckedTransformer(choices).description(""))
+        // In front of the other, whose messages list numbers and which takes them, too.
+        ->transform(one_of(names))
+        ->option_text(choice_text(names, current));
+}
+
 // "0.05" or "5%" as 0.05. Throws Error(usage) naming the option unless it is a finite number >= 0.
 double parse_fraction(const std::string& text, const std::string& option);
+
+// The same for a share: more than 0 and less than 1.
+double parse_share(const std::string& text, const std::string& option);
 
 // "1000000", "512M", "1.5G" in bytes: K, M, G and T (or k, m, g, t) are powers of 1000. Throws
 // Error(usage) naming the option unless it is a number from 1 byte to 2^63 bytes; fractions of a

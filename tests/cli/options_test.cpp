@@ -61,6 +61,32 @@ TEST_F(Options, NormalsComeFromFacesOrFile) {
     }
 }
 
+TEST_F(Options, FormerNamesMeanTheSame) {
+    const std::string poses = make_poses("plates", 2, 60);
+    const auto bake = [&](const std::string& name, Arguments options) {
+        const std::string output = path(name + ".bake");
+        options.insert(options.begin(), {"bake", poses, "-o", output, "--bands", "2"});
+        expect_success(compress(options));
+        return contents_of(output);
+    };
+    const std::vector<std::pair<std::string, std::string>> names{
+        {"independent", "per-pose"}, {"shared", "shared"}, {"mixed", "mixed"}};
+    for (const auto& [name, former] : names) {
+        const std::string a = name + "_new", b = name + "_former";
+        const Contents now = bake(a, {"--pose-noise", name, "--noise-target", "30%"});
+        expect_same(now, bake(b, {"--streams", former, "--transfer-error", "30%"}));
+        // Bakes record the former name, so that those of both read alike.
+        EXPECT_EQ(describe(path(a + ".bake"))["streams"], former);
+        EXPECT_EQ(describe(path(a + ".bake"))["transfer_error"], 0.3);
+    }
+    const ToolResult help = compress({"bake", "--help"});
+    EXPECT_NE(help.out.find("--pose-noise {independent,shared,mixed}=independent"),
+              std::string::npos);
+    for (const char* former : {"--streams", "--transfer-error"}) {
+        EXPECT_EQ(help.out.find(former), std::string::npos) << former;
+    }
+}
+
 TEST_F(Options, AlbedoIsGivenOrTheVertexColours) {
     const std::string poses = make_poses("octopus", 1, 1000);
     const Arguments quick{poses,     "-o", path("x.paim"),  "--rays", "2",

@@ -220,8 +220,8 @@ TEST_F(Resume, OtherOptionsAreRefusedByName) {
     refused({"--rays", "16", "--bands", "4"}, "bands: 3 there, 4 asked for)");
     refused(quick({"--seed", "2"}), "seed: 1 there, 2 asked for)");
     refused(quick({"--sampler", "uniform"}), "sampler: cosine there, uniform asked for)");
-    refused(quick({"--streams", "shared"}), "streams: per-pose there, shared asked for)");
-    refused(quick({"--transfer-error", "10%"}), "transfer error: 0 there, 0.1 asked for)");
+    refused(quick({"--pose-noise", "shared"}), "streams: per-pose there, shared asked for)");
+    refused(quick({"--noise-target", "10%"}), "transfer error: 0 there, 0.1 asked for)");
     refused(quick({"--albedo", "0.5"}), "checksum of faces and albedo: ");
     const auto file = directory_ / "plates" / "plates_0002.obj";
     const auto text = read_file(file, 1 << 20);

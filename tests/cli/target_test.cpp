@@ -150,7 +150,7 @@ TEST_F(Target, RefusesWhatMakesNoSense) {
     expect_failure(try_to_encode({"--max-error", "0"}), 1, {"--max-error", "more than 0"});
     expect_failure(try_to_encode({"--max-error", "100%"}), 1, {"--max-error", "less than 1"});
     expect_failure(try_to_encode({"--codec", "cpca"}), 1, {"--codec", "--max-error or --max-size"});
-    expect_failure(try_to_encode({"--geometry-error", "1%"}), 1, {"goes with --max-error"});
+    expect_failure(try_to_encode({"--geometry-error", "1%"}), 1, {"needs --max-error"});
     expect_failure(try_to_encode({"--max-error", "5%", "--transfer-components", "3"}), 1,
                    {"--transfer-components"});
     expect_failure(try_to_encode({"--max-error", "5%", "--light-spectrum", "dim"}), 1, {"dim"});

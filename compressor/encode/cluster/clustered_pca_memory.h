@@ -8,8 +8,7 @@
 
 namespace paim {
 
-// The memory that options.memory_bytes leaves for the Gram matrices of clusters, at least as much as
-// the largest one takes.
+// Memory that options.memory_bytes leaves for Gram matrices of clusters, at least for the largest.
 uint64_t spare_gram_bytes(const PointSource& points, const ClusteringOptions& options);
 
 // Error (unsupported) naming `what` and the memory that is needed if less is allowed.

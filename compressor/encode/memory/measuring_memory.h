@@ -14,7 +14,7 @@ namespace paim {
 uint64_t measuring_memory_bytes(uint64_t file_bytes, uint64_t num_vertices, uint64_t num_poses,
                                 uint64_t scenery_bytes);
 
-// Error (unsupported) naming `what` and the memory that is needed, if that is more than limit_bytes.
+// Error (unsupported), naming `what` and the memory that is needed, if limit_bytes are too few.
 void check_measuring_memory(uint64_t file_bytes, uint64_t num_vertices, uint64_t num_poses,
                             uint64_t scenery_bytes, uint64_t limit_bytes, const std::string& what);
 

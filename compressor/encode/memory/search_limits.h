@@ -14,11 +14,11 @@ constexpr uint32_t kMinPerCluster = 8;
 constexpr std::array<uint32_t, 6> kClusterCounts{32, 64, 128, 256, 512, 1024};
 // Components of one cluster that are kept, at most.
 constexpr uint32_t kMaxSearchedComponents = 32;
-// Components of the subspaces that vertices are assigned to: at first so many, then half or twice as
-// many, if about that number of components will be kept.
+// Components of the subspaces that vertices are assigned to: at first these, then half or twice as
+// many if about that number of components will be kept.
 constexpr uint32_t kFirstAssumedComponents = 8;
 constexpr uint32_t kMaxAssumedComponents = 2 * kFirstAssumedComponents;
-// Clusterings that are kept: two for each number of clusters, of the first and of the second search.
+// Clusterings that are kept: for each number of clusters that of the first and of the second search.
 constexpr uint32_t kMaxClusterings = 2 * kClusterCounts.size();
 
 // Values that steps are tried on, up to twice as many: few enough that a step is found in a moment,

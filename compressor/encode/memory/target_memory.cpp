@@ -59,8 +59,9 @@ struct Need {
         return (size.geometry_components + uint64_t{size.transfer_components}) * poses();
     }
 
-    // The mesh in the order of the bake and of the file, in the problem's shell and in a model. Each
-    // vertex has its number and the vertices that predict it, twice, and its place in the bake.
+    // Four copies of the mesh: in the order of the bake and of the file, in the problem and in a
+    // model. Each vertex has its number and the vertices that predict it, twice, and its place in
+    // the bake.
     uint64_t mesh() const {
         constexpr uint64_t kPredicting = PlanePredictor::kBytesAVertex + sizeof(uint32_t);
         return 4 * mesh_bytes(size.streamed.num_triangles, size.streamed.num_colours) +

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "paim/base/error.h"
+#include "paim/cli/help.h"
 #include "paim/cli/progress.h"
 
 namespace paim::cli {
@@ -58,6 +59,59 @@ TEST(InRange, TakesWholeNumbersOrFiniteOnes) {
     for (const char* bad : {"", "0.49", "2.1", "nan", "inf", "-nan", "1,5"}) {
         EXPECT_EQ(real(bad), fmt::format("expected 0.5 to 2, got '{}'", bad));
     }
+}
+
+TEST(ParseShare, TakesWhatIsBetweenNothingAndAll) {
+    EXPECT_DOUBLE_EQ(parse_share("5%", "--max-error"), 0.05);
+    EXPECT_DOUBLE_EQ(parse_share("0.999", "--max-error"), 0.999);
+    for (const char* bad : {"", "0", "0%", "1", "100%", "-1", "nan"}) {
+        EXPECT_THROW(parse_share(bad, "--max-error"), Error) << bad;
+    }
+}
+
+enum class Fruit : uint32_t { apple, pear };
+
+TEST(AddChoice, TakesNamesAloneAndShowsThem) {
+    const auto choose = [](const std::vector<const char*>& arguments, Fruit& fruit,
+                           std::string& colour) {
+        CLI::App app;
+        add_choice<Fruit>(app, "--fruit", fruit, {{"apple", Fruit::apple}, {"pear", Fruit::pear}},
+                          "What to eat");
+        add_choice(app, "--colour", colour, {"red", "green"}, "Its colour");
+        std::vector<const char*> line{"tool"};
+        line.insert(line.end(), arguments.begin(), arguments.end());
+        app.parse(static_cast<int>(line.size()), line.data());
+        return app.help();
+    };
+    Fruit fruit = Fruit::pear;
+    std::string colour = "green";
+    const std::string help = choose({}, fruit, colour);
+    EXPECT_EQ(fruit, Fruit::pear);
+    EXPECT_NE(help.find("--fruit {apple,pear}=pear"), std::string::npos) << help;
+    EXPECT_NE(help.find("--colour {red,green}=green"), std::string::npos) << help;
+    choose({"--fruit", "apple", "--colour", "red"}, fruit, colour);
+    EXPECT_EQ(fruit, Fruit::apple);
+    EXPECT_EQ(colour, "red");
+    // Neither other names nor the numbers of the values.
+    for (const char* bad : {"plum", "0", "1", "", "Apple"}) {
+        try {
+            choose({"--fruit", bad}, fruit, colour);
+            ADD_FAILURE() << "taken: " << bad;
+        } catch (const CLI::ValidationError& error) {
+            EXPECT_EQ(error.what(),
+                      fmt::format("--fruit: expected one of apple, pear, got '{}'", bad));
+        }
+        EXPECT_EQ(fruit, Fruit::apple);
+    }
+}
+
+TEST(Wrap, BreaksBetweenWordsAndKeepsThemAll) {
+    EXPECT_EQ(wrap("", 10), "");
+    EXPECT_EQ(wrap("one two", 7), "one two");
+    EXPECT_EQ(wrap("one two", 6), "one\ntwo");
+    EXPECT_EQ(wrap("a bb ccc dddd", 4), "a bb\nccc\ndddd");
+    EXPECT_EQ(wrap("a longerthanthat b", 4), "a\nlongerthanthat\nb");
+    EXPECT_EQ(wrap("a\nbb cc", 5), "a\nbb cc");  // breaks of its own start a line
 }
 
 TEST(FormatDuration, ReadsWell) {

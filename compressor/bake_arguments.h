@@ -1,0 +1,33 @@
+// The options of paim-compress that decide what is baked and how.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <optional>
+#include <string>
+
+#include "compressor/options.h"
+
+namespace paim {
+
+// Values whose form is checked after parsing.
+struct BakeArguments {
+    std::string albedo;
+    bool floor = false;
+    std::string floor_albedo;
+    uint32_t floor_vertices = FloorOptions().num_vertices;
+    std::optional<uint32_t> rays;
+    std::string noise_target;
+    std::string transfer_error;  // the former name of noise_target
+};
+
+// Adds the options that most bakes need, for both forms of the command.
+void add_everyday_bake_options(CLI::App& app, CompressOptions& options, BakeArguments& arguments);
+
+// Adds the others. Values go to `options`, or to `arguments` where apply() has to check them.
+void add_bake_options(CLI::App& app, CompressOptions& options, BakeArguments& arguments);
+
+// Error (usage) for values out of range.
+void apply(const BakeArguments& arguments, CompressOptions& options);
+
+}  // namespace paim

@@ -1,0 +1,42 @@
+// The options of paim-compress that decide how a bake is encoded.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <optional>
+#include <string>
+
+#include "compressor/options.h"
+
+namespace paim {
+
+enum class PrecisionChoice : uint32_t { automatic, f32, f16 };
+
+// Values whose form is checked after parsing.
+struct EncodeArguments {
+    std::string max_error, max_size;
+    std::string geometry_error;
+    std::optional<uint32_t> max_decode_cost;
+    CodecChoice codec = CodecChoice::automatic;
+    Preference preference = Preference::size;
+    std::string geometry_components = "auto";
+    std::string transfer_components = "auto";
+    std::string auto_transfer_error = "1%";
+    PrecisionChoice precision = PrecisionChoice::automatic;
+    std::string memory = "1G";
+
+    bool has_target() const { return !max_error.empty() || !max_size.empty(); }
+};
+
+// Adds the options that most files need, for both forms of the command.
+void add_everyday_encode_options(CLI::App& app, CompressOptions& options,
+                                 EncodeArguments& arguments);
+
+// Adds the others. Values go to `options`, or to `arguments` where apply() has to check them.
+void add_encode_options(CLI::App& app, CompressOptions& options, EncodeArguments& arguments);
+
+// Error (usage) for values out of range, for options that need a target where there is none, and for
+// options that a target decides.
+void apply(const EncodeArguments& arguments, CompressOptions& options);
+
+}  // namespace paim
