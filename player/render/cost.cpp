@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "paim/codec/frame_cost.h"
+
 namespace paim::player {
 
 namespace {
