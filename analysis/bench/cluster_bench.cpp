@@ -33,7 +33,7 @@ void cluster(benchmark::State& state, uint32_t num_points, uint32_t num_planes,
         [&] { pca = clustered_pca(points, options); });
     const double energy = all.cast<double>().squaredNorm();
     state.counters["error"] = std::sqrt(pca.squared_error(pca.num_components) / energy);
-    PAIM_CHECK_LE(state.counters["error"], 0.5);
+    PAIM_CHECK_LE(static_cast<double>(state.counters["error"]), 0.5);
 }
 
 BENCHMARK_CAPTURE(cluster, small, 2000, 4, 20, 32)->UseManualTime()->Unit(benchmark::kMillisecond);
