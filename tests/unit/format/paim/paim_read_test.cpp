@@ -122,15 +122,13 @@ TEST(PaimFile, RoundTripsIntegersAndClusters) {
     }
 }
 
-// Whatever a compressed file's bytes are, and even where all checksums are right: an asset that can be
-// played, or a clear error.
 // Files of integers hold them as floats: larger ones could be written, but not read.
 TEST(PaimFile, RefusesSingularValuesThatAreNoFloats) {
     const TemporaryDirectory directory;
-    Model model = packed_example(false);
-    model.geometry.singular_values[0] = 1e39;
+    Asset asset = packed_example(false);
+    asset.moving().positions.singular_values[0] = 1e39;
     try {
-        write_paim(directory / "x.paim", model);
+        write_paim(directory / "x.paim", asset);
         FAIL() << "expected an error";
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ExitCode::bad_input);
@@ -140,6 +138,8 @@ TEST(PaimFile, RefusesSingularValuesThatAreNoFloats) {
     EXPECT_FALSE(std::filesystem::exists(directory / "x.paim"));
 }
 
+// Whatever a compressed file's bytes are, and even where all checksums are right: an asset that can be
+// played, or a clear error.
 TEST(PaimFile, SurvivesAnyByteOfCompressedSections) {
     const TemporaryDirectory directory;
     for (const bool clustered : {false, true}) {
