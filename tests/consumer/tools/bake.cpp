@@ -7,6 +7,7 @@
 #include "compressor/bake/bake_sequence.h"
 #include "compressor/encode/search/target_encode.h"
 #include "paim/base/error.h"
+#include "paim/base/tbb_parallel.h"
 #include "paim/mesh/pose_set.h"
 
 namespace {
@@ -42,6 +43,7 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "usage: paim_bake X.bake X.paim\n");
         return 1;
     }
+    paim::use_tbb();  // else everything runs on this thread alone
     try {
         bake_and_encode(argv[1], argv[2]);
     } catch (const paim::Error& error) {
