@@ -211,7 +211,8 @@ class App {
             info.loading = progress_text(loader_->progress());
         }
         info.num_vertices = scene_->asset->moving().topology.num_vertices;
-        info.num_triangles = static_cast<uint32_t>(scene_->asset->moving().topology.triangles.size());
+        info.num_triangles =
+            static_cast<uint32_t>(scene_->asset->moving().topology.triangles.size());
         info.frame_ms = frame_ms_;
         info.cost = frame_cost(scene_->asset->moving(), view_.limits);
         return info;

@@ -113,7 +113,8 @@ void run_bench(const Options& options, const Scene& scene) {
                    times.min_ms);
     };
     fmt::print("{}\n{} frames of {} x {} samples, {} vertices\n", context->description(),
-               num_frames, target.width(), target.height(), scene.asset->moving().topology.num_vertices);
+               num_frames, target.width(), target.height(),
+               scene.asset->moving().topology.num_vertices);
     const Cost cost = frame_cost(scene.asset->moving(), options.limits);
     fmt::print("{:.3f} MB of textures, {} multiply-adds a vertex, positions included",
                1e-6 * static_cast<double>(renderer.texture_bytes()), cost.multiply_adds);

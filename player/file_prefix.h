@@ -44,7 +44,7 @@ struct LoadedAsset {
     std::shared_ptr<const Asset> asset;
     Bounds bounds;  // of the whole animation, with the components that are there
     LoadProgress progress;
-    bool replaced = false;  // comes from another file than the model before
+    bool replaced = false;  // comes from another file than the asset before
 };
 
 // Reads what the prefix holds, without bounds. Errors as read_paim()'s.

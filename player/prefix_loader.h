@@ -32,14 +32,14 @@ class PrefixLoader {
     PrefixLoader(const PrefixLoader&) = delete;
     PrefixLoader& operator=(const PrefixLoader&) = delete;
 
-    // The first model that can be played. Calls on_wait once if there are not enough bytes for it.
+    // The first asset that can be played. Calls on_wait once if there are not enough bytes for it.
     // Errors as read_paim()'s; bad input if no byte comes for as long as `patience`.
     LoadedAsset wait_for_first(const std::function<void()>& on_wait);
 
-    // The newest model since the last call, if there is one; never waits.
+    // The newest asset since the last call, if there is one; never waits.
     std::optional<LoadedAsset> take();
 
-    // The error since the last call, or empty. Earlier models stay valid, and longer prefixes are still
+    // The error since the last call, or empty. Earlier assets stay valid, and longer prefixes are still
     // read.
     std::string take_error();
 
@@ -47,7 +47,7 @@ class PrefixLoader {
     LoadProgress progress() const;
 
     // Waits for the end of a look at the file that begins after this call: what the file held at the
-    // call has been read by then. Returns at once where no more looks come (the model is complete, or
+    // call has been read by then. Returns at once where no more looks come (the asset is complete, or
     // there will be none).
     void wait_for_look();
 
@@ -72,8 +72,8 @@ class PrefixLoader {
     bool tried_in_vain_ = false;
     std::optional<Bounds> bounds_;    // of it
     uint32_t bounds_components_ = 0;  // of geometry, that they were made with
-    bool replaced_ = false;           // since the last model
-    uint64_t waiting_bytes_ = 0;      // before the first model
+    bool replaced_ = false;           // since the last asset
+    uint64_t waiting_bytes_ = 0;      // before the first asset
     Clock::time_point waiting_since_{};
     std::string last_error_;
 
@@ -81,7 +81,7 @@ class PrefixLoader {
     mutable std::mutex mutex_;
     std::condition_variable_any changed_;
     std::optional<LoadedAsset> newest_;
-    bool started_ = false;          // there has been a model
+    bool started_ = false;          // there has been an asset
     bool waiting_ = false;          // there are not enough bytes for one
     std::optional<Error> failure_;  // there will be none
     std::string error_;

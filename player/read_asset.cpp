@@ -16,10 +16,9 @@ double largest_magnitude(const LowRank& matrix, const StoredValues& values) {
     double largest = 0.0;
     for (uint32_t j = 0; j < matrix.num_planes; ++j) {
         const double step = double{matrix.step(j)};
-        values.for_each(size_t{j} * matrix.num_points, matrix.num_points,
-                        [&](size_t, float value) {
-                            largest = std::max(largest, std::abs(step * double{value}));
-                        });
+        values.for_each(size_t{j} * matrix.num_points, matrix.num_points, [&](size_t, float value) {
+            largest = std::max(largest, std::abs(step * double{value}));
+        });
     }
     return largest;
 }
@@ -69,8 +68,8 @@ void scale_to_unit(Asset& asset) {
     if (largest == 0.0) largest = largest_offset(moving);
     // A still part that is larger than anything must stay finite.
     for (const CodedMesh& part : asset.parts) {
-        largest = std::max(largest,
-                           0x1p-60 * largest_magnitude(part.positions, part.positions.mean));
+        largest =
+            std::max(largest, 0x1p-60 * largest_magnitude(part.positions, part.positions.mean));
     }
     const float scale = unit_scale(largest);
     if (scale == 1.0f) return;

@@ -26,8 +26,8 @@ nlohmann::ordered_json describe_frame(const Options& options, const Scene& scene
     json["transfer_components"] = cost.transfer_components;
     for (const NamedNumber& number : mesh.transfer->numbers()) {
         const bool limited = number.limit != nullptr;
-        json[number.name] = limited ? std::min(*number.value, options.limits.*number.limit)
-                                    : *number.value;
+        json[number.name] =
+            limited ? std::min(*number.value, options.limits.*number.limit) : *number.value;
     }
     json["bands"] = cost.bands;
     json["channels"] = mesh.layout.channels;

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "paim/codec/decode_limits.h"
 #include "paim/codec/asset.h"
+#include "paim/codec/decode_limits.h"
 
 namespace paim::player {
 

@@ -22,8 +22,8 @@ FormatSplit split_of(const LowRank& matrix, uint32_t num_components) {
     return split_by_format(std::span(matrix.components).first(num_components), floats);
 }
 
-DataTexture upload_mean(const std::string& name, const LowRank& matrix,
-                        const PlaneGroups& planes, int width_log2) {
+DataTexture upload_mean(const std::string& name, const LowRank& matrix, const PlaneGroups& planes,
+                        int width_log2) {
     return upload_groups(
         fmt::format("the mean {}", name), format_of(matrix.mean, TexelFormat::rgba32f), width_log2,
         planes.num_vertices, planes.num_groups(),
@@ -45,8 +45,8 @@ DataTexture upload_components(const std::string& name, const LowRank& matrix,
 
 }  // namespace
 
-LowRankTextures::LowRankTextures(std::string name, const LowRank& matrix,
-                                 const PlaneGroups& planes, uint32_t num_components, int width_log2)
+LowRankTextures::LowRankTextures(std::string name, const LowRank& matrix, const PlaneGroups& planes,
+                                 uint32_t num_components, int width_log2)
     : name_(std::move(name)),
       matrix_(matrix),
       num_components_(num_components),

@@ -150,7 +150,8 @@ TEST_F(PrefixPlayTest, WindowSharpensToTheWholeFilesPicture) {
     EXPECT_EQ(save_view(), expected({"--progressive"}));
 
     // The camera stays where the first asset put it until the animation is framed again (F).
-    for (size_t i = 1; i < file_.prefixes.size(); ++i) file_.write_up_to(file_.prefixes[i].size_bytes);
+    for (size_t i = 1; i < file_.prefixes.size(); ++i)
+        file_.write_up_to(file_.prefixes[i].size_bytes);
     const std::vector<char> whole = expected({});
     const auto hung = std::chrono::steady_clock::now() + kHung;
     bool reached = false;

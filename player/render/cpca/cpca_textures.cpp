@@ -103,11 +103,11 @@ CpcaTextures::CpcaTextures(const CodedMesh& mesh, const UploadPlan& plan)
       num_int16_groups_((split_of(clusters_, plan).num_int16 + kGroupSize - 1) / kGroupSize),
       cluster_(upload_indices(clusters_, plan)),
       int16_(upload_coefficients(clusters_, plan, 0, num_int16_groups_,
-                                split_of(clusters_, plan).int16)),
+                                 split_of(clusters_, plan).int16)),
       int8_(upload_coefficients(clusters_, plan, num_int16_groups_, cluster_groups(plan),
-                                  TexelFormat::rgba8i)),
+                                TexelFormat::rgba8i)),
       basis_radiance_("the radiance of bases", TexelFormat::rgba32f, plan.width_log2,
-                int64_t{clusters_.num_clusters} * basis_texels(plan)) {
+                      int64_t{clusters_.num_clusters} * basis_texels(plan)) {
     scratch_.resize(size_t{clusters_.num_clusters} * basis_texels(plan) * kGroupSize);
 }
 
@@ -142,7 +142,7 @@ void CpcaTextures::update_basis_radiance(const Frame& frame, const LightCoeffici
 }
 
 int CpcaTextures::bind(const gl::Program& program, int unit, const Frame& frame,
-                          const LightCoefficients& light) {
+                       const LightCoefficients& light) {
     update_basis_radiance(frame, light);
     program.set_texture("cluster", unit++, cluster_.handle());
     program.set_texture("coefficients_int16", unit++, int16_.handle());

@@ -60,16 +60,16 @@ void SvdTextures::update_light(const LightCoefficients& light, uint32_t bands) {
     scratch_.assign(3 * stride, 0.0f);
     for (uint32_t i = 0; i < static_cast<uint32_t>(sh::num_coefficients(lit_bands)); ++i) {
         for (uint32_t channel = 0; channel < 3; ++channel) {
-            const uint32_t plane =
-                mesh_.layout.plane(mesh_.layout.channels == 3 ? channel : 0, i);
-            scratch_[channel * stride + i] = mesh_.transfer->matrix.step(plane) * light.values[i][channel];
+            const uint32_t plane = mesh_.layout.plane(mesh_.layout.channels == 3 ? channel : 0, i);
+            scratch_[channel * stride + i] =
+                mesh_.transfer->matrix.step(plane) * light.values[i][channel];
         }
     }
     light_.update(scratch_);
 }
 
 int SvdTextures::bind(const gl::Program& program, int unit, const Frame& frame,
-                         const LightCoefficients& light) {
+                      const LightCoefficients& light) {
     const uint32_t bands = std::min(frame.limits.bands, plan_.layout.in_bands);
     update_light(light, bands);
     unit = matrix_.bind(program, unit, frame.time, frame.limits.transfer_components);

@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "compressor/encode/memory/memory_plan.h"
-#include "compressor/encode/search/encoded_file.h"
 #include "compressor/encode/quantise/quantise.h"
+#include "compressor/encode/search/encoded_file.h"
 #include "compressor/encode/search/problem.h"
 #include "paim/base/error.h"
 #include "paim/base/tbb_parallel.h"

@@ -90,7 +90,8 @@ TEST_F(FiniteValues, OfComponentsTimesWeights) {
         component = std::vector<float>(component.size(), -1e20f);
     }
     grow(asset, [](Asset& a) -> std::vector<float>& { return a.moving().positions.weights; });
-    grow(asset, [](Asset& a) -> std::vector<float>& { return a.moving().transfer->matrix.weights; });
+    grow(asset,
+         [](Asset& a) -> std::vector<float>& { return a.moving().transfer->matrix.weights; });
 }
 
 TEST_F(FiniteValues, OfBasesTimesScales) {
