@@ -22,6 +22,8 @@ namespace paim::player {
 
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 constexpr int kWarmUpFrames = 3;
 
 struct Times {
@@ -30,7 +32,6 @@ struct Times {
 };
 
 Times measure(int num_frames, const std::function<void(int)>& draw_frame) {
-    using Clock = std::chrono::steady_clock;
     for (int i = 0; i < std::min(kWarmUpFrames, num_frames); ++i) draw_frame(i);
     std::vector<double> times_ms;
     for (int i = 0; i < num_frames; ++i) {

@@ -42,14 +42,14 @@ std::vector<Vec2d> trace(double offset_rad, Sheet::Side side) {
         const FieldValue value = octopus_body(point.x() * out + point.y() * Vec3d::UnitY());
         return std::pair{value.value, Vec2d(value.gradient.dot(out), value.gradient.y())};
     };
-    constexpr double kStep = 0.005;
+    constexpr double kCurveStep = 0.005;
     std::vector<Vec2d> curve{{0.0, up * crossing(Vec3d::Zero(), up * Vec3d::UnitY(), 5.0)}};
     Vec2d heading(1.0, 0.0);
     while (true) {
         const Vec2d gradient = field(curve.back()).second;
         Vec2d tangent = Vec2d(gradient.y(), -gradient.x()).normalized();
         if (tangent.dot(heading) < 0.0) tangent = -tangent;
-        Vec2d next = curve.back() + kStep * tangent;
+        Vec2d next = curve.back() + kCurveStep * tangent;
         for (int i = 0; i < 4; ++i) {
             const auto [value, slope] = field(next);
             next -= value / slope.squaredNorm() * slope;

@@ -13,7 +13,7 @@ namespace paim {
 
 namespace {
 
-constexpr size_t kVerticesPerPiece = 64;
+constexpr size_t kRowsPerPiece = 64;
 
 // Rows that are kept, and the rest made anew when needed.
 class RowCache {
@@ -24,7 +24,7 @@ class RowCache {
             is_kept_[half].resize(scene.num_vertices, 0);
         }
         std::atomic<uint64_t> used{0};
-        parallel_for(scene.num_vertices, kVerticesPerPiece, [&](size_t begin, size_t end) {
+        parallel_for(scene.num_vertices, kRowsPerPiece, [&](size_t begin, size_t end) {
             TransportRow row;
             for (size_t v = begin; v < end; ++v) {
                 for (size_t half = 0; half < 2; ++half) {
@@ -90,7 +90,7 @@ void gather(const BounceScene& scene, const RowCache& rows, size_t half,
             const std::vector<float>& source, const Use& use) {
     const size_t num_coefficients = scene.layout.num_coefficients();
     const size_t of_channel = (scene.num_vertices + scene.num_scenery_vertices) * num_coefficients;
-    parallel_for(scene.num_vertices, kVerticesPerPiece, [&](size_t begin, size_t end) {
+    parallel_for(scene.num_vertices, kRowsPerPiece, [&](size_t begin, size_t end) {
         TransportRow scratch;
         std::vector<double> sums(num_coefficients);
         for (size_t v = begin; v < end; ++v) {

@@ -12,8 +12,6 @@ namespace paim {
 
 namespace {
 
-constexpr uint32_t kPadding = 16;
-
 // Vector registers on every machine we know (SSE2, NEON); GCC and Clang do arithmetic on them
 // directly. Left to itself GCC 12 keeps this loop scalar, at two and a half times the cost.
 constexpr uint32_t kLanes = 4;
@@ -75,7 +73,7 @@ void orthonormal_basis(const Vec3f& normal, Vec3f& tangent, Vec3f& bitangent) {
 
 CosineDirections::CosineDirections(uint32_t first, uint32_t count)
     : count_(count), points_(first, count) {
-    const uint32_t padded = (count + kPadding - 1) / kPadding * kPadding;
+    const uint32_t padded = DirectionArrays::padded(count);
     points_.reversed_x.resize(padded, 0);
     points_.reversed_y.resize(padded, 0);
 }

@@ -12,6 +12,9 @@ namespace paim {
 // Directions as a structure of arrays, padded with zeros to a multiple of 16.
 struct DirectionArrays {
     std::vector<float> x, y, z;
+
+    // The length of the arrays of this many directions.
+    static constexpr uint32_t padded(uint32_t count) { return (count + 15) / 16 * 16; }
 };
 
 // Directions [first, first + count) of a sequence whose density over the hemisphere is cos θ / π.

@@ -13,8 +13,6 @@ namespace paim {
 
 namespace {
 
-constexpr uint32_t kPadding = 16;
-
 class CosineSampler : public DirectionSampler {
   public:
     CosineSampler(uint32_t first, uint32_t count)
@@ -55,7 +53,7 @@ class UniformSet {
 
     void finish() {
         out_.num_rays = static_cast<uint32_t>(out_.x.size());
-        const size_t padded = (out_.x.size() + kPadding - 1) / kPadding * kPadding;
+        const size_t padded = RaySet::padded(out_.num_rays);
         for (auto* array : {&out_.x, &out_.y, &out_.z, &out_.weights}) array->resize(padded, 0.0f);
     }
 

@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <vector>
 
 #include "paim/base/seed.h"
+#include "tests/float_bits.h"
 
 namespace paim {
 namespace {
@@ -44,12 +44,6 @@ const Mix kMixes[] = {
 };
 
 // As bits, so that 0 and −0 are told apart.
-std::vector<uint32_t> bits(std::span<const float> values) {
-    std::vector<uint32_t> result;
-    for (const float value : values) result.push_back(std::bit_cast<uint32_t>(value));
-    return result;
-}
-
 TEST(Accumulate, IsTheSumItStandsFor) {
     const StoredValues mean(std::vector<int16_t>{100, -200, 300});
     const std::vector<StoredValues> components{StoredValues(std::vector<int8_t>{1, 2, -128}),

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "paim/base/seed.h"
+#include "tests/float_bits.h"
 
 namespace paim {
 namespace {
@@ -43,12 +44,6 @@ Clustered random_clustered(uint32_t num_vertices, uint32_t num_planes, uint32_t 
     for (float& scale : result.scales) scale = static_cast<float>(number(2.0));
     result.rows.resize(result.scales.size() * num_planes);
     for (float& row : result.rows) row = static_cast<float>(number(1.0));
-    return result;
-}
-
-std::vector<uint32_t> bits(std::span<const float> values) {
-    std::vector<uint32_t> result;
-    for (const float value : values) result.push_back(std::bit_cast<uint32_t>(value));
     return result;
 }
 
