@@ -6,12 +6,10 @@
 #include <filesystem>
 #include <span>
 
-#include "paim/base/export.h"
-
 namespace paim {
 
 // Bytes that are read in any order, by several threads at once.
-class PAIM_EXPORT ByteSource {
+class ByteSource {
   public:
     virtual ~ByteSource();
 
@@ -24,7 +22,7 @@ class PAIM_EXPORT ByteSource {
 };
 
 // A file, whole or still growing: its size is that of the moment.
-class PAIM_EXPORT FileSource : public ByteSource {
+class FileSource : public ByteSource {
   public:
     // Opens it. Errors (bad input) name the path: it cannot be opened, or is no regular file.
     explicit FileSource(const std::filesystem::path& path);
@@ -43,7 +41,7 @@ class PAIM_EXPORT FileSource : public ByteSource {
 };
 
 // Bytes in memory, which outlive the source and do not change.
-class PAIM_EXPORT MemorySource : public ByteSource {
+class MemorySource : public ByteSource {
   public:
     explicit MemorySource(std::span<const uint8_t> bytes) : bytes_(bytes) {}
 
