@@ -63,6 +63,31 @@ TEST(SequenceBounds, HoldEveryPose) {
     EXPECT_EQ(single.upper, Vec3f(1, 2, 3));
 }
 
+// A pose of moving_points() takes 3 planes · 2 points · (1 mean + 2 components) = 18 multiply-adds. Pose
+// 1 reaches down to z = -4, all others to 0; pose p reaches x = 1 + p.
+TEST(SequenceBounds, SampleWhatTakesMoreThanTheLimit) {
+    const Asset asset = moving_points(6);
+    const Bounds all = sequence_bounds(asset, 6 * 18);
+    EXPECT_EQ(all.lower, Vec3f(0, 0, -4));
+    EXPECT_EQ(all.upper, Vec3f(6, 2, 3));
+    for (const uint64_t limit : {6 * 18 - 1, 3 * 18}) {  // poses 0, 2, 4 and the last
+        const Bounds sampled = sequence_bounds(asset, limit);
+        EXPECT_EQ(sampled.lower, Vec3f(0, 0, 0)) << limit;
+        EXPECT_EQ(sampled.upper, Vec3f(6, 2, 3)) << limit;
+    }
+    // Two samples and the last at least: of five poses, 0, 3 and 4; of two, both.
+    EXPECT_EQ(sequence_bounds(moving_points(5), 0).upper, Vec3f(5, 2, 3));
+    EXPECT_EQ(sequence_bounds(moving_points(5), 0).lower, Vec3f(0, 0, 0));
+    EXPECT_EQ(sequence_bounds(moving_points(2), 0).lower, Vec3f(0, 0, -4));
+}
+
+// Samples of every n-th pose start at the first.
+TEST(SequenceBounds, SampleTheFirstPose) {
+    Asset asset = moving_points(6);
+    asset.moving().positions.weights[0] = 9.0f;
+    EXPECT_EQ(sequence_bounds(asset, 3 * 18).upper, Vec3f(10, 2, 3));
+}
+
 TEST(SequenceBounds, HoldWhatStandsStillNearBy) {
     Asset asset = moving_points(1);  // from the origin to (1, 2, 3), diagonal √14
     asset.parts.emplace_back().topology.num_vertices = 1;
