@@ -1,4 +1,4 @@
-// What paim-compress bakes: the poses of the OBJ files, their floor and the scenery among them.
+// What paim-compress bakes: the poses of the OBJ files, their floor and the still meshes among them.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@ namespace paim {
 class BakeInput {
   public:
     // Reads and checks every file. Shows progress and prints warnings on stderr.
-    // Errors: those of ObjSequence, PosesOnFloor and StaticMesh; usage for a range of poses that
+    // Errors: those of ObjSequence, PosesOnFloor and StillMesh; usage for a range of poses that
     // does not exist.
     explicit BakeInput(const CompressOptions& options);
 
@@ -32,14 +32,14 @@ class BakeInput {
 
   private:
     void add_floor(const CompressOptions& options);
-    void add_scenery(const CompressOptions& options, const std::string& file);
+    void add_still_mesh(const CompressOptions& options, const std::string& file);
 
     ObjSequence sequence_;
     TopologyReport topology_;  // of the poses without their floor
     uint32_t first_pose_ = 0, last_pose_ = 0;
     std::optional<PosesOnFloor> on_floor_;
     Surroundings surroundings_;
-    std::vector<StaticMeshReport> static_meshes_;
+    std::vector<StillMeshReport> still_meshes_;
 };
 
 }  // namespace paim

@@ -13,8 +13,8 @@
 
 namespace paim {
 
-// What is odd about one file of scenery.
-struct StaticMeshReport {
+// What is odd about the still mesh of one file.
+struct StillMeshReport {
     std::string file;
     TopologyReport topology;
     PoseReport pose;
@@ -30,10 +30,10 @@ struct BakeReport {
     uint32_t channels = 1;  // of the transfer
     std::string floor;      // description; empty if there is none
     double origin_y = 0.0;  // what the floor's height is counted from, scene units
-    uint32_t scenery_vertices = 0;
-    size_t scenery_triangles = 0;
+    uint32_t still_vertices = 0;
+    size_t still_triangles = 0;
     TopologyReport topology;  // of the poses without their floor
-    std::vector<StaticMeshReport> static_meshes;
+    std::vector<StillMeshReport> still_meshes;
     BakeSummary summary;
 
     // Averages over the vertices that have a normal and over the rays; 0 where there are none.

@@ -16,9 +16,9 @@ std::vector<std::string> mesh_warnings(const TopologyReport& report);
 // The same for counts over all poses.
 std::vector<std::string> mesh_warnings(const PoseReport& total);
 
-// Both for a mesh of the scenery; lines begin with its file.
-std::vector<std::string> static_mesh_warnings(const std::string& file, const TopologyReport& report,
-                                              const PoseReport& pose);
+// Both for the still mesh of one file; lines begin with its name.
+std::vector<std::string> still_mesh_warnings(const std::string& file, const TopologyReport& report,
+                                             const PoseReport& pose);
 
 // Each as a line on stderr.
 void print_warnings(const std::vector<std::string>& warnings);

@@ -24,7 +24,7 @@ struct CompressOptions {
     std::string normals = "faces";  // or "file"
     std::optional<Vec3f> albedo;
     std::optional<FloorOptions> floor;
-    std::vector<std::string> statics;  // OBJ files of scenery
+    std::vector<std::string> statics;  // OBJ files of still meshes
     std::string poses;                 // "A-B", empty for all
     bool discard_bake = false;
 

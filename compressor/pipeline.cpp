@@ -34,7 +34,7 @@ ordered_json tell(const CompressOptions& options, const Report& report) {
 // Refuses before a long bake what could not be encoded after it.
 void check_encoding_memory(const CompressOptions& options, const BakeInput& input) {
     const PoseSource& poses = input.poses();
-    const StaticMesh& scenery = input.surroundings().scenery;
+    const StillMesh& still_mesh = input.surroundings().still_mesh;
     const TransferLayout layout = input.layout(options.bake);
     EncodeSize size;
     size.num_triangles = poses.topology().triangles.size();
@@ -43,7 +43,7 @@ void check_encoding_memory(const CompressOptions& options, const BakeInput& inpu
     size.num_threads = static_cast<uint64_t>(max_parallelism());
     size.num_vertices = poses.topology().num_vertices;
     size.bands = layout.in_bands;
-    size.scenery_bytes = scenery_bytes(scenery.topology, scenery.albedo, layout);
+    size.still_mesh_bytes = still_mesh_bytes(still_mesh.topology, still_mesh.albedo, layout);
     const std::string what = options.output.string();
     choose_num_in_flight(encode_size(size, options.encode), options.encode.memory_bytes, what);
     if (options.encode.measure && !options.target) {

@@ -15,7 +15,7 @@ namespace paim::poses {
 
 namespace {
 
-// An edge of a closed mesh with the two faces beside it; `from` < `to`.
+// An edge of a closed mesh with its two faces; `from` < `to`.
 struct Edge {
     uint32_t from, to;
     uint32_t face[2];

@@ -16,7 +16,7 @@ namespace paim::poses {
 void split_longest_edges(uint32_t count, const std::function<double(const Vec3d&)>& fineness,
                          Topology& topology, std::vector<Vec3d>& positions);
 
-// Turns edges within the two faces beside them, where that makes the worse face better by a tenth
+// Turns edges within their two faces, where that makes the worse face better by a tenth
 // and leaves the surface as it is but for a small angle. Goes over all edges `count` times.
 void flip_edges(int count, std::span<const Vec3d> positions, Topology& topology);
 

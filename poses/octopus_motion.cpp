@@ -45,7 +45,7 @@ ArmBend bend(int arm, double s, double phase_rad) {
                         smoothstep(kArmLength + kBeyondTip - kRollLength, 4.2, s) *
                         std::max(std::log(kRollLength / left), 0.0);
     const double aside = 0.2 * (2.0 * variety(arm, 3) - 1.0) * smoothstep(2.6, 4.7, s);
-    // Rolled tips leave their plane, as a corkscrew does, so that they pass beside their own arm.
+    // Rolled tips leave their plane, as a corkscrew does, so that they miss their own arm.
     const double skew = 0.75 * std::min(0.5 * rolled * roll, 1.0);
     return {posture + wave + rolled * roll, sway + aside, skew};
 }

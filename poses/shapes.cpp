@@ -108,7 +108,7 @@ Mesh make_sphere(uint32_t size) {
 void add_square(uint32_t size, const Vec3d& center, const Vec3d& u, const Vec3d& v, Mesh& mesh,
                 Welder<std::array<int, 3>>& welder) {
     const auto vertex = [&](uint32_t i, uint32_t j) {
-        // In halves of a cell, so that coordinates of all six sides of a cube are whole.
+        // In units of half a cell, so that coordinates of all six sides of a cube are whole.
         const Vec3d doubled = center * size + (2.0 * i - size) * u + (2.0 * j - size) * v;
         const Eigen::Vector3i key = doubled.array().round().matrix().cast<int>();
         return welder.vertex({key.x(), key.y(), key.z()}, doubled / size);

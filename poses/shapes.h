@@ -9,7 +9,7 @@
 //          one turn about Y.
 //  plates  Two single square sheets [−1, 1]² at y = ±distance/2, facing each other. From a point of
 //          one, the other blocks what the form factor of a point facing a parallel rectangle says
-//          (plates_blocked). Poses: the distance swings 0.5 … 1.5, beginning with 1.
+//          (plates_blocked). Poses: the distance swings 0.5 … 1.5, starting with 1.
 //  cavity  The cube [−1, 1]³ seen from inside, faces inwards. No vertex sees sky: transfer is 0.
 //          Poses: one turn about Y.
 //  bowl    A single sheet: the lower half of the unit sphere, faces inwards, open at y = 0. The

@@ -35,7 +35,7 @@ class Study {
         bake_.verify_all();
     }
 
-    // Encodes, measures what was written anew, and prints a line.
+    // Encodes, measures the written file again, and prints a line.
     TargetSummary measure(const std::string& name, double error, const Setting& setting,
                           const TargetSummary* paper) const {
         EncodeOptions options;

@@ -43,10 +43,11 @@ double expected_error(const Case& c, Index num_components, const MatrixXf& appro
     const Index poses = c.v.rows();
     const Index vertices = approximation.rows() / static_cast<Index>(c.layout.num_planes());
     const MatrixXf weights = c.v.leftCols(num_components).cast<float>();
-    const MatrixXd kept = orthonormal_pose_space(
+    const MatrixXd span = orthonormal_pose_space(
         {weights.data(), static_cast<size_t>(weights.size())}, static_cast<uint32_t>(poses));
     TransferErrorMeter meter(c.layout, static_cast<uint32_t>(vertices),
-                             static_cast<uint32_t>(poses), BandPower::flat(c.layout.in_bands), kept);
+                             static_cast<uint32_t>(poses), BandPower::flat(c.layout.in_bands),
+                             span);
     for (uint32_t plane = 0; plane < c.layout.num_planes(); ++plane) {
         const Index first = static_cast<Index>(plane) * vertices;
         meter.add(plane, c.baked.transfer.middleRows(first, vertices),

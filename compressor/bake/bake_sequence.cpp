@@ -41,7 +41,7 @@ BakeIdentity bake_identity(const PoseSource& source, const BakeOptions& options,
                            const std::string& normals, const Surroundings& surroundings) {
     BakeIdentity identity;
     identity.baker = kBakerVersion;
-    identity.layout = TransferBaker::bake_layout(options, source.albedo(), surroundings.scenery);
+    identity.layout = TransferBaker::bake_layout(options, source.albedo(), surroundings.still_mesh);
     identity.bounces = options.bounces;
     identity.sampler = sampler_name(options.sampler);
     identity.streams = streams_name(options.streams);
@@ -50,7 +50,7 @@ BakeIdentity bake_identity(const PoseSource& source, const BakeOptions& options,
     identity.seed = options.seed;
     identity.normals = normals;
     identity.floor = surroundings.floor;
-    identity.scenery = surroundings.scenery.sources;
+    identity.still_meshes = surroundings.still_mesh.sources;
     identity.num_vertices = source.topology().num_vertices;
     identity.num_triangles = static_cast<uint32_t>(source.topology().triangles.size());
     identity.mesh_xxh3 = mesh_checksum(source.topology(), source.albedo());
@@ -72,16 +72,16 @@ BakeSummary bake_sequence(const PoseSource& source, const BakeOptions& options,
     PAIM_CHECK_LT(last, source.num_poses());
     const BakeIdentity identity = bake_identity(source, options, normals, surroundings);
     const BakeWriter writer(directory, identity, source.topology(), source.albedo());
-    TransferBaker baker(options, source.albedo(), surroundings.scenery);
+    TransferBaker baker(options, source.albedo(), surroundings.still_mesh);
     const auto lacks = [&](uint32_t p) { return !writer.has_pose(p); };
-    if (const StaticMesh& scenery = surroundings.scenery; !scenery.empty()) {
-        const bool found = writer.has_scenery();
+    if (const StillMesh& still_mesh = surroundings.still_mesh; !still_mesh.empty()) {
+        const bool found = writer.has_still_mesh();
         // Poses need its light where that bounces.
         const auto poses = std::views::iota(first, last + 1);
         const bool needed = options.bounces > 0 && std::any_of(poses.begin(), poses.end(), lacks);
         if (!found || needed) {
-            const BakedPose baked = baker.bake_scenery();
-            if (!found) writer.write_scenery({scenery.topology, scenery.albedo, baked});
+            const BakedPose baked = baker.bake_still_mesh();
+            if (!found) writer.write_still_mesh({still_mesh.topology, still_mesh.albedo, baked});
         }
     }
     ReadAhead ahead(source);

@@ -24,16 +24,17 @@ using BounceTerm = std::array<std::vector<float>, 2>;
 // Those of b = 0 (no bounce) …
 using BounceTerms = std::vector<BounceTerm>;
 
-// What light bounces between: vertices of a mesh and, after them, of scenery whose light is known.
+// What light bounces between: the vertices of a mesh and, after them, those of a still mesh, whose light
+// is known.
 struct BounceScene {
     TransferLayout layout;
     size_t num_vertices = 0;
     Albedo albedo;  // [1] or [V]
-    size_t num_scenery_vertices = 0;
-    Albedo scenery_albedo;  // [1] or [S]
-    const BounceTerms* scenery_terms =
-        nullptr;  // of at least the number of bounces; null: no scenery
-    // Row of one half of a vertex; indices from V on are the scenery's. Called from several
+    size_t num_still_vertices = 0;
+    Albedo still_albedo;  // [1] or [S]
+    const BounceTerms* still_terms =
+        nullptr;  // of at least the number of bounces; null: no still mesh
+    // Row of one half of a vertex; indices from V on are the still mesh's. Called from several
     // threads, possibly more than once for a row, and always with the same answer.
     std::function<void(size_t v, size_t half, TransportRow& row)> make_row;
 };

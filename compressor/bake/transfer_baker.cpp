@@ -63,17 +63,17 @@ using Halves = std::array<SplitEstimate, 2>;
 // The bake of one pose while it lasts.
 class TransferBaker::PoseBake {
   public:
-    // scenery  with scenery_terms, if light bounces
+    // still_mesh  with still_terms, if light bounces
     PoseBake(const TransferBaker& baker, const Topology& topology, const Pose& pose, uint32_t p,
-             const Albedo& albedo, const StaticMesh& scenery)
+             const Albedo& albedo, const StillMesh& still_mesh)
         : baker_(baker),
           options_(baker.options_),
           topology_(topology),
           pose_(pose),
           p_(p),
           albedo_(albedo),
-          scenery_(scenery),
-          scene_(topology, pose.positions, scenery.topology, scenery.pose.positions),
+          still_mesh_(still_mesh),
+          scene_(topology, pose.positions, still_mesh.topology, still_mesh.pose.positions),
           offsets_(ray_offsets(topology, pose.positions)),
           lobe_(cosine_lobe_by_coefficient(options_.bands)),
           num_rays_(topology.num_vertices),
@@ -199,19 +199,19 @@ class TransferBaker::PoseBake {
     // Adds light that bounces to the halves, by the same rays that they were made of.
     void bounce(BounceTerms* terms) {
         Topology topology = topology_;
-        topology.append(scenery_.topology);
+        topology.append(still_mesh_.topology);
         std::vector<Vec3f> positions = pose_.positions;
-        positions.insert(positions.end(), scenery_.pose.positions.begin(),
-                         scenery_.pose.positions.end());
+        positions.insert(positions.end(), still_mesh_.pose.positions.begin(),
+                         still_mesh_.pose.positions.end());
         std::vector<uint32_t> num_back_hits[2];
         for (auto& counts : num_back_hits) counts.resize(topology_.num_vertices, 0);
         BounceScene scene;
         scene.layout = baker_.layout();
         scene.num_vertices = topology_.num_vertices;
         scene.albedo = albedo_;
-        scene.num_scenery_vertices = scenery_.topology.num_vertices;
-        scene.scenery_albedo = scenery_.albedo;
-        scene.scenery_terms = &baker_.scenery_terms_;
+        scene.num_still_vertices = still_mesh_.topology.num_vertices;
+        scene.still_albedo = still_mesh_.albedo;
+        scene.still_terms = &baker_.still_terms_;
         scene.make_row = [&](size_t v, size_t half, TransportRow& row) {
             row.clear();
             if (num_occluded_[v] == 0) return;
@@ -267,7 +267,7 @@ class TransferBaker::PoseBake {
     const Pose& pose_;
     const uint32_t p_;
     const Albedo& albedo_;
-    const StaticMesh& scenery_;
+    const StillMesh& still_mesh_;
     const RayScene scene_;
     const std::vector<float> offsets_;
     const std::vector<double> lobe_;  // [C]
@@ -281,10 +281,10 @@ class TransferBaker::PoseBake {
     uint32_t num_above_target_ = 0;
 };
 
-TransferBaker::TransferBaker(const BakeOptions& options, Albedo albedo, StaticMesh scenery)
+TransferBaker::TransferBaker(const BakeOptions& options, Albedo albedo, StillMesh still_mesh)
     : options_(options),
       albedo_(std::move(albedo)),
-      scenery_(std::move(scenery)),
+      still_mesh_(std::move(still_mesh)),
       batches_(make_batches(options)),
       basis_(static_cast<int>(options.bands)) {
     PAIM_CHECK(options.rays >= 2 && options.rays % 2 == 0);
@@ -292,21 +292,23 @@ TransferBaker::TransferBaker(const BakeOptions& options, Albedo albedo, StaticMe
 }
 
 TransferLayout TransferBaker::bake_layout(const BakeOptions& options, const Albedo& albedo,
-                                          const StaticMesh& scenery) {
-    const bool coloured = is_coloured(albedo) || (!scenery.empty() && is_coloured(scenery.albedo));
+                                          const StillMesh& still_mesh) {
+    const bool coloured =
+        is_coloured(albedo) || (!still_mesh.empty() && is_coloured(still_mesh.albedo));
     return {TransferKind::diffuse, options.bands, options.bounces > 0 && coloured ? 3u : 1u};
 }
 
-BakedPose TransferBaker::bake_scenery() {
-    const StaticMesh nothing;
-    return PoseBake(*this, scenery_.topology, scenery_.pose, kSceneryPose, scenery_.albedo, nothing)
-        .run(&scenery_terms_);
+BakedPose TransferBaker::bake_still_mesh() {
+    const StillMesh nothing;
+    return PoseBake(*this, still_mesh_.topology, still_mesh_.pose, kStillMeshPose,
+                    still_mesh_.albedo, nothing)
+        .run(&still_terms_);
 }
 
 BakedPose TransferBaker::bake(const Topology& topology, const Pose& pose, uint32_t p) const {
     PAIM_CHECK_EQ(pose.positions.size(), topology.num_vertices);
     PAIM_CHECK_EQ(pose.normals.size(), topology.num_vertices);
-    return PoseBake(*this, topology, pose, p, albedo_, scenery_).run(nullptr);
+    return PoseBake(*this, topology, pose, p, albedo_, still_mesh_).run(nullptr);
 }
 
 }  // namespace paim

@@ -10,7 +10,7 @@
 #include "compressor/bake/bake_options.h"
 #include "compressor/bake/bounces.h"
 #include "compressor/bake/direction_sampler.h"
-#include "compressor/scene/static_mesh.h"
+#include "compressor/scene/still_mesh.h"
 #include "paim/format/bake/bake_directory.h"
 #include "paim/mesh/pose_source.h"
 #include "paim/sh/basis.h"
@@ -31,12 +31,13 @@ constexpr uint32_t kBakerVersion = 4;
 // that comes straight from the sky.
 class TransferBaker {
   public:
-    // albedo   of the meshes to bake; used only if light bounces
-    // scenery  also blocks light and bounces it
-    explicit TransferBaker(const BakeOptions& options, Albedo albedo = {}, StaticMesh scenery = {});
+    // albedo      of the meshes to bake; used only if light bounces
+    // still_mesh  also blocks light and bounces it
+    explicit TransferBaker(const BakeOptions& options, Albedo albedo = {},
+                           StillMesh still_mesh = {});
 
-    // Bakes the scenery without the poses. Must be called before bake() if light bounces off it.
-    BakedPose bake_scenery();
+    // Bakes the still mesh without the poses. Must be called before bake() if light bounces off it.
+    BakedPose bake_still_mesh();
 
     // pose     positions [V] finite, normals [V] unit or zero (transfer 0)
     // p        the number of the pose, which keys the random numbers
@@ -44,18 +45,18 @@ class TransferBaker {
     BakedPose bake(const Topology& topology, const Pose& pose, uint32_t p) const;
 
     // Three channels where light bounces off colours, one otherwise.
-    TransferLayout layout() const { return bake_layout(options_, albedo_, scenery_); }
+    TransferLayout layout() const { return bake_layout(options_, albedo_, still_mesh_); }
 
     static TransferLayout bake_layout(const BakeOptions& options, const Albedo& albedo,
-                                      const StaticMesh& scenery);
+                                      const StillMesh& still_mesh);
 
   private:
     class PoseBake;
 
     BakeOptions options_;
     Albedo albedo_;
-    StaticMesh scenery_;
-    BounceTerms scenery_terms_;  // if light bounces
+    StillMesh still_mesh_;
+    BounceTerms still_terms_;  // if light bounces
     // The rays of a half come in batches, one sampler each; one batch if the count is fixed.
     std::vector<std::unique_ptr<DirectionSampler>> batches_;
     sh::BatchBasis basis_;

@@ -14,7 +14,7 @@ struct CacheOrder {
     Topology topology;                 // triangles reordered, and perhaps turned, not mirrored
 };
 
-// Depends on the topology alone: whoever knows the old mesh finds the same order. Vertices without
+// Depends on the topology alone, so that the order can be found again from the old mesh. Vertices without
 // triangles come last, in their old order.
 CacheOrder cache_order(const Topology& topology);
 

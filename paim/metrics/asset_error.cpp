@@ -31,12 +31,12 @@ std::vector<uint32_t> check_same_part(const Asset& asset, size_t number, const B
                                       const BakedPart& baked) {
     const CodedMesh& mesh = asset.parts[number];
     const bool still = number > 0;
-    expect_equal(bake, still ? "vertices of scenery" : "vertices", baked.num_vertices(),
+    expect_equal(bake, still ? "vertices of still meshes" : "vertices", baked.num_vertices(),
                  mesh.topology.num_vertices);
     expect_equal(bake, "poses", baked.num_poses(), mesh.num_poses());
     std::vector<uint32_t> old_vertex = match_vertices(
         mesh.topology, asset.vertex_order, baked.topology(), bake.directory().string(),
-        still ? "triangles of the scenery" : "triangles");
+        still ? "triangles of the still meshes" : "triangles");
     const TransferLayout& layout = bake.identity().layout;
     if (mesh.layout.kind != layout.kind || mesh.layout.in_bands > layout.in_bands ||
         (mesh.layout.channels != 1 && mesh.layout.channels != layout.channels)) {
@@ -115,8 +115,8 @@ AssetError measure_asset(const Asset& asset, const BakeReader& bake, const BandP
     const auto still_vertices = [](const Topology* topology) -> uint64_t {
         return topology == nullptr ? 0 : topology->num_vertices;
     };
-    expect_equal(bake, "vertices of scenery",
-                 still_vertices(bake.scenery() ? &bake.scenery()->topology : nullptr),
+    expect_equal(bake, "vertices of still meshes",
+                 still_vertices(bake.still_mesh() ? &bake.still_mesh()->topology : nullptr),
                  still_vertices(asset.still() ? &asset.still()->topology : nullptr));
     AssetError error{measure_part(asset, 0, bake, spectrum), {}};
     if (asset.still() != nullptr) error.still = measure_part(asset, 1, bake, spectrum);
@@ -130,9 +130,9 @@ std::vector<NamedError> named_errors(const AssetError& error) {
         {"transfer_error", transfer.error, true},
         {"transfer_missing_bands", transfer.missing_bands, true},
         {"transfer_total_error", transfer.total(), true},
-        {"transfer_deviation", transfer.deviation, true},
-        {"transfer_worst_vertex_deviation", transfer.worst_vertex_deviation, true},
-        {"transfer_worst_pose_deviation", transfer.worst_pose_deviation, true},
+        {"transfer_deviation", transfer.error_to_bake, true},
+        {"transfer_worst_vertex_deviation", transfer.worst_vertex_error_to_bake, true},
+        {"transfer_worst_pose_deviation", transfer.worst_pose_error_to_bake, true},
         {"position_rms", geometry.rms(), false},
         {"position_worst", geometry.worst(), false},
         {"position_relative_rms", geometry.relative_rms(), false},
@@ -141,14 +141,14 @@ std::vector<NamedError> named_errors(const AssetError& error) {
         {"e_rms", geometry.e_rms(), false}};
     if (!error.still) return errors;
     const TransferError& still = error.still->transfer;
-    errors.insert(errors.end(),
-                  {{"scenery_transfer_error", still.error, true},
-                   {"scenery_transfer_missing_bands", still.missing_bands, true},
-                   {"scenery_transfer_total_error", still.total(), true},
-                   {"scenery_transfer_deviation", still.deviation, true},
-                   {"scenery_transfer_worst_vertex_deviation", still.worst_vertex_deviation, true},
-                   {"scenery_position_rms", error.still->geometry.rms(), false},
-                   {"scenery_position_worst", error.still->geometry.worst(), false}});
+    errors.insert(errors.end(), {{"scenery_transfer_error", still.error, true},
+                                 {"scenery_transfer_missing_bands", still.missing_bands, true},
+                                 {"scenery_transfer_total_error", still.total(), true},
+                                 {"scenery_transfer_deviation", still.error_to_bake, true},
+                                 {"scenery_transfer_worst_vertex_deviation",
+                                  still.worst_vertex_error_to_bake, true},
+                                 {"scenery_position_rms", error.still->geometry.rms(), false},
+                                 {"scenery_position_worst", error.still->geometry.worst(), false}});
     return errors;
 }
 

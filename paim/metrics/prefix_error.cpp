@@ -122,9 +122,9 @@ PrefixErrors prefix_errors(const CodedMesh& mesh, const std::optional<ErrorState
     }
     const ComponentEnergy transfer = component_energy(mesh, Attribute::transfer, weights);
     // The bake's norm: what was decoded of it and what was not are orthogonal.
-    const double deviation =
+    const double error_to_bake =
         transfer_error ? stated(whole, "transfer_deviation").value_or(0.0) : 0.0;
-    const double share = deviation < 1.0 ? 1.0 - deviation * deviation : 1.0;
+    const double share = error_to_bake < 1.0 ? 1.0 - error_to_bake * error_to_bake : 1.0;
     const ComponentEnergy geometry = component_energy(mesh, Attribute::geometry, {1.0, 1.0, 1.0});
     const double num_positions =
         static_cast<double>(mesh.topology.num_vertices) * static_cast<double>(mesh.num_poses());

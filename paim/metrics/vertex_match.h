@@ -12,7 +12,7 @@
 namespace paim {
 
 // [V] the bake's vertex that each of the file's is.
-// what  is named in errors: "triangles", "triangles of the scenery"
+// what  is named in errors: "triangles", "triangles of the still meshes"
 // Errors: bad input, naming the bake, if the triangles are others.
 std::vector<uint32_t> match_vertices(const Topology& of_file, VertexOrder order,
                                      const Topology& of_bake, const std::string& bake,

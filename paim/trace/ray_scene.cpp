@@ -136,16 +136,16 @@ RayScene::RayScene(const Topology& topology, std::span<const Vec3f> positions)
     : RayScene(topology, positions, {}, {}) {}
 
 RayScene::RayScene(const Topology& topology, std::span<const Vec3f> positions,
-                   const Topology& scenery, std::span<const Vec3f> scenery_positions)
+                   const Topology& still_mesh, std::span<const Vec3f> still_positions)
     : impl_(std::make_unique<Impl>()) {
     PAIM_CHECK_EQ(positions.size(), topology.num_vertices);
-    PAIM_CHECK_EQ(scenery_positions.size(), scenery.num_vertices);
+    PAIM_CHECK_EQ(still_positions.size(), still_mesh.num_vertices);
     impl_->scene = rtcNewScene(impl_->device.handle());
     rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(impl_->scene, RTC_BUILD_QUALITY_HIGH);
-    impl_->scale = embree_scale(positions, scenery_positions);
+    impl_->scale = embree_scale(positions, still_positions);
     impl_->attach(0, topology, positions);
-    impl_->attach(1, scenery, scenery_positions);
+    impl_->attach(1, still_mesh, still_positions);
     impl_->first_triangle[1] = static_cast<uint32_t>(topology.triangles.size());
     rtcCommitScene(impl_->scene);
     impl_->device.throw_if_failed();

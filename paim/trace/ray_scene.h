@@ -32,8 +32,8 @@ class RayScene {
     RayScene(const Topology& topology, std::span<const Vec3f> positions);
 
     // The same with a second mesh. Its triangles are counted on from the first one's.
-    RayScene(const Topology& topology, std::span<const Vec3f> positions, const Topology& scenery,
-             std::span<const Vec3f> scenery_positions);
+    RayScene(const Topology& topology, std::span<const Vec3f> positions, const Topology& still_mesh,
+             std::span<const Vec3f> still_positions);
     ~RayScene();
     RayScene(const RayScene&) = delete;
     RayScene& operator=(const RayScene&) = delete;

@@ -36,7 +36,7 @@ struct BasisTable {
 
     uint32_t num_planes = 0;
     uint32_t padded_planes = 0;
-    // [rows][padded planes], from a cache line's beginning: vectors that straddle two lines cost twice
+    // [rows][padded planes], from the start of a cache line: vectors that straddle two lines cost twice
     std::vector<float, LineAllocator<float>> values;
 
     // Takes rows times their scales. Reuses what the table holds.

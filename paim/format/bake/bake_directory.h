@@ -39,7 +39,7 @@ struct BakeIdentity {
         bool operator==(const Source&) const = default;
     };
     std::vector<Source> poses;    // [P]
-    std::vector<Source> scenery;  // what stands still among them, checksums of all that was read
+    std::vector<Source> still_meshes;  // checksums of all bytes that were read for them
 
     uint32_t num_poses() const { return static_cast<uint32_t>(poses.size()); }
     bool operator==(const BakeIdentity&) const = default;
@@ -65,11 +65,11 @@ inline uint64_t baked_pose_bytes(uint64_t num_vertices, const TransferLayout& la
     return (6 + 2 * uint64_t{layout.num_planes()}) * num_vertices * sizeof(float);
 }
 
-// The number of the scenery where poses have theirs: in random streams and in metadata.
-constexpr uint32_t kSceneryPose = std::numeric_limits<uint32_t>::max();
+// The pose number of the still meshes in random streams and in metadata.
+constexpr uint32_t kStillMeshPose = std::numeric_limits<uint32_t>::max();
 
-// What stands still among the poses, baked once, without them.
-struct BakedScenery {
+// The still meshes among the poses as one mesh, baked once, without the poses.
+struct BakedStillMesh {
     Topology topology;
     Albedo albedo;
     BakedPose pose;
@@ -80,10 +80,10 @@ struct BakedScenery {
 PoseStatistics read_bake_statistics(const std::filesystem::path& directory,
                                     uint64_t identity_checksum, uint32_t p, uint32_t bands);
 
-// The scenery of a bake. Errors (bad input) name the file: missing, damaged, of another bake, or
+// Reads the still meshes of a bake. Errors (bad input) name the file: missing, damaged, of another bake, or
 // shapes, indices or numbers that make no sense.
-BakedScenery read_bake_scenery(const std::filesystem::path& directory, uint64_t identity_checksum,
-                               const TransferLayout& layout);
+BakedStillMesh read_bake_still_mesh(const std::filesystem::path& directory,
+                                    uint64_t identity_checksum, const TransferLayout& layout);
 
 // Writes a bake, possibly one that was begun before.
 class BakeWriter {
@@ -104,9 +104,9 @@ class BakeWriter {
     // All or nothing; may be called from several threads.
     void write_pose(uint32_t p, const BakedPose& pose) const;
 
-    // The same for the scenery of a bake whose identity names some.
-    bool has_scenery() const;
-    void write_scenery(const BakedScenery& scenery) const;
+    // The same for the still meshes of a bake whose identity names some.
+    bool has_still_mesh() const;
+    void write_still_mesh(const BakedStillMesh& still_mesh) const;
 
   private:
     std::filesystem::path directory_;
@@ -127,7 +127,7 @@ class BakeReader {
     uint32_t num_poses() const { return identity_.num_poses(); }
 
     // Nothing if the bake has none.
-    const std::optional<BakedScenery>& scenery() const { return scenery_; }
+    const std::optional<BakedStillMesh>& still_mesh() const { return still_mesh_; }
 
     // Reads every byte of pose p and checks it. May be called from several threads.
     BakedPose read_pose(uint32_t p) const;
@@ -156,10 +156,10 @@ class BakeReader {
     uint64_t identity_checksum_;
     Topology topology_;
     Albedo albedo_;
-    std::optional<BakedScenery> scenery_;
+    std::optional<BakedStillMesh> still_mesh_;
 };
 
 std::filesystem::path bake_pose_file(const std::filesystem::path& directory, uint32_t p);
-std::filesystem::path bake_scenery_file(const std::filesystem::path& directory);
+std::filesystem::path bake_still_mesh_file(const std::filesystem::path& directory);
 
 }  // namespace paim

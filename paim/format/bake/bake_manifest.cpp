@@ -85,7 +85,7 @@ std::string manifest_text(const BakeIdentity& identity) {
         poses.push_back({{"name", pose.name}, {"xxh3", hex(pose.xxh3)}});
     }
     json["poses"] = std::move(poses);
-    for (const auto& source : identity.scenery) {
+    for (const auto& source : identity.still_meshes) {
         json["static"].push_back({{"name", source.name}, {"xxh3", hex(source.xxh3)}});
     }
     return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
@@ -136,12 +136,13 @@ BakeIdentity read_manifest(const std::filesystem::path& path) {
                                     parse_hex(source.text("xxh3"), file, "xxh3")};
     };
     for (const nlohmann::json& entry : *poses) identity.poses.push_back(source_of(entry));
-    const auto scenery = metadata.root().find("static");
-    if (scenery == metadata.root().end()) return identity;
-    if (!scenery->is_array() || scenery->empty()) {
+    const auto still_meshes = metadata.root().find("static");
+    if (still_meshes == metadata.root().end()) return identity;
+    if (!still_meshes->is_array() || still_meshes->empty()) {
         throw_bad_input("{}: 'static': expected a list of at least one file", file);
     }
-    for (const nlohmann::json& entry : *scenery) identity.scenery.push_back(source_of(entry));
+    for (const nlohmann::json& entry : *still_meshes)
+        identity.still_meshes.push_back(source_of(entry));
     return identity;
 }
 
@@ -165,13 +166,13 @@ std::string first_difference(const BakeIdentity& there, const BakeIdentity& want
           differ("triangles", there.num_triangles, wanted.num_triangles),
           differ("poses", there.num_poses(), wanted.num_poses()),
           differ("origin", shown(there.origin), shown(wanted.origin)),
-          differ("static files", there.scenery.size(), wanted.scenery.size()),
+          differ("static files", there.still_meshes.size(), wanted.still_meshes.size()),
           differ("checksum of faces and albedo", hex(there.mesh_xxh3), hex(wanted.mesh_xxh3))}) {
         if (!difference.empty()) return difference;
     }
     const std::string difference = first_difference("pose", there.poses, wanted.poses);
     if (!difference.empty()) return difference;
-    return first_difference("static file", there.scenery, wanted.scenery);
+    return first_difference("static file", there.still_meshes, wanted.still_meshes);
 }
 
 uint64_t identity_checksum(const BakeIdentity& identity) {

@@ -38,7 +38,7 @@ std::string pose_metadata(uint64_t bake, uint32_t p, const PoseStatistics& stati
 
 // Whether nothing is here but what comes before the manifest: this bake is being begun by another
 // process just now, or was killed while it began.
-bool holds_only_a_beginning(const std::filesystem::path& directory) {
+bool is_only_started(const std::filesystem::path& directory) {
     for (const auto& entry : std::filesystem::directory_iterator(directory)) {
         const std::string name = entry.path().filename().string();
         if (name != "mesh.bin" && name != "manifest.json" && !is_temporary_name(name)) return false;
@@ -87,7 +87,7 @@ uint64_t mesh_checksum(const Topology& topology, const Albedo& albedo) {
     return hash.digest();
 }
 
-std::filesystem::path bake_scenery_file(const std::filesystem::path& directory) {
+std::filesystem::path bake_still_mesh_file(const std::filesystem::path& directory) {
     return directory / "scenery.bin";
 }
 
@@ -99,7 +99,7 @@ BakeWriter::BakeWriter(std::filesystem::path directory, const BakeIdentity& iden
                        const Topology& topology, const Albedo& albedo)
     : directory_(std::move(directory)), identity_(identity) {
     for (auto& source : identity_.poses) source.name = as_manifest_text(source.name);
-    for (auto& source : identity_.scenery) source.name = as_manifest_text(source.name);
+    for (auto& source : identity_.still_meshes) source.name = as_manifest_text(source.name);
     identity_checksum_ = identity_checksum(identity_);
     const std::filesystem::path manifest = directory_ / "manifest.json";
     if (std::filesystem::exists(manifest)) {
@@ -108,7 +108,7 @@ BakeWriter::BakeWriter(std::filesystem::path directory, const BakeIdentity& iden
             throw_bad_input("{}: holds another bake ({}); choose another output or remove it",
                             directory_.string(), difference);
         }
-    } else if (std::filesystem::is_directory(directory_) && !holds_only_a_beginning(directory_)) {
+    } else if (std::filesystem::is_directory(directory_) && !is_only_started(directory_)) {
         throw_bad_input("{}: is not empty and not a bake (no manifest.json)", directory_.string());
     }
     ensure_directory(directory_);
@@ -130,10 +130,10 @@ bool BakeWriter::has_pose(uint32_t p) const {
     }
 }
 
-bool BakeWriter::has_scenery() const {
-    if (!std::filesystem::exists(bake_scenery_file(directory_))) return false;
+bool BakeWriter::has_still_mesh() const {
+    if (!std::filesystem::exists(bake_still_mesh_file(directory_))) return false;
     try {
-        read_bake_scenery(directory_, identity_checksum_, identity_.layout);
+        read_bake_still_mesh(directory_, identity_checksum_, identity_.layout);
         return true;
     } catch (const Error&) {
         return false;
@@ -151,19 +151,19 @@ void BakeWriter::write_pose(uint32_t p, const BakedPose& pose) const {
     writer.commit();
 }
 
-void BakeWriter::write_scenery(const BakedScenery& scenery) const {
-    const uint32_t num_vertices = scenery.topology.num_vertices;
+void BakeWriter::write_still_mesh(const BakedStillMesh& still_mesh) const {
+    const uint32_t num_vertices = still_mesh.topology.num_vertices;
     const uint32_t num_planes = identity_.layout.num_planes();
-    PAIM_CHECK_EQ(scenery.pose.transfer.size(), size_t{num_planes} * num_vertices);
-    PAIM_CHECK_EQ(scenery.pose.noise.size(), scenery.pose.transfer.size());
+    PAIM_CHECK_EQ(still_mesh.pose.transfer.size(), size_t{num_planes} * num_vertices);
+    PAIM_CHECK_EQ(still_mesh.pose.noise.size(), still_mesh.pose.transfer.size());
     const std::string metadata =
-        pose_metadata(identity_checksum_, kSceneryPose, scenery.pose.statistics);
+        pose_metadata(identity_checksum_, kStillMeshPose, still_mesh.pose.statistics);
     std::vector<SectionPlan> specs = pose_specs(metadata, num_vertices, num_planes);
-    specs.push_back(triangles_spec(scenery.topology));
-    specs.push_back(albedo_spec(scenery.albedo));
-    ContainerWriter writer(bake_scenery_file(directory_), section::kKindMesh, specs);
-    append_pose(writer, metadata, scenery.pose);
-    append_mesh(writer, 5, 6, scenery.topology, scenery.albedo);
+    specs.push_back(triangles_spec(still_mesh.topology));
+    specs.push_back(albedo_spec(still_mesh.albedo));
+    ContainerWriter writer(bake_still_mesh_file(directory_), section::kKindMesh, specs);
+    append_pose(writer, metadata, still_mesh.pose);
+    append_mesh(writer, 5, 6, still_mesh.topology, still_mesh.albedo);
     writer.commit();
 }
 

@@ -26,12 +26,12 @@ class BakedPart {
 
   private:
     const BakeReader& bake_;
-    const BakedScenery* still_;  // or nullptr
+    const BakedStillMesh* still_;  // or nullptr
 };
 
 // 1, or 2 with something that stands still.
 inline size_t num_baked_parts(const BakeReader& bake) {
-    return bake.scenery() ? 2 : 1;
+    return bake.still_mesh() ? 2 : 1;
 }
 
 }  // namespace paim

@@ -18,7 +18,8 @@ struct PoseStatistics {
     uint32_t above_target = 0;  // vertices still above the transfer error asked for
     // [bands] over the vertices, channels and coefficients of a band.
     std::vector<double> transfer_rms;
-    std::vector<double> noise_rms;  // estimated standard error of the transfer, from its halves
+    std::vector<double>
+        noise_rms;  // standard error of the transfer, estimated from the two halves of the rays
     PoseReport mesh{};              // 0 in bakes from before it was counted
     // Rays whose light would have bounced off the back of a face: it did not.
     uint64_t back_hits = 0;

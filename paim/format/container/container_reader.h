@@ -33,8 +33,8 @@ class ContainerReader {
     const std::vector<Section>& sections() const { return sections_; }
     // Of the bytes that were there when the reader was made.
     uint64_t file_size_bytes() const { return file_size_bytes_; }
-    // What messages call the source: the path of a file.
-    const std::string& path() const { return name_; }
+    // The source in messages: the path of a file, or the name given for bytes in memory.
+    const std::string& name() const { return name_; }
 
     // Whether all bytes of the section are there; reading one that is not is an error.
     bool holds(const Section& section) const {
@@ -47,7 +47,7 @@ class ContainerReader {
     // The same, of this type; an error if there is none.
     const Section& require(Tag tag, ScalarType type, uint32_t index = 0) const;
 
-    // The stored bytes of a section, its checksum verified, for whoever knows its codec.
+    // The stored bytes of a section, its checksum verified, for code that decodes them itself.
     std::vector<uint8_t> read_stored(const Section& section) const;
 
     // All values of the section, its checksum verified. Errors: bad input if it holds another type,

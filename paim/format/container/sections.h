@@ -33,7 +33,7 @@ constexpr Tag kStillTransfer("STRN");   // f32, i16 or i8 [planes][S]
 constexpr Tag kStillPositionSteps("SPST");
 constexpr Tag kStillTransferSteps("STST");
 
-// .bake poses and scenery.
+// .bake poses and still meshes.
 constexpr Tag kPositions("POSN");  // f32 [3][V]
 constexpr Tag kNormals("NRML");    // f32 [3][V]
 constexpr Tag kTransfer("TRNF");   // f32 [planes][V]

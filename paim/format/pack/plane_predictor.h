@@ -16,8 +16,8 @@ namespace paim {
 // What a value is predicted to be. Files hold these numbers.
 enum class Prediction : uint8_t {
     none = 0,            // zero
-    mean = 1,            // the mean over the latest neighbours, rounded to nearest, halves up
-    parallelograms = 2,  // the mean of two neighbours' values, each plus its slope, halves up
+    mean = 1,            // the mean over the latest neighbours, rounded to nearest, ties up
+    parallelograms = 2,  // the mean of two neighbours' values, each plus its slope, ties up
 };
 
 // Neighbours of vertices among those before them.

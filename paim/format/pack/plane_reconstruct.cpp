@@ -63,7 +63,7 @@ __attribute__((always_inline)) inline Vector mean_of_four(const Vector& a, const
     return mean_of_two(ab, cd) - (((a ^ b) | (c ^ d)) & (ab ^ cd) & 1);
 }
 
-// a0 b0 a1 b1 … of their lower or their higher halves.
+// Interleaves the lower or the higher halves of both registers: a0 b0 a1 b1 …
 #if defined(__SSE2__)
 __attribute__((always_inline)) inline Bytes interleave_low(const Bytes& a, const Bytes& b) {
     return Bytes(_mm_unpacklo_epi8(__m128i(a), __m128i(b)));

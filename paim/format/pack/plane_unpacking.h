@@ -9,7 +9,7 @@
 
 namespace paim {
 
-// Values in a tile. A tile starts at the beginning of a byte for every magnitude.
+// Values in a tile. The packed bits of a tile start at a whole byte, whatever the magnitude.
 constexpr size_t kTileValues = 240;
 // How many values unpack_symbols() may write past those it was asked for.
 constexpr size_t kTilePadding = 8;

@@ -30,7 +30,7 @@ Prefix find_prefix(const ContainerReader& reader) {
     });
     if (next == prefixes.begin()) {
         throw_bad_input("{}: cut short: {} bytes, expected at least the {} that can be played",
-                        reader.path(), reader.file_size_bytes(), next->size_bytes);
+                        reader.name(), reader.file_size_bytes(), next->size_bytes);
     }
     return *std::prev(next);
 }
@@ -138,7 +138,7 @@ Extent extent_of(const ReadOptions& options) {
 Asset read_asset(const ContainerReader& reader) {
     const Prefix prefix = find_prefix(reader);
     const Metadata metadata(reader.read_text(reader.require(section::kMetadata, ScalarType::u8)),
-                            reader.path());
+                            reader.name());
     Asset asset;
     asset.frames_per_second = static_cast<float>(metadata.number("frames_per_second", 1e-3, 1e6));
     asset.origin = metadata.point("origin");

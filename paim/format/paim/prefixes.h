@@ -10,7 +10,7 @@
 namespace paim {
 
 struct Prefix {
-    uint64_t size_bytes = 0;  // from the beginning of the file
+    uint64_t size_bytes = 0;  // from the start of the file
     uint32_t geometry_components = 0;
     uint32_t transfer_components = 0;
 

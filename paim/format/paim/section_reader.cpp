@@ -161,13 +161,13 @@ void check_singular_values(const ContainerReader& reader, const LowRank& matrix)
     for (const double s : matrix.singular_values) {
         if (!(s >= 0.0 && s <= previous && std::isfinite(s))) {
             throw_bad_input("{}: singular values: expected finite, descending numbers, got {}",
-                            reader.path(), s);
+                            reader.name(), s);
         }
         previous = s;
     }
     if (matrix.singular_values.size() < matrix.num_components) {
         throw_bad_input("{}: {} singular values, expected at least the {} components'",
-                        reader.path(), matrix.singular_values.size(), matrix.num_components);
+                        reader.name(), matrix.singular_values.size(), matrix.num_components);
     }
 }
 
@@ -194,7 +194,7 @@ struct AllowedTypes {
 const Section& find_section(const ContainerReader& reader, const TableRow& row) {
     const Section* const section = reader.find(row.tag, row.index);
     if (section == nullptr) {
-        throw_bad_input("{}: section {} {} is missing", reader.path(), row.tag.str(), row.index);
+        throw_bad_input("{}: section {} {} is missing", reader.name(), row.tag.str(), row.index);
     }
     const std::vector<ScalarType> types = std::visit(AllowedTypes(), row.values);
     if (std::find(types.begin(), types.end(), section->spec.type) == types.end()) {
@@ -292,7 +292,7 @@ PlanePredictor make_predictor(const ContainerReader& reader, const Topology& top
     const uint64_t most =
         most_bytes_of_values(reader.file_size_bytes()) / PlanePredictor::kBytesAVertex;
     if (topology.num_vertices > most) {
-        throw_bad_input("{}: {} vertices, expected at most {} in a file of {} bytes", reader.path(),
+        throw_bad_input("{}: {} vertices, expected at most {} in a file of {} bytes", reader.name(),
                         topology.num_vertices, most, reader.file_size_bytes());
     }
     return PlanePredictor(topology);
@@ -420,7 +420,7 @@ void check_magnitudes(const ContainerReader& reader, const CodedMesh& mesh) {
                 throw_bad_input(
                     "{}: {}: means, components and weights decode to numbers of up to {:.3g}, "
                     "expected at most {:.3g}",
-                    reader.path(), what, bound * gain, kMax);
+                    reader.name(), what, bound * gain, kMax);
             }
         }
     };

@@ -137,7 +137,7 @@ std::vector<TableRow> section_table(Asset& asset) {
 }
 
 std::vector<TableRow> section_table(const Asset& asset) {
-    // Rows point to what reading fills; whoever has only a constant asset does not write through them.
+    // Rows point to what reading fills; code that has only a constant asset does not write through them.
     return section_table(const_cast<Asset&>(asset));
 }
 

@@ -1,5 +1,5 @@
-// Scenery: meshes that stand still among the poses.
-#include "compressor/scene/static_mesh.h"
+// Still meshes among the poses, which block their light and bounce it.
+#include "compressor/scene/still_mesh.h"
 
 #include <filesystem>
 #include <limits>
@@ -23,7 +23,7 @@ uint64_t checksum(const PoseSource& source, const Pose& pose) {
 
 }  // namespace
 
-void StaticMesh::add(const PoseSource& source) {
+void StillMesh::add(const PoseSource& source) {
     const Pose own = source.load_pose(0);
     const uint32_t num_own = source.topology().num_vertices;
     const std::string name = source.pose_name(0);

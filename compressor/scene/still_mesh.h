@@ -1,4 +1,4 @@
-// Scenery: meshes that stand still among the poses.
+// Still meshes among the poses, which block their light and bounce it.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace paim {
 
-// Several still meshes as one.
-struct StaticMesh {
+// All still meshes as one.
+struct StillMesh {
     Topology topology;
     Albedo albedo;
     Pose pose;
