@@ -16,7 +16,7 @@ namespace paim {
 
 namespace {
 
-// all, then the others that are less, largest first, each once.
+// `all`, then those of the others that are smaller, in descending order without repetitions.
 std::vector<uint32_t> settings(uint32_t all, const std::vector<uint32_t>& others) {
     std::set<uint32_t, std::greater<>> values{all};
     for (const uint32_t value : others) {
@@ -25,16 +25,16 @@ std::vector<uint32_t> settings(uint32_t all, const std::vector<uint32_t>& others
     return {values.begin(), values.end()};
 }
 
-// The size of the asset's file if it kept only this.
+// Size of the asset's file within the limits.
 uint64_t limited_size_bytes(const Asset& asset, const DecodeLimits& limits) {
     Asset limited = asset;
     keep_within(limits, limited);
     return paim_size_bytes(limited);
 }
 
-// all        how many there are
+// all        number of components or bands
 // spectrum   singular values, or norms of coefficients; the first size(value) of them are kept
-// limit      the limit that a setting is
+// limit      the member of DecodeLimits that a setting sets
 template <typename Size>
 Curve plan_curve(const Asset& asset, const char* name, const char* title, uint32_t all,
                  const std::vector<uint32_t>& others, std::span<const double> spectrum,

@@ -1,4 +1,4 @@
-// The scene that is measured.
+// The scene of measurements.
 #include "analysis/stage.h"
 
 #include <fmt/format.h>
@@ -21,7 +21,7 @@ std::vector<NamedLight> load_lights(const std::vector<std::filesystem::path>& en
                                     uint32_t bands) {
     std::vector<NamedLight> lights;
     const auto add = [&](const std::string& stem, Image image) {
-        // Maps of the same name from two folders stay two lights.
+        // Maps of the same name from different folders need different names.
         std::string name = stem;
         for (int copy = 2; std::any_of(lights.begin(), lights.end(),
                                        [&](const NamedLight& l) { return l.name == name; });
@@ -102,7 +102,7 @@ std::vector<Image> Stage::render_pose(const DecodedPose& pose) const {
         const LightCoefficients& light = lights_[j].coefficients;
         shade(pose.layout, pose.transfer, bake_.albedo(), light, radiance[j]);
         if (!bake_.still_mesh()) continue;
-        // With as many bands as the pose has.
+        // Light in as many bands as the pose has.
         LightCoefficients kept = light;
         kept.bands = std::min(light.bands, static_cast<int>(pose.layout.in_bands));
         std::vector<Vec3f> still;

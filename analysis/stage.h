@@ -1,4 +1,4 @@
-// The scene that is measured: lights, camera and poses.
+// The scene of measurements: lights, camera and poses.
 #pragma once
 
 #include <filesystem>
@@ -46,11 +46,12 @@ class Stage {
     std::vector<NamedLight> lights_;
     int size_pixels_;
     Bounds pose_bounds_;  // of all poses, scene units
-    // Of what is rendered: cameras of huge scenes would stand beyond the range of floats.
+    // Scale of the rendered scene. The camera of a huge scene would otherwise be beyond the range
+    // of floats.
     float scale_;
     Camera camera_;  // of the scaled scene
     std::vector<uint32_t> poses_;
-    Topology topology_;                   // of the poses and, after them, of what stands still
+    Topology topology_;                   // of the poses and, after them, of the still meshes
     std::vector<Vec3f> still_positions_;  // scaled
 };
 

@@ -1,4 +1,4 @@
-// Whether a .paim is within the errors that it states.
+// Checks that a .paim is within the errors that it states.
 #include "analysis/verify.h"
 
 #include <fmt/format.h>
@@ -16,14 +16,14 @@ namespace paim {
 
 namespace {
 
-// Of what is stated: other compilers and processors may round otherwise.
+// Relative tolerance: other compilers and processors may round differently.
 constexpr double kRounding = 1e-6;
 
 struct Comparison {
     NamedError measured;
     std::optional<double> stated;
 
-    // Written so that what is not a number is never within.
+    // Written so that NaN is never within.
     bool within() const { return !stated || measured.value <= *stated * (1.0 + kRounding); }
 };
 

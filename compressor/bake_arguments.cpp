@@ -1,4 +1,4 @@
-// The options of paim-compress that decide what is baked and how.
+// The bake options of paim-compress.
 #include "compressor/bake_arguments.h"
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ namespace paim {
 
 namespace {
 
-// The default of --rays where they are a limit, not a fixed count.
+// The default of --rays with --noise-target, where it is a limit.
 constexpr uint32_t kMaxRays = 16384;
 
 void add_input_options(CLI::App& app, CompressOptions& options, BakeArguments& arguments) {

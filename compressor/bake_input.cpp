@@ -1,4 +1,4 @@
-// What paim-compress bakes: the poses of the OBJ files, their floor and the still meshes among them.
+// The input of a bake of paim-compress: poses from OBJ files, their floor, and still meshes.
 #include "compressor/bake_input.h"
 
 #include <memory>
@@ -20,7 +20,7 @@ bool is_quiet(const CompressOptions& options) {
 
 ObjSequence open_sequence(const CompressOptions& options) {
     const auto files = find_obj_files(options.inputs, options.keep_order);
-    // Shared, as the sequence keeps the callback.
+    // Shared, because the sequence keeps the callback.
     const auto checking =
         std::make_shared<cli::Progress>("checking", "files", files.size(), is_quiet(options));
     ObjOptions obj_options;

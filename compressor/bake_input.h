@@ -1,4 +1,4 @@
-// What paim-compress bakes: the poses of the OBJ files, their floor and the still meshes among them.
+// The input of a bake of paim-compress: poses from OBJ files, their floor, and still meshes.
 #pragma once
 
 #include <memory>
@@ -24,10 +24,10 @@ class BakeInput {
     uint32_t first_pose() const { return first_pose_; }
     uint32_t last_pose() const { return last_pose_; }  // inclusive
 
-    // Of the planes that baking makes.
+    // The layout of the planes of the bake.
     TransferLayout layout(const BakeOptions& options) const;
 
-    // What reports say of the input; everything that baking finds out is missing.
+    // A report about the input, without the results of baking.
     BakeReport report() const;
 
   private:

@@ -1,4 +1,4 @@
-// What paim-compress says of a bake, to people and to programs.
+// The report of paim-compress about a bake, as text and as JSON.
 #include "compressor/bake_report.h"
 
 #include <fmt/format.h>

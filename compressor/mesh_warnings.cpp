@@ -1,4 +1,4 @@
-// What paim-compress says about what is odd in a mesh.
+// Warnings of paim-compress about oddities of a mesh.
 #include "compressor/mesh_warnings.h"
 
 #include <fmt/format.h>

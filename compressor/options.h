@@ -31,7 +31,7 @@ struct CompressOptions {
     // Encode.
     std::filesystem::path bake_directory;  // of `encode`
     EncodeOptions encode;
-    std::optional<EncodeTarget> target;  // without its spectrum
+    std::optional<EncodeTarget> target;  // without its band power
     std::string band_power = "flat";     // or "natural" or a file
 
     std::filesystem::path output;

@@ -1,4 +1,4 @@
-// What paim-compress does, step by step.
+// The steps of paim-compress.
 #include "compressor/pipeline.h"
 
 #include <fmt/format.h>
@@ -24,14 +24,14 @@ using nlohmann::ordered_json;
 
 namespace {
 
-// Prints the report as text unless JSON is wanted, which is printed when all is done.
+// Prints the report as text, unless JSON is wanted, which is printed at the end.
 template <typename Report>
 ordered_json tell(const CompressOptions& options, const Report& report) {
     if (!options.json) fmt::print("{}", report_text(report));
     return report_json(report);
 }
 
-// Refuses before a long bake what could not be encoded after it.
+// Error, before a long bake, if its result could not be encoded in the memory allowed.
 void check_encoding_memory(const CompressOptions& options, const BakeInput& input) {
     const PoseSource& poses = input.poses();
     const StillMesh& still_mesh = input.surroundings().still_mesh;
@@ -88,7 +88,7 @@ TargetReport encode_target(const CompressOptions& options, const EncodeOptions& 
     return {options.output, encode_to_target(reader, encode_options, target, options.output, say)};
 }
 
-// Before anything long begins.
+// Checks the option before long work starts.
 void check_band_power(const CompressOptions& options, uint32_t bands) {
     if (options.target) parse_band_power(options.band_power, bands);
 }

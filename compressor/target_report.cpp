@@ -1,4 +1,4 @@
-// What paim-compress says of a file that meets a target.
+// The report of paim-compress about a file that meets a target.
 #include "compressor/target_report.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// What a .paim file or a .bake directory holds.
+// Describes a .paim file or a .bake directory.
 #include "analysis/info/describe.h"
 
 #include <fmt/format.h>
@@ -104,7 +104,7 @@ ordered_json describe_bake(const std::filesystem::path& path) {
     return json;
 }
 
-// In full where that is short, as coordinates of an origin are.
+// All digits if they are few, as those of an origin are.
 std::string number_text(double value) {
     std::string exact = fmt::format("{}", value);
     return exact.size() <= 10 ? exact : fmt::format("{:.5g}", value);

@@ -1,4 +1,4 @@
-// What encoding does to the noise of a bake.
+// The effect of encoding on the noise of a bake.
 // Based on: Gavish and Donoho, Optimal Shrinkage of Singular Values, 2017
 #include <fmt/format.h>
 
@@ -38,7 +38,8 @@ struct Case {
     VectorXd singular_values;
 };
 
-// The error from the truth that is expected from the bake alone, relative to the truth as Truth's is.
+// The error to the truth that is expected from the bake alone, relative to the truth like the
+// errors of Truth.
 double expected_error(const Case& c, Index num_components, const MatrixXf& approximation) {
     const Index poses = c.v.rows();
     const Index vertices = approximation.rows() / static_cast<Index>(c.layout.num_planes());

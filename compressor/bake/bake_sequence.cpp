@@ -12,7 +12,7 @@ namespace paim {
 
 namespace {
 
-// Reads a pose while another one is baked, for reading keeps one core busy and the others idle.
+// Reads a pose while another one is baked, because reading uses one core only.
 class ReadAhead {
   public:
     explicit ReadAhead(const PoseSource& source) : source_(source) {}
@@ -23,7 +23,7 @@ class ReadAhead {
         pose_ = std::async(std::launch::async, [this, p] { return source_.load_pose(p); });
     }
 
-    // Pose p, whether it was started or not. Errors: those of the source.
+    // Returns pose p, whether reading it was started or not. Errors: those of the source.
     Pose take(uint32_t p) {
         if (pose_.valid() && pose_number_ == p) return pose_.get();
         return source_.load_pose(p);
@@ -56,7 +56,7 @@ BakeIdentity bake_identity(const PoseSource& source, const BakeOptions& options,
     identity.mesh_xxh3 = mesh_checksum(source.topology(), source.albedo());
     identity.origin = source.origin();
     for (uint32_t p = 0; p < source.num_poses(); ++p) {
-        // The file's name alone, so that a bake does not depend on where the poses lie.
+        // The name without its folder, so that a bake does not depend on the place of the files.
         const std::string name = std::filesystem::path(source.pose_name(p)).filename().string();
         identity.poses.push_back({name, source.pose_checksum(p)});
     }
@@ -76,7 +76,7 @@ BakeSummary bake_sequence(const PoseSource& source, const BakeOptions& options,
     const auto lacks = [&](uint32_t p) { return !writer.has_pose(p); };
     if (const StillMesh& still_mesh = surroundings.still_mesh; !still_mesh.empty()) {
         const bool found = writer.has_still_mesh();
-        // Poses need its light where that bounces.
+        // Poses need the light of the still meshes if it bounces.
         const auto poses = std::views::iota(first, last + 1);
         const bool needed = options.bounces > 0 && std::any_of(poses.begin(), poses.end(), lacks);
         if (!found || needed) {

@@ -1,4 +1,5 @@
-// Bakes a whole sequence into a .bake directory, pose by pose. Resumes where an earlier run stopped.
+// Bakes a whole sequence into a .bake directory, pose by pose. Resumes where an earlier run
+// stopped.
 #pragma once
 
 #include <filesystem>
@@ -24,7 +25,7 @@ struct Surroundings {
     StillMesh still_mesh;  // blocks and bounces the poses' light; baked once, without the poses
 };
 
-// Everything that decides the bytes of this bake.
+// The identity of this bake: everything that decides its bytes.
 BakeIdentity bake_identity(const PoseSource& source, const BakeOptions& options,
                            const std::string& normals, const Surroundings& surroundings = {});
 

@@ -70,7 +70,9 @@ void outgoing(const BounceScene& scene, const std::vector<float>& own,
     }
 }
 
-// Σ weight · values over the hits of a row. values [V + S][C], sums [C]
+// Sums weight · values over the hits of a row.
+// values  [V + S][C]
+// sums    [C]
 void sum_hits(const TransportRow& row, const float* values, std::vector<double>& sums) {
     std::fill(sums.begin(), sums.end(), 0.0);
     for (const HitWeight& hit : row) {
@@ -82,9 +84,9 @@ void sum_hits(const TransportRow& row, const float* values, std::vector<double>&
     }
 }
 
-// What comes to all vertices of what goes out.
+// Gathers the outgoing light at all vertices by their rows.
 // source  [channels][V + S][C]
-// use     (channel, v, i, value), from several threads, each of its own vertices
+// use     is called with (channel, v, i, value), by several threads for different vertices
 template <typename Use>
 void gather(const BounceScene& scene, const RowCache& rows, size_t half,
             const std::vector<float>& source, const Use& use) {

@@ -23,9 +23,9 @@ namespace paim {
 namespace {
 
 constexpr size_t kVerticesPerPiece = 64;
-// Points of a half in the first batch towards an error target: two packets of rays.
+// Points of a half in the first batch with a noise target: two packets of rays.
 constexpr uint32_t kFirstBatch = 32;
-// Sums that may be kept between batches; a larger mesh is baked part by part. 256 MB.
+// Number of sums that are kept between batches, 256 MB. A larger mesh is baked in pieces.
 constexpr size_t kMaxSums = size_t{1} << 25;
 
 std::vector<std::unique_ptr<DirectionSampler>> make_batches(const BakeOptions& options) {
@@ -35,7 +35,7 @@ std::vector<std::unique_ptr<DirectionSampler>> make_batches(const BakeOptions& o
         batches.push_back(make_sampler(options.sampler, 0, num_points));
         return batches;
     }
-    // Up to powers of two, where the points are a net, and half-way between them.
+    // Batches end at powers of two, where the points are a net, and half-way between these.
     uint32_t end = kFirstBatch;
     for (uint32_t first = 0; first < num_points;
          end += std::has_single_bit(end) ? end / 2 : end / 3) {
@@ -60,7 +60,7 @@ using Halves = std::array<SplitEstimate, 2>;
 
 }  // namespace
 
-// The bake of one pose while it lasts.
+// The state of baking one pose.
 class TransferBaker::PoseBake {
   public:
     // still_mesh  with still_terms, if light bounces
@@ -83,7 +83,7 @@ class TransferBaker::PoseBake {
         for (auto& half : halves_) half.resize(lobe_.size() * topology.num_vertices, 0.0f);
     }
 
-    // terms  of the bounces, if they are asked for
+    // terms  receives those of the bounces, unless nullptr
     BakedPose run(BounceTerms* terms) {
         if (options_.transfer_error > 0.0) {
             bake_to_target();
@@ -110,7 +110,8 @@ class TransferBaker::PoseBake {
     bool has_normal(size_t v) const { return !pose_.normals[v].isZero(0.0f); }
     Vec3f ray_origin(size_t v) const { return pose_.positions[v] + offsets_[v] * pose_.normals[v]; }
 
-    // Traces another batch of a vertex's rays; adds them up only where their sums can matter.
+    // Traces another batch of a vertex's rays. Adds them up only if the result depends on their
+    // sums.
     void shoot(size_t v, const DirectionSampler& batch, bool is_only_batch, Halves& halves,
                Workspace& work) const {
         const Vec3f& normal = pose_.normals[v];
@@ -128,7 +129,7 @@ class TransferBaker::PoseBake {
         for (size_t h = 0; h < 2; ++h) work.tracers[h].add(halves[h]);
     }
 
-    // Writes what the halves say so far.
+    // Writes the estimates of both halves from their present sums.
     void estimate(size_t v, const Halves& halves, Workspace& work) {
         std::span<const double> unoccluded;
         if (options_.sampler == SamplerKind::cosine) {
@@ -196,7 +197,7 @@ class TransferBaker::PoseBake {
         num_above_target_ += static_cast<uint32_t>(active.size());
     }
 
-    // Adds light that bounces to the halves, by the same rays that they were made of.
+    // Adds bounced light to the estimates of the halves, by the same rays.
     void bounce(BounceTerms* terms) {
         Topology topology = topology_;
         topology.append(still_mesh_.topology);
@@ -233,7 +234,8 @@ class TransferBaker::PoseBake {
         }
     }
 
-    // The halves become their mean and half their difference.
+    // Turns the estimates of the halves into transfer (their mean) and noise (half their
+    // difference).
     BakedPose finish() {
         BakedPose baked;
         baked.positions = to_planes(pose_.positions);
@@ -271,7 +273,7 @@ class TransferBaker::PoseBake {
     const RayScene scene_;
     const std::vector<float> offsets_;
     const std::vector<double> lobe_;  // [C]
-    // [planes][V] the estimates of both halves; until light bounces of one channel
+    // [planes][V] the estimates of both halves; of one channel until bounced light is added
     std::array<std::vector<float>, 2> halves_;
     std::vector<uint64_t> num_rays_;      // [V]
     std::vector<uint64_t> num_occluded_;  // [V]

@@ -18,25 +18,25 @@
 
 namespace paim {
 
-// Raised whenever the same options give different bytes, so that bakes of different builds do not
-// mix.
+// Raised whenever the same options give other bytes, so that results of different builds are not
+// mixed.
 constexpr uint32_t kBakerVersion = 4;
 
-// Every vertex traces its rays in two halves with random numbers of their own (split_estimate.h). The
-// mean of their estimates is the transfer. Half their difference is its noise: one draw with the
-// variance of the error, up to O(1/N²), and uncorrelated with it. With a fixed count all rays of a
-// vertex are traced at once. With a noise target they are traced in batches, a third to a half of all
-// before, until the noise of its neighbours (noise_target.h) says that the vertex is below the target.
-// Light that bounces is added to the halves afterwards (bounces.h): the target is one for the light
-// that comes straight from the sky.
+// Every vertex traces its rays in two halves with random numbers of their own (split_estimate.h).
+// The mean of their estimates is the transfer. Half their difference is its noise: one draw with
+// the variance of the error, up to O(1/N²), and uncorrelated with it. With a fixed count all rays
+// of a vertex are traced at once. With a noise target they are traced in batches, each a third to a
+// half as large as all before it, until the vertex is below the target by the noise of its
+// neighbours (noise_target.h). Bounced light is added to the halves afterwards (bounces.h). The
+// target is for light straight from the sky.
 class TransferBaker {
   public:
-    // albedo      of the meshes to bake; used only if light bounces
+    // albedo      of the meshes to bake; only used if light bounces
     // still_mesh  also blocks light and bounces it
     explicit TransferBaker(const BakeOptions& options, Albedo albedo = {},
                            StillMesh still_mesh = {});
 
-    // Bakes the still mesh without the poses. Must be called before bake() if light bounces off it.
+    // Bakes the still mesh without the poses. If light bounces, it must be called before bake().
     BakedPose bake_still_mesh();
 
     // pose     positions [V] finite, normals [V] unit or zero (transfer 0)
@@ -44,7 +44,7 @@ class TransferBaker {
     // Deterministic on any number of threads. Errors: those of RayScene.
     BakedPose bake(const Topology& topology, const Pose& pose, uint32_t p) const;
 
-    // Three channels where light bounces off colours, one otherwise.
+    // Three channels if light bounces off colours, otherwise one.
     TransferLayout layout() const { return bake_layout(options_, albedo_, still_mesh_); }
 
     static TransferLayout bake_layout(const BakeOptions& options, const Albedo& albedo,

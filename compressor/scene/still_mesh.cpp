@@ -11,7 +11,7 @@ namespace paim {
 
 namespace {
 
-// Of everything that shapes light.
+// Checksum of everything that changes light: faces, albedo, positions and normals.
 uint64_t checksum(const PoseSource& source, const Pose& pose) {
     const uint64_t mesh = mesh_checksum(source.topology(), source.albedo());
     StreamingHash hash;
@@ -31,7 +31,7 @@ void StillMesh::add(const PoseSource& source) {
         throw_bad_input("{}: {} vertices are too many to add to {}", name, num_own,
                         topology.num_vertices);
     }
-    // The name alone, so that a bake does not depend on where the files lie.
+    // The name without its folder, so that a bake does not depend on the place of the files.
     sources.push_back({std::filesystem::path(name).filename().string(), checksum(source, own)});
     if (empty()) {
         albedo = source.albedo();

@@ -11,14 +11,14 @@ namespace paim {
 
 namespace {
 
-// The bounds of the moving part, enlarged by those of the still parts as far as `diagonals` times the
-// diagonal of the former around them.
+// The bounds of the moving part, enlarged by those of the still parts as far as `diagonals` times
+// the diagonal of the former around them.
 Bounds with_still(const Bounds& bounds, const Bounds& still, double diagonals) {
     if (still.empty()) return bounds;
     Bounds all = bounds;
     all.extend(still);
     const double reach = diagonals * static_cast<double>(bounds.diagonal());
-    if (!(reach > 0.0)) return all;  // the animation is a point: everything that stands still
+    if (!(reach > 0.0)) return all;  // the moving part is a point: all still parts count
     const Vec3d around = Vec3d::Constant(reach);
     all.lower = all.lower.cwiseMax((bounds.lower.cast<double>() - around).cast<float>());
     all.upper = all.upper.cwiseMin((bounds.upper.cast<double>() + around).cast<float>());
@@ -33,7 +33,7 @@ Bounds still_bounds(const Asset& asset) {
     return bounds;
 }
 
-// Decodes the part that moves, keeping its memory from pose to pose.
+// Bounds of poses of the moving part; keeps its memory from pose to pose.
 class MovingBounds {
   public:
     explicit MovingBounds(const LowRank& positions) : positions_(positions) {}

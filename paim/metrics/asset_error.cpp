@@ -1,4 +1,4 @@
-// A compressed animation, whatever its codec, against the bake it was made from.
+// Errors of a compressed animation to the bake that it was made from.
 #include "paim/metrics/asset_error.h"
 
 #include <limits>
@@ -26,7 +26,7 @@ void expect_equal(const BakeReader& bake, const char* what, uint64_t expected, u
                     bake.directory().string(), expected, what, got);
 }
 
-// Which vertex of the bake each vertex of the file is.
+// [V] The vertex of the bake for each vertex of the file.
 std::vector<uint32_t> check_same_part(const Asset& asset, size_t number, const BakeReader& bake,
                                       const BakedPart& baked) {
     const CodedMesh& mesh = asset.parts[number];
@@ -156,7 +156,7 @@ std::string error_statement_json(const AssetError& error, const BandPower& spect
     nlohmann::ordered_json json;
     json["light_spectrum"] = spectrum.name;
     for (const NamedError& named : named_errors(error)) json[named.name] = named.value;
-    // File names may have bytes that are not UTF-8.
+    // Names of files may have bytes that are not UTF-8, which are replaced.
     return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 

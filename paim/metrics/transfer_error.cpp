@@ -1,4 +1,4 @@
-// How far a decoded transfer is from the bake, and how far it is expected to be from the truth.
+// Errors of a decoded transfer to the bake, and expected errors to the truth.
 // Based on: Efron 2004 (see the header)
 #include "paim/metrics/transfer_error.h"
 
@@ -37,9 +37,9 @@ size_t find_worst(const Values& values) {
     return worst;
 }
 
-// Class of a row by the share g of its movement that the decoder lets through. Classes are steps of √2 of
-// the odds g / (1 − g), from 2^-4 to 2^8. The decoder lets noise through by the same shares. They are
-// Wiener factors, whose odds are the ratio of signal to noise of a vertex and component.
+// Class of a row by the share g of its movement that the decoder lets through. Classes are steps of
+// √2 of the odds g / (1 − g), from 2^-4 to 2^8. The decoder lets noise through by the same shares.
+// They are Wiener factors, whose odds are the ratio of signal to noise of a vertex and component.
 // decoded, baked  [K' - 1] coordinates of the row along the span without the constant
 Index passing_class(const VectorXd& decoded, const VectorXd& baked) {
     const double passing = decoded.dot(baked);
@@ -93,7 +93,8 @@ TransferErrorMeter::RowSums TransferErrorMeter::measure_rows(Index first, Index 
                                                              double weight, const Plane& baked,
                                                              const Plane& noise,
                                                              const Plane& decoded) {
-    // [P][rows]: each row of the data is a column here, so that both products read contiguous values.
+    // [P][rows]: each row of the data is a column here, so that both products read contiguous
+    // values.
     const MatrixXd x = baked.middleRows(first, count).transpose().cast<double>();
     const MatrixXd d = noise.middleRows(first, count).transpose().cast<double>();
     const MatrixXd x_hat = decoded.middleRows(first, count).transpose().cast<double>();
@@ -175,7 +176,8 @@ TransferError TransferErrorMeter::result() const {
         for (Index j = 0; j < sums.baked.size(); ++j) {
             const double all = sums.baked(j);
             const double share = all > 0.0 ? sums.decoded_baked(j) / all : 0.0;
-            // Sums along the complement of the span are differences; rounding can make them negative.
+            // Sums along the complement of the span are differences; rounding can make them
+            // negative.
             band.noise_covariance += std::clamp(share, 0.0, 1.0) * std::max(0.0, sums.noise(j));
         }
         const double weight = spectrum_.weight(l);

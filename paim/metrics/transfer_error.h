@@ -1,4 +1,4 @@
-// How far a decoded transfer is from the bake, and how far it is expected to be from the truth.
+// Errors of a decoded transfer to the bake, and expected errors to the truth.
 // Based on: Efron, The Estimation of Prediction Error: Covariance Penalties and Cross-Validation,
 //           2004 (docs/metrics.md)
 #pragma once
@@ -14,8 +14,9 @@
 
 namespace paim {
 
-// The letters are those of docs/metrics.md: x is the baked transfer, x̂ the decoded, t the true one, and d
-// the stored noise. Each is a vector of all values, over vertices, poses, channels and coefficients.
+// The letters are those of docs/metrics.md: x is the baked transfer, x̂ the decoded, t the true
+// one, and d the stored noise. Each is a vector of all values, over vertices, poses, channels and
+// coefficients.
 
 // Sums of squares over all values of a band, not weighted by the light.
 struct TransferBandEnergy {
@@ -31,13 +32,15 @@ struct TransferBandEnergy {
     }
 };
 
-// All errors are relative to ‖x‖_β, the norm of the bake's transfer weighted by the light's band power.
+// All errors are relative to ‖x‖_β, the norm of the bake's transfer weighted by the light's band
+// power.
 struct TransferError {
     double error_to_bake = 0.0;  // ‖x̂ − x‖_β / ‖x‖_β
     double bake_noise = 0.0;     // expected error of the bake to the truth: ‖d‖_β / ‖x‖_β
     double error = 0.0;          // expected error to the truth in the bake's bands
     double missing_bands = 0.0;  // light in bands that the bake does not have, extrapolated
-    // Largest error to the bake of one vertex (pose), relative to the RMS of ‖x‖_β over vertices (poses).
+    // Largest error to the bake of one vertex (pose), relative to the RMS of ‖x‖_β over vertices
+    // (poses).
     double worst_vertex_error_to_bake = 0.0;
     uint32_t worst_vertex = 0;
     double worst_pose_error_to_bake = 0.0;
@@ -58,20 +61,21 @@ class TransferErrorMeter {
     TransferErrorMeter(const TransferLayout& layout, uint32_t num_vertices, uint32_t num_poses,
                        BandPower spectrum, Eigen::MatrixXd span);
 
-    // Call it once for every plane of the bake (checked). Planes in the same order give the same bits
-    // on any number of threads.
-    // noise    BakedPose::noise: one draw with the variance of the bake's error, uncorrelated with it
+    // Call it once for every plane of the bake (checked). Planes in the same order give the same
+    // bits on any number of threads.
+    // noise    BakedPose::noise: one draw with the variance of the bake's error, uncorrelated with
+    //          it
     // decoded  zero in bands that the file does not have
     void add(uint32_t plane, const Plane& baked, const Plane& noise, const Plane& decoded);
 
     // The errors; call it after all planes (checked).
     TransferError result() const;
 
-    // The share of the noise that the decoder lets through is measured in so many classes of rows. Rows
-    // of one class have about the same share.
+    // The share of the noise that the decoder lets through is measured in so many classes of rows.
+    // Rows of one class have about the same share.
     static constexpr Eigen::Index kNumClasses = 25;
 
-    // Memory of add() and of the sums over the rows of its blocks.
+    // Memory of add(), with the sums over the rows of its blocks.
     // span_size  K'
     static uint64_t scratch_bytes(uint64_t num_poses, uint64_t span_size, uint64_t num_threads);
 

@@ -22,7 +22,7 @@ constexpr uint32_t kManifestVersion = 2;
 constexpr uint32_t kMaxCount = std::numeric_limits<int32_t>::max();
 constexpr uint64_t kMaxSizeBytes = 64 << 20;
 
-// 64-bit numbers travel as 16 hexadecimal digits, since JSON readers may round them.
+// 64-bit numbers are 16 hexadecimal digits, because JSON readers may round numbers.
 std::string hex(uint64_t value) {
     return fmt::format("{:016x}", value);
 }
@@ -40,7 +40,7 @@ std::string shown(const Vec3d& point) {
     return fmt::format("({}, {}, {})", point.x(), point.y(), point.z());
 }
 
-// Of two lists of the same length.
+// The first difference of two lists of the same length, in words; empty if there is none.
 std::string first_difference(const char* what, const std::vector<BakeIdentity::Source>& there,
                              const std::vector<BakeIdentity::Source>& wanted) {
     for (size_t j = 0; j < wanted.size(); ++j) {
@@ -78,7 +78,7 @@ std::string manifest_text(const BakeIdentity& identity) {
     json["num_vertices"] = identity.num_vertices;
     json["num_triangles"] = identity.num_triangles;
     json["mesh_xxh3"] = hex(identity.mesh_xxh3);
-    // JSON numbers are written with all the digits that bring the same double back.
+    // JSON numbers are written with enough digits to read the same double.
     if (const Vec3d& o = identity.origin; !o.isZero(0.0)) json["origin"] = {o.x(), o.y(), o.z()};
     ordered_json poses = ordered_json::array();
     for (const auto& pose : identity.poses) {

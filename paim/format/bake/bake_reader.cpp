@@ -57,7 +57,7 @@ PoseStatistics read_statistics_of(const ContainerReader& reader, uint64_t identi
     return statistics;
 }
 
-// What read_pose() checks, without the whole section in memory.
+// The checks of read_pose(), without the whole section in memory.
 void verify_planes(const ContainerReader& reader, const Section& section) {
     reader.verify(section);
     constexpr uint64_t kPiece = 1 << 18;  // 1 MB
@@ -73,7 +73,7 @@ void verify_planes(const ContainerReader& reader, const Section& section) {
 }  // namespace
 
 BakeReader::BakeReader(std::filesystem::path directory) : directory_(std::move(directory)) {
-    // "x.bake/" is x.bake, also where its name is asked for.
+    // The path "x.bake/" has no filename; "x.bake" has one.
     if (!directory_.has_filename()) directory_ = directory_.parent_path();
     if (!std::filesystem::is_directory(directory_)) {
         throw_bad_input("{}: expected a .bake directory, got {}", directory_.string(),
@@ -105,7 +105,7 @@ BakeReader::BakeReader(std::filesystem::path directory) : directory_(std::move(d
         throw_bad_input("{}: {} of {} poses are missing, the first is {}; bake them first",
                         directory_.string(), num_missing, num_poses(), first_missing);
     }
-    // The manifest's count of vertices is believed only once a file holds that many.
+    // Before memory is taken for the manifest's number of vertices, a pose must have as many.
     const ContainerReader pose(bake_pose_file(directory_, 0), section::kKindPose);
     read_statistics_of(pose, identity_checksum_, 0, identity_.layout.in_bands);
     require_planes(pose, section::kPositions, 3, identity_.num_vertices);

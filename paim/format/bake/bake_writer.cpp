@@ -36,8 +36,8 @@ std::string pose_metadata(uint64_t bake, uint32_t p, const PoseStatistics& stati
     return json.dump(2) + "\n";
 }
 
-// Whether nothing is here but what comes before the manifest: this bake is being begun by another
-// process just now, or was killed while it began.
+// Whether the directory has only files that are written up to the manifest: another process is
+// starting the bake now, or was killed while it did.
 bool is_only_started(const std::filesystem::path& directory) {
     for (const auto& entry : std::filesystem::directory_iterator(directory)) {
         const std::string name = entry.path().filename().string();
@@ -59,7 +59,7 @@ std::vector<SectionPlan> pose_specs(const std::string& metadata, uint32_t num_ve
         SectionSpec{section::kNoise, ScalarType::f16, 0, {1, num_planes, num_vertices}}};
 }
 
-// Fills the sections of pose_specs(), which come first.
+// Fills the sections of pose_specs(), which are the first ones.
 void append_pose(ContainerWriter& writer, const std::string& metadata, const BakedPose& pose) {
     writer.append(0, metadata.data(), metadata.size());
     writer.append(1, std::span(pose.positions));
@@ -113,7 +113,7 @@ BakeWriter::BakeWriter(std::filesystem::path directory, const BakeIdentity& iden
     }
     ensure_directory(directory_);
     remove_abandoned_files(directory_);
-    // The manifest comes last: where it is, the mesh is.
+    // The manifest is written last, so that a directory with a manifest has a mesh.
     write_mesh(directory_ / "mesh.bin", topology, albedo);
     write_file(manifest, manifest_text(identity_));
 }

@@ -1,4 +1,4 @@
-// Triangles and albedo from sections.
+// Reads triangles, albedo and planes from sections.
 #include "paim/format/container/mesh_sections.h"
 
 #include <algorithm>

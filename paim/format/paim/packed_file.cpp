@@ -1,4 +1,4 @@
-// A .paim with compressed sections, put together in memory.
+// Builds a .paim with compressed sections in memory.
 #include "paim/format/paim/packed_file.h"
 
 #include <algorithm>
@@ -36,7 +36,7 @@ Bytes as_bytes(std::span<const T> values) {
     return {first, first + values.size_bytes()};
 }
 
-// Weights [K][P] as multiples of their steps, which they are.
+// Weights [K][P] as integer multiples of their steps. They are such multiples exactly.
 StoredValues weight_integers(const LowRank& matrix) {
     std::vector<int16_t> integers(matrix.weights.size());
     for (size_t j = 0; j < integers.size(); ++j) {
@@ -49,7 +49,7 @@ StoredValues weight_integers(const LowRank& matrix) {
     return integers;
 }
 
-// What integers of an asset are predicted from.
+// Predictors of the integers of an asset.
 class Predictors {
   public:
     explicit Predictors(const Asset& asset)
@@ -75,7 +75,7 @@ class Predictors {
     PlanePredictor none_;
 };
 
-// Makes a task of every kind of row.
+// Makes a task from each kind of row.
 class Packer {
   public:
     Packer(const TableRow& row, const PlanePredictor& predictor, Effort effort)
@@ -114,7 +114,7 @@ class Packer {
     Task operator()(const Steps& row) const { return floats(row.matrix->steps); }
     Task operator()(const MatrixValues& row) const {
         PAIM_CHECK(row.values != nullptr);
-        // Still floats are small and smooth enough to be worth compressing.
+        // Floats of still parts are few and smooth enough to be worth compressing.
         const bool is_still = row.matrix->num_poses == 1 && row_.part > 0;
         if (is_still && row.values->holds_floats()) return floats(row.values->floats());
         const Precision precision = row.is_component ? row.matrix->precision : Precision::f32;
@@ -145,7 +145,7 @@ class Packer {
     Task floats(const std::vector<float>& values) const {
         return zstd(ScalarType::f32, std::span<const float>(values));
     }
-    // Integers predicted, floats as they are.
+    // Integers are predicted, floats stored as they are.
     Task values(const StoredValues& values, Precision precision) const {
         SectionSpec spec = this->spec(ScalarType::f32);
         PAIM_CHECK_EQ(values.size(), spec.num_values());

@@ -22,7 +22,7 @@ namespace paim {
 
 namespace {
 
-// The longest playable prefix that is there. Error (bad input) if there is none.
+// The longest playable prefix that the source has. Error (bad input) if there is none.
 Prefix find_prefix(const ContainerReader& reader) {
     const std::vector<Prefix> prefixes = list_prefixes(reader);
     const auto next = std::find_if(prefixes.begin(), prefixes.end(), [&](const Prefix& prefix) {
@@ -56,7 +56,7 @@ VertexOrder read_vertex_order(const Metadata& metadata) {
     return VertexOrder::cache;
 }
 
-// The codec that the metadata tells of, with the numbers that it has there.
+// The codec that the metadata names, with its numbers.
 CodedTransfer start_transfer(const Metadata& metadata) {
     const std::span<const TransferCodec> codecs = transfer_codecs();
     const auto marked = std::find_if(codecs.begin(), codecs.end(), [&](const TransferCodec& codec) {
@@ -72,7 +72,8 @@ CodedTransfer start_transfer(const Metadata& metadata) {
     return transfer;
 }
 
-// A matrix with the dimensions of the file. components  the metadata's number of components
+// A matrix with the dimensions of the file, without values.
+// components  the metadata's member with the number of components
 LowRank start_matrix(const Metadata& metadata, const char* components, uint32_t num_points,
                      uint32_t num_planes, uint32_t num_poses) {
     LowRank matrix;
@@ -127,7 +128,7 @@ void read_indices(const Metadata& metadata, Attribute attribute, uint32_t num_co
                   LowRank& matrix) {
     matrix.singular_indices = read_singular_indices(metadata, attribute, num_components,
                                                     matrix.singular_values.size());
-    // Those that are there.
+    // Only those of the components that the file has.
     if (!matrix.singular_indices.empty()) matrix.singular_indices.resize(matrix.num_components);
 }
 
