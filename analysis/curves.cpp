@@ -80,19 +80,22 @@ std::vector<Curve> plan_curves(const BakeReader& bake, const Asset& asset,
                                const std::vector<uint32_t>& components,
                                const std::vector<uint32_t>& bands) {
     const auto as_it_is = [](uint32_t value) { return value; };
-    const auto coefficients = [](uint32_t value) { return static_cast<uint32_t>(sh::num_coefficients(static_cast<int>(value))); };
+    const auto coefficients = [](uint32_t value) {
+        return static_cast<uint32_t>(sh::num_coefficients(static_cast<int>(value)));
+    };
     const CodedMesh& mesh = asset.moving();
     std::vector<Curve> curves;
     curves.push_back(
         plan_curve(asset, "geometry_components", "Geometry components (all of the transfer)",
                    mesh.positions.num_components, components, mesh.positions.singular_values,
                    as_it_is, &DecodeLimits::geometry_components));
-    curves.push_back(
-        plan_curve(asset, "transfer_components", "Transfer components (all of the geometry)",
-                   mesh.transfer->matrix.num_components, components, mesh.transfer->matrix.singular_values,
-                   as_it_is, &DecodeLimits::transfer_components));
-    curves.push_back(plan_curve(asset, "bands", "Bands (all components)", mesh.layout.in_bands, bands,
-                                coefficient_norms(bake), coefficients, &DecodeLimits::bands));
+    curves.push_back(plan_curve(
+        asset, "transfer_components", "Transfer components (all of the geometry)",
+        mesh.transfer->matrix.num_components, components, mesh.transfer->matrix.singular_values,
+        as_it_is, &DecodeLimits::transfer_components));
+    curves.push_back(plan_curve(asset, "bands", "Bands (all components)", mesh.layout.in_bands,
+                                bands, coefficient_norms(bake), coefficients,
+                                &DecodeLimits::bands));
     return curves;
 }
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "paim/codec/mesh_decoder.h"
 #include "paim/codec/asset.h"
+#include "paim/codec/mesh_decoder.h"
 #include "paim/format/bake/bake_directory.h"
 #include "paim/image/image.h"
 #include "paim/metrics/array_error.h"

@@ -98,7 +98,8 @@ void verify(const AnalyzeOptions& options) {
     const Asset asset = read_paim(options.verify);
     const ErrorStatement statement = read_error_statement(asset, options.verify);
     const BakeReader bake(options.bake_directory);
-    const BandPower spectrum = choose_band_power(options, statement, bake.identity().layout.in_bands);
+    const BandPower spectrum =
+        choose_band_power(options, statement, bake.identity().layout.in_bands);
     bake.verify_all();
     const AssetError error = measure_asset(asset, bake, spectrum);
     const std::vector<Comparison> comparisons =

@@ -40,8 +40,10 @@ ordered_json describe_prefixes(const std::filesystem::path& path) {
     json["prefixes"] = ordered_json::array();
     for (const Prefix& prefix : read_prefixes(path)) {
         // A file may have more component sections than META counts.
-        const auto kg = std::min(prefix.geometry_components, asset.moving().positions.num_components);
-        const auto kt = std::min(prefix.transfer_components, asset.moving().transfer->matrix.num_components);
+        const auto kg =
+            std::min(prefix.geometry_components, asset.moving().positions.num_components);
+        const auto kt =
+            std::min(prefix.transfer_components, asset.moving().transfer->matrix.num_components);
         json["prefixes"].push_back({{"size_bytes", prefix.size_bytes},
                                     {"share_of_file", static_cast<double>(prefix.size_bytes) /
                                                           static_cast<double>(size_bytes)},

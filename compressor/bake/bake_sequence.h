@@ -21,7 +21,7 @@ struct BakeSummary {
 
 // The floor and the still meshes of a sequence.
 struct Surroundings {
-    std::string floor;   // description of the ground under the poses; empty if there is none
+    std::string floor;     // description of the ground under the poses; empty if there is none
     StillMesh still_mesh;  // blocks and bounces the poses' light; baked once, without the poses
 };
 

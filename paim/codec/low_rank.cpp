@@ -44,8 +44,8 @@ std::vector<double> bounds_of(const LowRank& matrix, Maxima maxima_of) {
     for (uint32_t k = 0; k < matrix.num_components; ++k) {
         double weight = 0.0;
         for (uint32_t p = 0; p < matrix.num_poses; ++p) {
-            weight = std::max(
-                weight, std::abs(double{matrix.weights[size_t{k} * matrix.num_poses + p]}));
+            weight = std::max(weight,
+                              std::abs(double{matrix.weights[size_t{k} * matrix.num_poses + p]}));
         }
         const std::vector<double> maxima =
             maxima_of(matrix.components[k], matrix.num_planes, matrix.num_points);

@@ -49,8 +49,8 @@ void PositionDecoder::decode(const LowRank& positions, double time, uint32_t num
                              std::vector<float>& out) {
     constexpr std::array<uint32_t, 3> kPlanes{0, 1, 2};
     interpolate_weights(positions, time, weights_);
-    rebuild_planes(positions, kPlanes, weights_,
-                   std::min(num_components, positions.num_components), out);
+    rebuild_planes(positions, kPlanes, weights_, std::min(num_components, positions.num_components),
+                   out);
 }
 
 void PointDecoder::decode(const LowRank& matrix, const TransferLayout& whole, double time,

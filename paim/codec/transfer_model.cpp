@@ -45,7 +45,7 @@ class DecodingPlayer : public TransferPlayer {
     const TransferModel& model_;
     const TransferLayout layout_;
     PointDecoder points_;
-    std::vector<float> values_;  // [planes][N]
+    std::vector<float> values_;   // [planes][N]
     std::optional<double> time_;  // of transfer_
     DecodeLimits limits_;
     TransferLayout lit_layout_;

@@ -24,7 +24,7 @@
 
 namespace paim {
 
-struct FrameCost;       // codec/frame_cost.h
+struct FrameCost;      // codec/frame_cost.h
 class TransferPlayer;  // codec/transfer_player.h
 
 class PAIM_EXPORT TransferModel {

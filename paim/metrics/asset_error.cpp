@@ -103,7 +103,7 @@ MeshError measure_part(const Asset& asset, size_t number, const BakeReader& bake
 }
 
 uint64_t measure_part_bytes(uint64_t num_vertices, uint64_t num_poses, uint64_t num_components,
-                                 uint64_t num_points, uint64_t num_threads) {
+                            uint64_t num_points, uint64_t num_threads) {
     // The components of a plane as floats; the directions that the decoder can follow are the
     // constant and these components.
     return (kPlanesMeasured * num_vertices + num_points) * num_poses * sizeof(float) +

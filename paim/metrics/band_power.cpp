@@ -27,8 +27,7 @@ EnvironmentLight read_light(const std::filesystem::path& path) {
 }
 
 BandPower measured(const std::filesystem::path& path) {
-    const LightCoefficients light =
-        read_light(path).coefficients(static_cast<int>(sh::kMaxBands));
+    const LightCoefficients light = read_light(path).coefficients(static_cast<int>(sh::kMaxBands));
     BandPower spectrum{path.filename().string(), {}, 0.0};
     for (int l = 0; l < sh::kMaxBands; ++l) {
         double sum = 0.0;

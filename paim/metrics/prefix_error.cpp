@@ -29,8 +29,7 @@ void gather(const LowRank& matrix, size_t first, MatrixXd& values) {
 
 // Products of the mean and the components with each other in one plane, in steps.
 // metrics  of runs of points; empty: each point counts for itself
-MatrixXd plane_gram(const LowRank& matrix, uint32_t plane,
-                    const std::vector<MatrixXd>& metrics) {
+MatrixXd plane_gram(const LowRank& matrix, uint32_t plane, const std::vector<MatrixXd>& metrics) {
     const Index num_columns = 1 + Index{matrix.num_components};
     MatrixXd gram = MatrixXd::Zero(num_columns, num_columns);
     const size_t plane_begin = size_t{plane} * matrix.num_points;
@@ -73,9 +72,8 @@ ComponentEnergy component_energy(const CodedMesh& mesh, Attribute attribute,
                                  const std::vector<double>& plane_weight) {
     const LowRank& matrix = mesh.attribute(attribute);
     PAIM_CHECK_EQ(plane_weight.size(), size_t{matrix.num_planes});
-    const std::vector<MatrixXd> metrics = attribute == Attribute::transfer
-                                              ? mesh.transfer->point_metrics()
-                                              : std::vector<MatrixXd>{};
+    const std::vector<MatrixXd> metrics =
+        attribute == Attribute::transfer ? mesh.transfer->point_metrics() : std::vector<MatrixXd>{};
     std::vector<MatrixXd> planes(matrix.num_planes);
     parallel_for(planes.size(), 1, [&](size_t j, size_t) {
         const auto plane = static_cast<uint32_t>(j);

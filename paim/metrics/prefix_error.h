@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "paim/codec/asset.h"
-#include "paim/metrics/band_power.h"
 #include "paim/metrics/asset_error.h"
+#include "paim/metrics/band_power.h"
 
 namespace paim {
 

@@ -19,8 +19,8 @@ struct PoseStatistics {
     // [bands] RMS over the vertices, channels and coefficients of a band.
     std::vector<double> transfer_rms;
     std::vector<double>
-        noise_rms;  // standard error of the transfer, estimated from the two halves of the rays
-    PoseReport mesh{};              // 0 in old bakes, which did not count these
+        noise_rms;      // standard error of the transfer, estimated from the two halves of the rays
+    PoseReport mesh{};  // 0 in old bakes, which did not count these
     // Rays that hit the back of a face, which bounces no light.
     uint64_t back_hits = 0;
 

@@ -23,7 +23,6 @@ constexpr Tag kSingularValues[2] = {Tag("GSPC"), Tag("TSPC")};  // f64 or f32 [n
 constexpr Tag kSteps[2] = {Tag("GSTP"), Tag("TSTP")};        // f32 [planes]
 constexpr Tag kWeightSteps[2] = {Tag("GWST"), Tag("TWST")};  // f32 [K]
 
-
 // .paim: the still part; all four or none.
 constexpr Tag kStillTriangles("STRI");  // u32 [F][3]
 constexpr Tag kStillPositions("SPOS");  // f32, i16 or i8 [3][S]

@@ -52,8 +52,7 @@ StoredValues weight_integers(const LowRank& matrix) {
 // Predictors of the integers of an asset.
 class Predictors {
   public:
-    explicit Predictors(const Asset& asset)
-        : poses_(PlanePredictor::chain(asset.num_poses())) {
+    explicit Predictors(const Asset& asset) : poses_(PlanePredictor::chain(asset.num_poses())) {
         for (const CodedMesh& mesh : asset.parts) vertices_.emplace_back(mesh.topology);
     }
 
@@ -105,8 +104,7 @@ class Packer {
         if (matrix.weight_steps.empty() || matrix.num_components == 0) {
             return zstd(ScalarType::f32, std::span<const float>(matrix.weights));
         }
-        return {spec(ScalarType::i16), SectionCodec::planes,
-                [&matrix, &predictor = predictor_] {
+        return {spec(ScalarType::i16), SectionCodec::planes, [&matrix, &predictor = predictor_] {
                     return encode_planes(weight_integers(matrix), matrix.num_components, predictor);
                 }};
     }
@@ -152,8 +150,7 @@ class Packer {
         if (!values.holds_floats()) {
             spec.type = values.holds_i8() ? ScalarType::i8 : ScalarType::i16;
             return {spec, SectionCodec::planes,
-                    [&values, num_rows = row_.shape[0], &predictor = predictor_,
-                     effort = effort_] {
+                    [&values, num_rows = row_.shape[0], &predictor = predictor_, effort = effort_] {
                         return encode_planes(values, num_rows, predictor, effort);
                     }};
         }
@@ -199,12 +196,10 @@ PackedFile::PackedFile(const Asset& asset, Effort effort) {
     const std::vector<TableRow> table = section_table(asset);
     const Predictors predictors(asset);
     std::vector<Task> tasks;
-    tasks.push_back({{section::kMetadata, ScalarType::u8, 0,
-                      {1, 1, static_cast<uint32_t>(metadata.size())}},
-                     SectionCodec::zstd,
-                     [&metadata] {
-                         return zstd_compress(as_bytes(std::span<const char>(metadata)));
-                     }});
+    tasks.push_back(
+        {{section::kMetadata, ScalarType::u8, 0, {1, 1, static_cast<uint32_t>(metadata.size())}},
+         SectionCodec::zstd,
+         [&metadata] { return zstd_compress(as_bytes(std::span<const char>(metadata))); }});
     for (const TableRow& row : table) {
         if (!row.is_present()) continue;
         tasks.push_back(std::visit(Packer(row, predictors.of(row), effort), row.values));

@@ -62,9 +62,9 @@ CodedTransfer start_transfer(const Metadata& metadata) {
     const auto marked = std::find_if(codecs.begin(), codecs.end(), [&](const TransferCodec& codec) {
         return !codec.marker.empty() && metadata.root().contains(codec.marker);
     });
-    const auto unmarked = std::find_if(codecs.begin(), codecs.end(), [](const TransferCodec& codec) {
-        return codec.marker.empty();
-    });
+    const auto unmarked =
+        std::find_if(codecs.begin(), codecs.end(),
+                     [](const TransferCodec& codec) { return codec.marker.empty(); });
     CodedTransfer transfer = (marked != codecs.end() ? marked : unmarked)->make();
     for (const NamedNumber& number : transfer->numbers()) {
         *number.value = metadata.integer(number.name, number.lowest, number.highest);
@@ -92,8 +92,8 @@ CodedMesh start_moving(const Metadata& metadata) {
         metadata.integer("num_vertices", 0, std::numeric_limits<int32_t>::max());
     mesh.layout = read_layout(metadata);
     const uint32_t num_poses = metadata.integer("num_poses", 1, kMaxPoses);
-    mesh.positions = start_matrix(metadata, "geometry_components", mesh.topology.num_vertices, 3,
-                                  num_poses);
+    mesh.positions =
+        start_matrix(metadata, "geometry_components", mesh.topology.num_vertices, 3, num_poses);
     mesh.transfer = start_transfer(metadata);
     const uint32_t num_points = mesh.transfer->start(mesh.topology.num_vertices);
     mesh.transfer->matrix = start_matrix(metadata, "transfer_components", num_points,
@@ -126,8 +126,8 @@ CodedMesh start_still(const ContainerReader& reader, const TransferLayout& layou
 
 void read_indices(const Metadata& metadata, Attribute attribute, uint32_t num_components,
                   LowRank& matrix) {
-    matrix.singular_indices = read_singular_indices(metadata, attribute, num_components,
-                                                    matrix.singular_values.size());
+    matrix.singular_indices =
+        read_singular_indices(metadata, attribute, num_components, matrix.singular_values.size());
     // Only those of the components that the file has.
     if (!matrix.singular_indices.empty()) matrix.singular_indices.resize(matrix.num_components);
 }

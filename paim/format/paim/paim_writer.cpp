@@ -66,10 +66,8 @@ struct PaimWriter::Layout {
     std::vector<size_t> component[2];
 
     explicit Layout(const Asset& asset) : metadata(paim_metadata(asset)) {
-        plans.push_back(SectionSpec{section::kMetadata,
-                                    ScalarType::u8,
-                                    0,
-                                    {1, 1, static_cast<uint32_t>(metadata.size())}});
+        plans.push_back(SectionSpec{
+            section::kMetadata, ScalarType::u8, 0, {1, 1, static_cast<uint32_t>(metadata.size())}});
         for (TableRow& row : section_table(asset)) {
             if (row.is_present()) table.push_back(std::move(row));
         }

@@ -106,8 +106,9 @@ class TableBuilder {
 
 void check_parts(const Asset& asset) {
     if (asset.parts.size() > 2) {
-        throw_unsupported("an asset of {} parts: files hold one that moves and one that stands still",
-                          asset.parts.size());
+        throw_unsupported(
+            "an asset of {} parts: files hold one that moves and one that stands still",
+            asset.parts.size());
     }
     const CodedMesh* const still = asset.still();
     if (still == nullptr) return;
