@@ -38,7 +38,7 @@ typedef struct paim_asset paim_asset;
 typedef struct paim_player paim_player;
 
 typedef struct paim_asset_info {
-    uint32_t num_parts;      /* at least 1: part 0 moves, others may stand still */
+    uint32_t num_parts;      /* at least 1: part 0 moves, others may be still */
     uint32_t num_poses;      /* at least 1 */
     float frames_per_second; /* poses per second */
     double origin[3];        /* adding it to positions, in double, gives scene coordinates */

@@ -1,6 +1,6 @@
 // Sums of weighted components, which take most of the time of decoding a frame. They use the vector
 // unit of the machine. All units give the same bytes, because the order of operations is fixed and
-// none are fused.
+// additions are not fused with multiplications.
 #pragma once
 
 #include <cstddef>

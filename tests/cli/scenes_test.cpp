@@ -227,7 +227,7 @@ TEST_F(Scenes, StaticFilesAreStoredOnceAndNamed) {
     write("x.bake/notes.txt", "mine");
     EXPECT_EQ(parse_object(info({path("x.bake"), "--json"}))["size_bytes"], size_bytes);
 
-    // All of the file shows all of the bake, what stands still too; one band less is another picture.
+    // The whole file shows the whole bake, with the still mesh; one band less is another picture.
     json = parse_object(analyze({path("x.bake"), "-o", path("report"), "--size", "32",
                                  "--components", "1", "--bands", "1", "--poses", "1", "--json"}));
     EXPECT_LT(json["bands"][0]["visual_error"]["sky"], 1e-5);

@@ -134,7 +134,7 @@ if(position EQUAL -1)
     message(FATAL_ERROR "expected radiance 0.5 0.25 0.75 at every vertex, got:\n${output}")
 endif()
 
-# Every codec and precision, with and without something that stands still, whole and as prefixes.
+# Every codec and precision, with and without a still mesh, whole and as prefixes.
 run(${tools}/paim-poses octopus -o ${WORK_DIR}/octopus --poses 4 --vertices 1000)
 file(GLOB still ${WORK_DIR}/poses/*.obj)
 list(GET still 0 still)

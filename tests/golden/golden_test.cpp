@@ -35,7 +35,7 @@ TEST(Golden, WritesTheNewestFileByteForByte) {
     EXPECT_EQ(read_file(directory / "x.paim", 1 << 20), read_file(kNewest, 1 << 20));
 }
 
-// What stands still came later, as sections that earlier readers pass over.
+// Still parts came later, as sections that earlier readers pass over.
 const std::filesystem::path kStill =
     std::filesystem::path(PAIM_GOLDEN_DIR) / "example_v1_scenery.paim";
 

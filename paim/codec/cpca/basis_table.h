@@ -57,8 +57,8 @@ struct BasisSum {
     uint32_t rows_per_cluster;                   // at least 1 + components
 };
 
-// Writes vertex v of [first, first + count) in every plane to out[plane · V + v], V =
-// cluster.size():
+// Writes vertex v of [first, first + count) in every plane to out[plane · V + v], with
+// V = cluster.size():
 //   (row(v, 0) + coefficients[0][v] · row(v, 1)) + coefficients[1][v] · row(v, 2) …
 // where row(v, j) is row cluster[v] · rows_per_cluster + j of the table.
 void weighted_sum(const BasisSum& combination, size_t first, size_t count, std::span<float> out,

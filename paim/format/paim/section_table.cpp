@@ -106,9 +106,8 @@ class TableBuilder {
 
 void check_parts(const Asset& asset) {
     if (asset.parts.size() > 2) {
-        throw_unsupported(
-            "an asset of {} parts: files hold one that moves and one that stands still",
-            asset.parts.size());
+        throw_unsupported("an asset of {} parts: files hold one that moves and one that is still",
+                          asset.parts.size());
     }
     const CodedMesh* const still = asset.still();
     if (still == nullptr) return;
@@ -118,7 +117,7 @@ void check_parts(const Asset& asset) {
         still->layout != asset.moving().layout) {
         throw_unsupported(
             "a second part that moves, or whose transfer is coded otherwise: files hold one that "
-            "stands still, every vertex with its own transfer of the first part's layout");
+            "is still, every vertex with its own transfer of the first part's layout");
     }
 }
 

@@ -21,7 +21,7 @@ constexpr uint32_t kVertices = 4;
 
 class AssetErrorTest : public testing::Test {
   protected:
-    // A bake for the asset's meshes: poses 0 … num_poses − 1, then what stands still.
+    // A bake for the asset's meshes: poses 0 … num_poses − 1, then the still meshes.
     BakeReader write_bake(const Asset& asset, const TransferLayout& layout, uint32_t num_poses,
                           const std::function<BakedPose()>& make_pose) {
         std::vector<BakeIdentity::Source> poses;
@@ -152,7 +152,7 @@ TEST_F(AssetErrorTest, RefusesAnotherAnimation) {
     expect_failure(turned, bake, "other triangles");
 }
 
-// Integers of what stands still against its bake: Σ (t̂ − y)² / Σ y² of its own values, and distances.
+// Integers of a still part against its bake: Σ (x̂ − x)² / Σ x² of its own values, and distances.
 TEST_F(AssetErrorTest, MeasuresWhatStandsStill) {
     for (const uint32_t bands : {2u, 3u}) {
         Asset asset = make_example_asset(bands, 3);
