@@ -12,8 +12,8 @@ namespace paim {
 // keep_order  false: the whole list in natural order (x_2 before x_10), each path once;
 //             true: in the order of the arguments, each pattern or folder in natural order within
 //             itself; a path that is named twice is two poses
-// A named file may have any name; patterns and folders give files that end in .obj or .OBJ only. A
-// name without pattern that does not exist is returned, too; opening it gives the error.
+// A named file may have any name; patterns and folders give only files that end in .obj (in either
+// case). A name without pattern that does not exist is returned, too; opening it gives the error.
 // Errors (bad input): no arguments; a pattern or folder without an OBJ file; an unreadable folder.
 std::vector<std::filesystem::path> find_obj_files(const std::vector<std::string>& arguments,
                                                   bool keep_order);

@@ -21,7 +21,7 @@ namespace paim {
 // Sums of squares over all values of a band, not weighted by the light.
 struct TransferBandEnergy {
     double baked = 0.0;  // ‖x‖²
-    double noise = 0.0;  // ‖d‖², the expectation of the bake's squared error ‖x − t‖²
+    double noise = 0.0;  // ‖d‖², an estimate of the squared error of the bake, ‖x − t‖²
     double error_to_bake = 0.0;     // ‖x̂ − x‖²
     double noise_covariance = 0.0;  // tr cov(x̂, x − t): noise of the bake that x̂ still has
 
