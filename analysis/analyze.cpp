@@ -1,4 +1,4 @@
-// What paim-analyze does, step by step.
+// The steps of paim-analyze.
 #include "analysis/analyze.h"
 
 #include <fmt/format.h>
@@ -25,7 +25,7 @@ namespace paim {
 
 namespace {
 
-// All components in f32, through the same encoder and file as the tools use.
+// Encodes all components as f32, by the encoder and the file format of the tools.
 Asset encode_everything(const BakeReader& bake, const std::filesystem::path& directory) {
     struct Remover {
         std::filesystem::path path;
@@ -39,13 +39,13 @@ Asset encode_everything(const BakeReader& bake, const std::filesystem::path& dir
     options.geometry.kind = ComponentChoice::Kind::all;
     options.transfer.kind = ComponentChoice::Kind::all;
     options.name = bake.directory().stem().string();
-    // It is read into memory as a whole afterwards, which needs far more.
+    // No limit: afterwards the whole file is read into memory, which takes far more.
     options.memory_bytes = std::numeric_limits<uint64_t>::max();
     encode(bake, options, file.path);
     return read_paim(file.path);
 }
 
-// The images that the report shows are kept until it is written.
+// Error if the images of the report, which are kept until it is written, do not fit into memory.
 void check_memory(const AnalyzeOptions& options, size_t num_images) {
     constexpr double kMaxGigabytes = 4.0;
     const double size = options.size_pixels;

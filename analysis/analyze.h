@@ -1,4 +1,4 @@
-// What paim-analyze does, step by step.
+// The steps of paim-analyze.
 #pragma once
 
 #include "analysis/options.h"

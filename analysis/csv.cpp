@@ -7,7 +7,7 @@ namespace paim {
 
 namespace {
 
-// A field in quotes where it needs them (RFC 4180).
+// A field, in quotes if it needs them (RFC 4180).
 std::string field(const std::string& text) {
     if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
     std::string quoted = "\"";

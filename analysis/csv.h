@@ -8,7 +8,7 @@
 
 namespace paim {
 
-// One line a point and light.
+// One line for each point and light.
 std::string curve_csv(const Curve& curve, const std::vector<NamedLight>& lights);
 
 }  // namespace paim

@@ -16,7 +16,7 @@ namespace paim {
 
 namespace {
 
-// all, then the others that are less, largest first, each once.
+// `all`, then those of the others that are smaller, in descending order without repetitions.
 std::vector<uint32_t> settings(uint32_t all, const std::vector<uint32_t>& others) {
     std::set<uint32_t, std::greater<>> values{all};
     for (const uint32_t value : others) {
@@ -25,16 +25,16 @@ std::vector<uint32_t> settings(uint32_t all, const std::vector<uint32_t>& others
     return {values.begin(), values.end()};
 }
 
-// The size of the asset's file if it kept only this.
+// Size of the asset's file within the limits.
 uint64_t limited_size_bytes(const Asset& asset, const DecodeLimits& limits) {
     Asset limited = asset;
     keep_within(limits, limited);
     return paim_size_bytes(limited);
 }
 
-// all        how many there are
+// all        number of components or bands
 // spectrum   singular values, or norms of coefficients; the first size(value) of them are kept
-// limit      the limit that a setting is
+// limit      the member of DecodeLimits that a setting sets
 template <typename Size>
 Curve plan_curve(const Asset& asset, const char* name, const char* title, uint32_t all,
                  const std::vector<uint32_t>& others, std::span<const double> spectrum,
@@ -80,19 +80,22 @@ std::vector<Curve> plan_curves(const BakeReader& bake, const Asset& asset,
                                const std::vector<uint32_t>& components,
                                const std::vector<uint32_t>& bands) {
     const auto as_it_is = [](uint32_t value) { return value; };
-    const auto coefficients = [](uint32_t value) { return static_cast<uint32_t>(sh::num_coefficients(static_cast<int>(value))); };
+    const auto coefficients = [](uint32_t value) {
+        return static_cast<uint32_t>(sh::num_coefficients(static_cast<int>(value)));
+    };
     const CodedMesh& mesh = asset.moving();
     std::vector<Curve> curves;
     curves.push_back(
         plan_curve(asset, "geometry_components", "Geometry components (all of the transfer)",
                    mesh.positions.num_components, components, mesh.positions.singular_values,
                    as_it_is, &DecodeLimits::geometry_components));
-    curves.push_back(
-        plan_curve(asset, "transfer_components", "Transfer components (all of the geometry)",
-                   mesh.transfer->matrix.num_components, components, mesh.transfer->matrix.singular_values,
-                   as_it_is, &DecodeLimits::transfer_components));
-    curves.push_back(plan_curve(asset, "bands", "Bands (all components)", mesh.layout.in_bands, bands,
-                                coefficient_norms(bake), coefficients, &DecodeLimits::bands));
+    curves.push_back(plan_curve(
+        asset, "transfer_components", "Transfer components (all of the geometry)",
+        mesh.transfer->matrix.num_components, components, mesh.transfer->matrix.singular_values,
+        as_it_is, &DecodeLimits::transfer_components));
+    curves.push_back(plan_curve(asset, "bands", "Bands (all components)", mesh.layout.in_bands,
+                                bands, coefficient_norms(bake), coefficients,
+                                &DecodeLimits::bands));
     return curves;
 }
 

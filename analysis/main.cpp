@@ -1,4 +1,4 @@
-// paim-analyze: error curves of a bake, and whether a .paim is as good as it says.
+// paim-analyze: error curves of a bake, and checks of the errors that a .paim states.
 #include "analysis/analyze.h"
 #include "analysis/options.h"
 #include "analysis/verify.h"

@@ -14,13 +14,13 @@ namespace paim {
 
 namespace {
 
-// What the poses of one setting add up to.
+// Sums over the poses of one setting.
 struct Sums {
     std::vector<ImageError> images;  // [lights]
     std::vector<double> times_ms;    // [poses]
 };
 
-// Adds a decoded pose; planes that it does not have count as zero.
+// Adds a decoded pose. Planes that it does not have count as zero.
 void add_transfer(ArrayError& error, const DecodedPose& decoded, const DecodedPose& baked,
                   uint32_t p) {
     const size_t num_vertices = baked.positions.size() / 3;
@@ -64,7 +64,8 @@ std::vector<Image> measure_curves(const BakeReader& bake, const Asset& asset, co
         std::vector<Image> reference = stage.render_pose(baked);
         for (size_t j = 0; j < points.size(); ++j) {
             CurvePoint& point = *points[j];
-            decoder.decode(p, point.limits, decoded);  // takes the memory: the clock sees work alone
+            // Allocates memory, so that the timed call does not.
+            decoder.decode(p, point.limits, decoded);
             const auto start = Clock::now();
             decoder.decode(p, point.limits, decoded);
             sums[j].times_ms.push_back(

@@ -84,9 +84,9 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
         ->capture_default_str();
     CLI::Option* const verify = app.add_option(
         "--verify", options.verify,
-        "A .paim made from this bake: measure its errors anew and compare them with those that it "
+        "A .paim made from this bake: measure its errors again and compare them with those that it "
         "states; exit code 5 if one is larger (by more than 0.000001 of it, for rounding)");
-    // Whatever has been added so far is about curves.
+    // All options added so far are about curves.
     for (CLI::Option* const option : app.get_options()) {
         const std::string name = option->get_name();
         if (name == "BAKE" || name == "--help" || name == "--version" || option == verify) continue;

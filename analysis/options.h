@@ -12,10 +12,10 @@ struct AnalyzeOptions {
     std::filesystem::path bake_directory;
     std::filesystem::path output;
     std::filesystem::path verify;                     // a .paim to check instead; empty: none
-    std::string band_power;                           // of what is verified; empty: the file's own
+    std::string band_power;                           // for --verify; empty: that of the file
     std::vector<std::filesystem::path> environments;  // none: the built-in sky
-    std::vector<uint32_t> components{20, 7, 4, 2};    // besides all
-    std::vector<uint32_t> bands{7, 4, 2};             // besides all
+    std::vector<uint32_t> components{20, 7, 4, 2};    // in addition to all
+    std::vector<uint32_t> bands{7, 4, 2};             // in addition to all
     int size_pixels = 256;
     uint32_t num_poses = 4;
     double azimuth_rad = 0.0;

@@ -17,7 +17,7 @@ namespace paim {
 
 namespace {
 
-// Zero has no place on a logarithmic axis; what is exact is drawn at this floor.
+// Errors of 0 are drawn at this value of the logarithmic axis.
 constexpr double kFloor = 1e-7;
 
 // Runs a gnuplot script given on its standard input.
@@ -31,8 +31,8 @@ void run_gnuplot(const std::string& script, const std::filesystem::path& output)
     }
 }
 
-// Text within gnuplot's single quotes. A line would end there, and what follows it be a command:
-// control characters become blanks, as file names may hold them.
+// Text in gnuplot's single quotes. Control characters, which file names may have, become blanks: a
+// line feed would end the string, and gnuplot would run the text after it as a command.
 std::string quoted(const std::string& text) {
     std::string result = "'";
     for (const char c : text) {
@@ -48,7 +48,7 @@ struct Series {
     bool measured = true;  // drawn with a mark at each point
 };
 
-// The range of x over all series; a little round a single value, which has no extent.
+// The range of x over all series, with a little room around a single value.
 std::pair<double, double> x_range(const std::vector<Series>& series, bool from_zero) {
     double lowest = std::numeric_limits<double>::infinity();
     double highest = -lowest;

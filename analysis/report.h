@@ -1,4 +1,4 @@
-// The page that shows curves, tables and images together.
+// The HTML page with curves, tables and images.
 #pragma once
 
 #include <filesystem>

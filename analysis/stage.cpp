@@ -1,4 +1,4 @@
-// The scene that is measured.
+// The scene of measurements.
 #include "analysis/stage.h"
 
 #include <fmt/format.h>
@@ -21,7 +21,7 @@ std::vector<NamedLight> load_lights(const std::vector<std::filesystem::path>& en
                                     uint32_t bands) {
     std::vector<NamedLight> lights;
     const auto add = [&](const std::string& stem, Image image) {
-        // Maps of the same name from two folders stay two lights.
+        // Maps of the same name from different folders need different names.
         std::string name = stem;
         for (int copy = 2; std::any_of(lights.begin(), lights.end(),
                                        [&](const NamedLight& l) { return l.name == name; });
@@ -66,9 +66,9 @@ Camera Stage::camera(double azimuth_rad, double elevation_rad) const {
     Bounds bounds = pose_bounds_;
     bounds.lower *= scale_;
     bounds.upper *= scale_;
-    if (bake_.scenery()) {
+    if (bake_.still_mesh()) {
         Bounds still;
-        still.extend(from_planes(scaled(bake_.scenery()->pose.positions, scale_)));
+        still.extend(from_planes(scaled(bake_.still_mesh()->pose.positions, scale_)));
         bounds = framed_bounds(bounds, still);
     }
     return frame_bounds(bounds, 1.0f, static_cast<float>(azimuth_rad),
@@ -84,9 +84,9 @@ Stage::Stage(const BakeReader& bake, std::vector<NamedLight> lights, double azim
       scale_(scale_of(pose_bounds_)),
       camera_(camera(azimuth_rad, elevation_rad)),
       topology_(bake.topology()) {
-    if (bake.scenery()) {
-        topology_.append(bake.scenery()->topology);
-        still_positions_ = from_planes(scaled(bake.scenery()->pose.positions, scale_));
+    if (bake.still_mesh()) {
+        topology_.append(bake.still_mesh()->topology);
+        still_positions_ = from_planes(scaled(bake.still_mesh()->pose.positions, scale_));
     }
     const uint32_t count = std::min(num_poses, bake.num_poses());
     for (uint32_t j = 0; j < count; ++j) {
@@ -101,13 +101,13 @@ std::vector<Image> Stage::render_pose(const DecodedPose& pose) const {
     for (size_t j = 0; j < lights_.size(); ++j) {
         const LightCoefficients& light = lights_[j].coefficients;
         shade(pose.layout, pose.transfer, bake_.albedo(), light, radiance[j]);
-        if (!bake_.scenery()) continue;
-        // With as many bands as the pose has.
+        if (!bake_.still_mesh()) continue;
+        // Light in as many bands as the pose has.
         LightCoefficients kept = light;
         kept.bands = std::min(light.bands, static_cast<int>(pose.layout.in_bands));
         std::vector<Vec3f> still;
-        shade(bake_.identity().layout, bake_.scenery()->pose.transfer, bake_.scenery()->albedo,
-              kept, still);
+        shade(bake_.identity().layout, bake_.still_mesh()->pose.transfer,
+              bake_.still_mesh()->albedo, kept, still);
         radiance[j].insert(radiance[j].end(), still.begin(), still.end());
     }
     return render_images(topology_, positions, radiance, camera_, size_pixels_, size_pixels_);

@@ -1,12 +1,12 @@
-// The scene that is measured: lights, camera and poses.
+// The scene of measurements: lights, camera and poses.
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "paim/codec/mesh_decoder.h"
 #include "paim/codec/asset.h"
+#include "paim/codec/mesh_decoder.h"
 #include "paim/format/bake/bake_directory.h"
 #include "paim/image/image.h"
 #include "paim/light/light.h"
@@ -46,11 +46,12 @@ class Stage {
     std::vector<NamedLight> lights_;
     int size_pixels_;
     Bounds pose_bounds_;  // of all poses, scene units
-    // Of what is rendered: cameras of huge scenes would stand beyond the range of floats.
+    // Scale of the rendered scene. The camera of a huge scene would otherwise be beyond the range
+    // of floats.
     float scale_;
     Camera camera_;  // of the scaled scene
     std::vector<uint32_t> poses_;
-    Topology topology_;                   // of the poses and, after them, of what stands still
+    Topology topology_;                   // of the poses and, after them, of the still meshes
     std::vector<Vec3f> still_positions_;  // scaled
 };
 

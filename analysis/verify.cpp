@@ -1,4 +1,4 @@
-// Whether a .paim is within the errors that it states.
+// Checks that a .paim is within the errors that it states.
 #include "analysis/verify.h"
 
 #include <fmt/format.h>
@@ -16,14 +16,14 @@ namespace paim {
 
 namespace {
 
-// Of what is stated: other compilers and processors may round otherwise.
+// Relative tolerance: other compilers and processors may round differently.
 constexpr double kRounding = 1e-6;
 
 struct Comparison {
     NamedError measured;
     std::optional<double> stated;
 
-    // Written so that what is not a number is never within.
+    // Written so that NaN is never within.
     bool within() const { return !stated || measured.value <= *stated * (1.0 + kRounding); }
 };
 
@@ -98,7 +98,8 @@ void verify(const AnalyzeOptions& options) {
     const Asset asset = read_paim(options.verify);
     const ErrorStatement statement = read_error_statement(asset, options.verify);
     const BakeReader bake(options.bake_directory);
-    const BandPower spectrum = choose_band_power(options, statement, bake.identity().layout.in_bands);
+    const BandPower spectrum =
+        choose_band_power(options, statement, bake.identity().layout.in_bands);
     bake.verify_all();
     const AssetError error = measure_asset(asset, bake, spectrum);
     const std::vector<Comparison> comparisons =

@@ -1,5 +1,5 @@
 # Finds zstd, which Debian and Ubuntu ship without a CMake package: target zstd::zstd.
-# Installed beside paim-config.cmake, which needs it too.
+# Installed next to paim-config.cmake, which needs it too.
 find_path(zstd_INCLUDE_DIR NAMES zstd.h)
 find_library(zstd_LIBRARY NAMES zstd)
 mark_as_advanced(zstd_INCLUDE_DIR zstd_LIBRARY)

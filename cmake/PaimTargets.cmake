@@ -24,7 +24,7 @@ function(paim_add_tool name)
     target_link_libraries(${name} PRIVATE paim_flags ${ARG_LIBRARIES})
     set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
     if(BUILD_SHARED_LIBS)
-        # An installed tool finds the library beside it, wherever the whole is moved.
+        # An installed tool finds the library by its relative path, wherever the prefix is moved.
         file(RELATIVE_PATH library_dir ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
         set_target_properties(${name} PROPERTIES INSTALL_RPATH "$ORIGIN/${library_dir}")
     endif()

@@ -1,4 +1,4 @@
-// The options of paim-compress that decide what is baked and how.
+// The bake options of paim-compress.
 #include "compressor/bake_arguments.h"
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ namespace paim {
 
 namespace {
 
-// The default of --rays where they are a limit, not a fixed count.
+// The default of --rays with --noise-target, where it is a limit.
 constexpr uint32_t kMaxRays = 16384;
 
 void add_input_options(CLI::App& app, CompressOptions& options, BakeArguments& arguments) {
@@ -36,7 +36,7 @@ void add_input_options(CLI::App& app, CompressOptions& options, BakeArguments& a
 }
 
 void add_surroundings_options(CLI::App& app, CompressOptions& options, BakeArguments& arguments) {
-    constexpr const char* kGroup = "Floor and scenery";
+    constexpr const char* kGroup = "Floor and still meshes";
     CLI::Option* floor = app.add_flag("--floor", arguments.floor,
                                       "Put a ground just below the lowest point of all poses. It "
                                       "receives their shadow")
@@ -55,9 +55,8 @@ void add_surroundings_options(CLI::App& app, CompressOptions& options, BakeArgum
         ->option_text(fmt::format("N={}", arguments.floor_vertices))
         ->group(kGroup);
     app.add_option("--static", options.statics,
-                   "An OBJ file of scenery that stands still, with an albedo of its own. It blocks "
-                   "and bounces the light of the poses, which cast no shadow on it. May be given "
-                   "several times")
+                   "An OBJ file of a still mesh, with an albedo of its own. It blocks and bounces "
+                   "the light of the poses, which cast no shadow on it. May be given several times")
         ->allow_extra_args(false)
         ->type_name("OBJ")
         ->group(kGroup);

@@ -1,4 +1,4 @@
-// The options of paim-compress that decide what is baked and how.
+// The bake options of paim-compress.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -21,13 +21,13 @@ struct BakeArguments {
     std::string transfer_error;  // the former name of noise_target
 };
 
-// Adds the options that most bakes need, for both forms of the command.
+// Adds the options that most bakes need, to the command with and without `bake`.
 void add_everyday_bake_options(CLI::App& app, CompressOptions& options, BakeArguments& arguments);
 
-// Adds the others. Values go to `options`, or to `arguments` where apply() has to check them.
+// Adds the other options. Values go to `options`, or to `arguments` if apply() must check them.
 void add_bake_options(CLI::App& app, CompressOptions& options, BakeArguments& arguments);
 
-// Error (usage) for values out of range.
+// Checks the arguments and sets the options. Error (usage) for values out of range.
 void apply(const BakeArguments& arguments, CompressOptions& options);
 
 }  // namespace paim

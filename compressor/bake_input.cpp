@@ -1,4 +1,4 @@
-// What paim-compress bakes: the poses of the OBJ files, their floor and the scenery among them.
+// The input of a bake of paim-compress: poses from OBJ files, their floor, and still meshes.
 #include "compressor/bake_input.h"
 
 #include <memory>
@@ -20,7 +20,7 @@ bool is_quiet(const CompressOptions& options) {
 
 ObjSequence open_sequence(const CompressOptions& options) {
     const auto files = find_obj_files(options.inputs, options.keep_order);
-    // Shared, as the sequence keeps the callback.
+    // Shared, because the sequence keeps the callback.
     const auto checking =
         std::make_shared<cli::Progress>("checking", "files", files.size(), is_quiet(options));
     ObjOptions obj_options;
@@ -40,7 +40,7 @@ BakeInput::BakeInput(const CompressOptions& options)
     print_warnings(mesh_warnings(topology_));
     std::tie(first_pose_, last_pose_) = parse_pose_range(options.poses, sequence_.num_poses());
     if (options.floor) add_floor(options);
-    for (const std::string& file : options.statics) add_scenery(options, file);
+    for (const std::string& file : options.statics) add_still_mesh(options, file);
 }
 
 void BakeInput::add_floor(const CompressOptions& options) {
@@ -51,18 +51,19 @@ void BakeInput::add_floor(const CompressOptions& options) {
     surroundings_.floor = on_floor_->description();
 }
 
-void BakeInput::add_scenery(const CompressOptions& options, const std::string& file) {
+void BakeInput::add_still_mesh(const CompressOptions& options, const std::string& file) {
     ObjOptions obj_options;
     obj_options.normals_from_file = options.normals == "file";
     obj_options.origin = sequence_.origin();
     const ObjSequence still({file}, obj_options);
     print_warnings(still.warnings());
-    surroundings_.scenery.add(still);
+    surroundings_.still_mesh.add(still);
     const Topology& mesh = still.topology();
-    const auto positions = std::span(surroundings_.scenery.pose.positions).last(mesh.num_vertices);
-    static_meshes_.push_back({file, report_topology(mesh), report_pose(mesh, positions)});
-    const StaticMeshReport& report = static_meshes_.back();
-    print_warnings(static_mesh_warnings(file, report.topology, report.pose));
+    const auto positions =
+        std::span(surroundings_.still_mesh.pose.positions).last(mesh.num_vertices);
+    still_meshes_.push_back({file, report_topology(mesh), report_pose(mesh, positions)});
+    const StillMeshReport& report = still_meshes_.back();
+    print_warnings(still_mesh_warnings(file, report.topology, report.pose));
 }
 
 const PoseSource& BakeInput::poses() const {
@@ -71,7 +72,7 @@ const PoseSource& BakeInput::poses() const {
 }
 
 TransferLayout BakeInput::layout(const BakeOptions& options) const {
-    return TransferBaker::bake_layout(options, poses().albedo(), surroundings_.scenery);
+    return TransferBaker::bake_layout(options, poses().albedo(), surroundings_.still_mesh);
 }
 
 BakeReport BakeInput::report() const {
@@ -83,10 +84,10 @@ BakeReport BakeInput::report() const {
     report.last_pose = last_pose_;
     report.floor = surroundings_.floor;
     report.origin_y = sequence_.origin().y();
-    report.scenery_vertices = surroundings_.scenery.topology.num_vertices;
-    report.scenery_triangles = surroundings_.scenery.topology.triangles.size();
+    report.still_vertices = surroundings_.still_mesh.topology.num_vertices;
+    report.still_triangles = surroundings_.still_mesh.topology.triangles.size();
     report.topology = topology_;
-    report.static_meshes = static_meshes_;
+    report.still_meshes = still_meshes_;
     return report;
 }
 

@@ -1,4 +1,4 @@
-// What paim-compress bakes: the poses of the OBJ files, their floor and the scenery among them.
+// The input of a bake of paim-compress: poses from OBJ files, their floor, and still meshes.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@ namespace paim {
 class BakeInput {
   public:
     // Reads and checks every file. Shows progress and prints warnings on stderr.
-    // Errors: those of ObjSequence, PosesOnFloor and StaticMesh; usage for a range of poses that
+    // Errors: those of ObjSequence, PosesOnFloor and StillMesh; usage for a range of poses that
     // does not exist.
     explicit BakeInput(const CompressOptions& options);
 
@@ -24,22 +24,22 @@ class BakeInput {
     uint32_t first_pose() const { return first_pose_; }
     uint32_t last_pose() const { return last_pose_; }  // inclusive
 
-    // Of the planes that baking makes.
+    // The layout of the planes of the bake.
     TransferLayout layout(const BakeOptions& options) const;
 
-    // What reports say of the input; everything that baking finds out is missing.
+    // A report about the input, without the results of baking.
     BakeReport report() const;
 
   private:
     void add_floor(const CompressOptions& options);
-    void add_scenery(const CompressOptions& options, const std::string& file);
+    void add_still_mesh(const CompressOptions& options, const std::string& file);
 
     ObjSequence sequence_;
     TopologyReport topology_;  // of the poses without their floor
     uint32_t first_pose_ = 0, last_pose_ = 0;
     std::optional<PosesOnFloor> on_floor_;
     Surroundings surroundings_;
-    std::vector<StaticMeshReport> static_meshes_;
+    std::vector<StillMeshReport> still_meshes_;
 };
 
 }  // namespace paim

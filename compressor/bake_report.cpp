@@ -1,4 +1,4 @@
-// What paim-compress says of a bake, to people and to programs.
+// The report of paim-compress about a bake, as text and as JSON.
 #include "compressor/bake_report.h"
 
 #include <fmt/format.h>
@@ -47,9 +47,9 @@ std::string surroundings_text(const BakeReport& report) {
                 : "";
         text += fmt::format("  on a floor of {}{}\n", report.floor, origin);
     }
-    if (report.scenery_vertices > 0) {
-        text += fmt::format("  among scenery of {} vertices and {} triangles\n",
-                            report.scenery_vertices, report.scenery_triangles);
+    if (report.still_vertices > 0) {
+        text += fmt::format("  among still meshes of {} vertices and {} triangles\n",
+                            report.still_vertices, report.still_triangles);
     }
     return text;
 }
@@ -78,9 +78,9 @@ ordered_json report_json(const BakeReport& report) {
     json["num_triangles"] = report.num_triangles;
     json["num_poses"] = report.num_poses;
     if (!report.floor.empty()) json["floor"] = report.floor;
-    if (report.scenery_vertices > 0) {
-        json["scenery_vertices"] = report.scenery_vertices;
-        json["scenery_triangles"] = report.scenery_triangles;
+    if (report.still_vertices > 0) {
+        json["scenery_vertices"] = report.still_vertices;
+        json["scenery_triangles"] = report.still_triangles;
     }
     json["poses_baked"] = report.summary.baked;
     json["poses_resumed"] = report.summary.resumed;
@@ -97,7 +97,7 @@ ordered_json report_json(const BakeReport& report) {
     json["vertices_without_normal"] = total.zero_normals;
     json["relative_noise"] = total.relative_noise();
     json["mesh"] = mesh_json(report.topology, total.mesh);
-    for (const StaticMeshReport& mesh : report.static_meshes) {
+    for (const StillMeshReport& mesh : report.still_meshes) {
         ordered_json& entry = json["static_mesh"].emplace_back();
         entry["file"] = mesh.file;
         entry.update(mesh_json(mesh.topology, mesh.pose));

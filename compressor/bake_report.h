@@ -1,4 +1,4 @@
-// What paim-compress says of a bake, to people and to programs.
+// The report of paim-compress about a bake, as text and as JSON.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -13,8 +13,8 @@
 
 namespace paim {
 
-// What is odd about one file of scenery.
-struct StaticMeshReport {
+// Oddities of the still mesh of one file.
+struct StillMeshReport {
     std::string file;
     TopologyReport topology;
     PoseReport pose;
@@ -29,14 +29,14 @@ struct BakeReport {
     uint32_t first_pose = 0, last_pose = 0;
     uint32_t channels = 1;  // of the transfer
     std::string floor;      // description; empty if there is none
-    double origin_y = 0.0;  // what the floor's height is counted from, scene units
-    uint32_t scenery_vertices = 0;
-    size_t scenery_triangles = 0;
+    double origin_y = 0.0;  // y of the origin of the floor's height, scene units
+    uint32_t still_vertices = 0;
+    size_t still_triangles = 0;
     TopologyReport topology;  // of the poses without their floor
-    std::vector<StaticMeshReport> static_meshes;
+    std::vector<StillMeshReport> still_meshes;
     BakeSummary summary;
 
-    // Averages over the vertices that have a normal and over the rays; 0 where there are none.
+    // Averages over vertices with a normal and over rays; 0 if there are none.
     double rays_per_vertex() const;
     double occluded_share() const;
     double back_hit_share() const;
@@ -44,7 +44,7 @@ struct BakeReport {
 
 nlohmann::ordered_json report_json(const BakeReport& report);
 
-// Lines, each ended.
+// Lines, each with a line feed.
 std::string report_text(const BakeReport& report);
 
 }  // namespace paim

@@ -1,4 +1,4 @@
-// The options of paim-compress that decide how a bake is encoded.
+// The encode options of paim-compress.
 #include "compressor/encode_arguments.h"
 
 #include <fmt/format.h>
@@ -130,7 +130,7 @@ void check_with_target(const EncodeArguments& arguments) {
     }
 }
 
-// All but its spectrum, which needs the bands of the bake.
+// The target without its band power, which depends on the bands of the bake.
 EncodeTarget parse_target(const EncodeArguments& arguments) {
     EncodeTarget target;
     if (!arguments.max_error.empty()) {

@@ -1,4 +1,4 @@
-// The options of paim-compress that decide how a bake is encoded.
+// The encode options of paim-compress.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -28,15 +28,15 @@ struct EncodeArguments {
     bool has_target() const { return !max_error.empty() || !max_size.empty(); }
 };
 
-// Adds the options that most files need, for both forms of the command.
+// Adds the options that most files need, to the command with and without `encode`.
 void add_everyday_encode_options(CLI::App& app, CompressOptions& options,
                                  EncodeArguments& arguments);
 
-// Adds the others. Values go to `options`, or to `arguments` where apply() has to check them.
+// Adds the other options. Values go to `options`, or to `arguments` if apply() must check them.
 void add_encode_options(CLI::App& app, CompressOptions& options, EncodeArguments& arguments);
 
-// Error (usage) for values out of range, for options that need a target where there is none, and for
-// options that a target decides.
+// Checks the arguments and sets the options. Error (usage) for values out of range, for options
+// that need a target without one, and for options that a target decides.
 void apply(const EncodeArguments& arguments, CompressOptions& options);
 
 }  // namespace paim

@@ -1,4 +1,4 @@
-// What paim-compress says of an encoding.
+// The report of paim-compress about an encoding.
 #include "compressor/encode_report.h"
 
 #include <fmt/format.h>
@@ -9,7 +9,7 @@ using nlohmann::ordered_json;
 
 namespace {
 
-// Of geometry or transfer.
+// The members of geometry or of transfer.
 ordered_json part_json(uint32_t components, uint32_t rank, double theory, double energy) {
     ordered_json json;
     json["components"] = components;

@@ -1,4 +1,4 @@
-// What paim-compress says of an encoding, to people and to programs.
+// The report of paim-compress about an encoding, as text and as JSON.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -22,10 +22,10 @@ struct EncodeReport {
 
 nlohmann::ordered_json report_json(const EncodeReport& report);
 
-// Lines, each ended.
+// Lines, each with a line feed.
 std::string report_text(const EncodeReport& report);
 
-// The figures of named_errors(), by name.
+// The numbers of named_errors(), by name.
 nlohmann::ordered_json errors_json(const AssetError& error);
 
 }  // namespace paim

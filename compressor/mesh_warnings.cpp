@@ -1,4 +1,4 @@
-// What paim-compress says about what is odd in a mesh.
+// Warnings of paim-compress about oddities of a mesh.
 #include "compressor/mesh_warnings.h"
 
 #include <fmt/format.h>
@@ -57,8 +57,8 @@ std::vector<std::string> mesh_warnings(const PoseReport& total) {
         });
 }
 
-std::vector<std::string> static_mesh_warnings(const std::string& file, const TopologyReport& report,
-                                              const PoseReport& pose) {
+std::vector<std::string> still_mesh_warnings(const std::string& file, const TopologyReport& report,
+                                             const PoseReport& pose) {
     std::vector<Kind> kinds = kinds_of(report);
     kinds.push_back({pose.zero_area_faces, "faces have no area", kNoArea});
     kinds.push_back({pose.coincident_faces, "faces lie exactly on another", kCoincident});

@@ -1,4 +1,4 @@
-// What paim-compress says about what is odd in a mesh, in words and as JSON.
+// Warnings of paim-compress about oddities of a mesh, as text and as JSON.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -10,20 +10,20 @@
 
 namespace paim {
 
-// One line for each kind of oddity that was found, with its consequence for the light.
+// A line for each kind of oddity that was found, with its effect on the light.
 std::vector<std::string> mesh_warnings(const TopologyReport& report);
 
 // The same for counts over all poses.
 std::vector<std::string> mesh_warnings(const PoseReport& total);
 
-// Both for a mesh of the scenery; lines begin with its file.
-std::vector<std::string> static_mesh_warnings(const std::string& file, const TopologyReport& report,
-                                              const PoseReport& pose);
+// Both for the still mesh of one file; lines begin with its name.
+std::vector<std::string> still_mesh_warnings(const std::string& file, const TopologyReport& report,
+                                             const PoseReport& pose);
 
-// Each as a line on stderr.
+// Prints each as a line on stderr.
 void print_warnings(const std::vector<std::string>& warnings);
 
-// All counts, zeros too.
+// All counts, also those that are 0.
 nlohmann::ordered_json mesh_json(const TopologyReport& report, const PoseReport& total);
 
 }  // namespace paim

@@ -61,7 +61,7 @@ CommandLine::CommandLine()
     app.require_subcommand(0, 1);
     app.footer(
         "Example: paim-compress 'frames/*.obj' -o character.paim --max-error 5%\n"
-        "The bake stays beside the output as character.bake, and a run that was stopped goes on\n"
+        "The bake stays next to the output as character.bake, and a run that was stopped goes on\n"
         "from there.\n\n"
         "Exit codes: 0 ok, 1 usage, 2 bad input, 3 unsupported, 4 output failed,\n"
         "5 the target cannot be met.");

@@ -24,14 +24,14 @@ struct CompressOptions {
     std::string normals = "faces";  // or "file"
     std::optional<Vec3f> albedo;
     std::optional<FloorOptions> floor;
-    std::vector<std::string> statics;  // OBJ files of scenery
+    std::vector<std::string> statics;  // OBJ files of still meshes
     std::string poses;                 // "A-B", empty for all
     bool discard_bake = false;
 
     // Encode.
     std::filesystem::path bake_directory;  // of `encode`
     EncodeOptions encode;
-    std::optional<EncodeTarget> target;  // without its spectrum
+    std::optional<EncodeTarget> target;  // without its band power
     std::string band_power = "flat";     // or "natural" or a file
 
     std::filesystem::path output;

@@ -1,4 +1,4 @@
-// Refuses outputs that cannot be written before any long work begins.
+// Checks, before long work, that outputs can be written.
 #include "compressor/output_check.h"
 
 #include <unistd.h>

@@ -1,4 +1,4 @@
-// Refuses outputs that cannot be written before any long work begins.
+// Checks, before long work, that outputs can be written.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// What paim-compress does, step by step.
+// The steps of paim-compress.
 #include "compressor/pipeline.h"
 
 #include <fmt/format.h>
@@ -24,17 +24,17 @@ using nlohmann::ordered_json;
 
 namespace {
 
-// Prints the report as text unless JSON is wanted, which is printed when all is done.
+// Prints the report as text, unless JSON is wanted, which is printed at the end.
 template <typename Report>
 ordered_json tell(const CompressOptions& options, const Report& report) {
     if (!options.json) fmt::print("{}", report_text(report));
     return report_json(report);
 }
 
-// Refuses before a long bake what could not be encoded after it.
+// Error, before a long bake, if its result could not be encoded in the memory allowed.
 void check_encoding_memory(const CompressOptions& options, const BakeInput& input) {
     const PoseSource& poses = input.poses();
-    const StaticMesh& scenery = input.surroundings().scenery;
+    const StillMesh& still_mesh = input.surroundings().still_mesh;
     const TransferLayout layout = input.layout(options.bake);
     EncodeSize size;
     size.num_triangles = poses.topology().triangles.size();
@@ -43,7 +43,7 @@ void check_encoding_memory(const CompressOptions& options, const BakeInput& inpu
     size.num_threads = static_cast<uint64_t>(max_parallelism());
     size.num_vertices = poses.topology().num_vertices;
     size.bands = layout.in_bands;
-    size.scenery_bytes = scenery_bytes(scenery.topology, scenery.albedo, layout);
+    size.still_mesh_bytes = still_mesh_bytes(still_mesh.topology, still_mesh.albedo, layout);
     const std::string what = options.output.string();
     choose_num_in_flight(encode_size(size, options.encode), options.encode.memory_bytes, what);
     if (options.encode.measure && !options.target) {
@@ -88,7 +88,7 @@ TargetReport encode_target(const CompressOptions& options, const EncodeOptions& 
     return {options.output, encode_to_target(reader, encode_options, target, options.output, say)};
 }
 
-// Before anything long begins.
+// Checks the option before long work starts.
 void check_band_power(const CompressOptions& options, uint32_t bands) {
     if (options.target) parse_band_power(options.band_power, bands);
 }

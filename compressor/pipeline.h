@@ -1,4 +1,4 @@
-// What paim-compress does, step by step.
+// The steps of paim-compress.
 #pragma once
 
 #include "compressor/options.h"

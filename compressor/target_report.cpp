@@ -1,4 +1,4 @@
-// What paim-compress says of a file that meets a target.
+// The report of paim-compress about a file that meets a target.
 #include "compressor/target_report.h"
 
 #include <fmt/format.h>
@@ -34,7 +34,7 @@ std::string transfer_text(const TargetSummary& summary) {
         "  transfer: {:.3g} % measured, {:.3g} % allowed, {:.2g} % at best with these components; "
         "from the bake: worst vertex {:.3g} %, worst pose {:.3g} %\n",
         100.0 * transfer.total(), 100.0 * summary.transfer_target, 100.0 * summary.best_achievable,
-        100.0 * transfer.worst_vertex_deviation, 100.0 * transfer.worst_pose_deviation);
+        100.0 * transfer.worst_vertex_error_to_bake, 100.0 * transfer.worst_pose_error_to_bake);
 }
 
 std::string geometry_text(const TargetSummary& summary) {
@@ -46,12 +46,12 @@ std::string geometry_text(const TargetSummary& summary) {
         100.0 * geometry.relative_rms(), geometry.worst(), geometry.kg_error(), geometry.e_rms());
 }
 
-std::string scenery_text(const MeshError& scenery) {
+std::string still_mesh_text(const MeshError& still_mesh) {
     return fmt::format(
-        "  scenery: transfer {:.3g} % measured, worst vertex {:.3g} %; RMS distance {:.3g}, worst "
+        "  still meshes: transfer {:.3g} % measured, worst vertex {:.3g} %; RMS distance {:.3g}, worst "
         "{:.3g}\n",
-        100.0 * scenery.transfer.total(), 100.0 * scenery.transfer.worst_vertex_deviation,
-        scenery.geometry.rms(), scenery.geometry.worst());
+        100.0 * still_mesh.transfer.total(), 100.0 * still_mesh.transfer.worst_vertex_error_to_bake,
+        still_mesh.geometry.rms(), still_mesh.geometry.worst());
 }
 
 }  // namespace
@@ -99,7 +99,7 @@ std::string report_text(const TargetReport& report) {
         static_cast<double>(summary.size_bytes) / 1e3,
         bits_per_vertex_per_pose(summary.size_bytes, summary.num_vertices, summary.num_poses));
     text += candidates_text(summary.candidates) + transfer_text(summary) + geometry_text(summary);
-    if (summary.error.still) text += scenery_text(*summary.error.still);
+    if (summary.error.still) text += still_mesh_text(*summary.error.still);
     return text;
 }
 

@@ -1,4 +1,4 @@
-// What paim-compress says of a file that meets a target, to people and to programs.
+// The report of paim-compress about a file that meets a target, as text and as JSON.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -17,7 +17,7 @@ struct TargetReport {
 
 nlohmann::ordered_json report_json(const TargetReport& report);
 
-// Lines, each ended: the candidates, which of them was chosen, and the errors that were measured.
+// Lines, each with a line feed: the candidates, which of them was chosen, and the measured errors.
 std::string report_text(const TargetReport& report);
 
 }  // namespace paim

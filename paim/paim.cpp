@@ -52,7 +52,7 @@ paim_status status_of(paim::ExitCode code) {
     }
 }
 
-// No exception leaves the library.
+// Runs `body` and turns exceptions into a status, so that none leaves the library.
 template <typename Body>
 paim_status guarded(const Body& body) noexcept {
     try {

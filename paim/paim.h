@@ -38,7 +38,7 @@ typedef struct paim_asset paim_asset;
 typedef struct paim_player paim_player;
 
 typedef struct paim_asset_info {
-    uint32_t num_parts;      /* at least 1: part 0 moves, others may stand still */
+    uint32_t num_parts;      /* at least 1: part 0 moves, others may be still */
     uint32_t num_poses;      /* at least 1 */
     float frames_per_second; /* poses per second */
     double origin[3];        /* adding it to positions, in double, gives scene coordinates */
@@ -71,8 +71,9 @@ PAIM_EXPORT const char* paim_error_message(void);
 PAIM_EXPORT paim_status paim_asset_open_file(const char* path, paim_asset** asset);
 PAIM_EXPORT paim_status paim_asset_open_memory(const void* bytes, size_t num_bytes,
                                                const char* name, paim_asset** asset);
-/* The same of bytes that are only the beginning of a file, as while it is being loaded: with the
- * components that are there. PAIM_BAD_INPUT, and how many bytes it takes, if that is too little. */
+/* The same for a prefix of a file, such as the part of it that has been loaded so far. The asset has the
+ * components that the prefix holds. If it is too short to be played, the result is PAIM_BAD_INPUT, and
+ * the message says how many bytes are needed. */
 PAIM_EXPORT paim_status paim_asset_open_prefix(const void* bytes, size_t num_bytes,
                                                const char* name, paim_asset** asset);
 /* Players of the asset go on working. Null is allowed. */

@@ -19,7 +19,7 @@ struct CatalogEntry {
 
 std::span<const CatalogEntry> catalog();
 
-// Error(usage) that lists the known names, if there is none of this one.
+// Finds a sequence. Error (usage), which lists the known names, if there is none of this name.
 const CatalogEntry& find_sequence(std::string_view name);
 
 }  // namespace paim::poses

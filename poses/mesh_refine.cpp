@@ -15,7 +15,7 @@ namespace paim::poses {
 
 namespace {
 
-// An edge of a closed mesh with the two faces beside it; `from` < `to`.
+// An edge of a closed mesh with its two faces; `from` < `to`.
 struct Edge {
     uint32_t from, to;
     uint32_t face[2];
@@ -141,7 +141,7 @@ void flip_edges(int count, std::span<const Vec3d> positions, Topology& topology)
 
 void relax(const Topology& topology, int count, const std::function<Vec3d(const Vec3d&)>& project,
            std::vector<Vec3d>& positions) {
-    // Each neighbour lies on two faces with its vertex, so it counts twice: the average is the
+    // Each neighbour is on two faces with its vertex, so it counts twice, and the average is the
     // same.
     std::vector<uint32_t> num_neighbours(topology.num_vertices, 0);
     for (const Triangle& t : topology.triangles) {

@@ -10,18 +10,18 @@
 
 namespace paim::poses {
 
-// Adds `count` vertices at the middles of the longest edges, no two of them on one face, so that a
-// closed mesh gets exactly the size asked for. An edge's length is multiplied by the fineness at
+// Adds exactly `count` vertices to a closed mesh, at the middles of the longest edges, no two of
+// them on one face. For the comparison an edge's length is multiplied by the fineness at
 // its middle. Throws Error(unsupported) if there are too few edges.
 void split_longest_edges(uint32_t count, const std::function<double(const Vec3d&)>& fineness,
                          Topology& topology, std::vector<Vec3d>& positions);
 
-// Turns edges within the two faces beside them, where that makes the worse face better by a tenth
-// and leaves the surface as it is but for a small angle. Goes over all edges `count` times.
+// Flips edges within their two faces if that improves the quality of the worse face by a tenth and
+// changes the surface by a small angle only. Goes over all edges `count` times.
 void flip_edges(int count, std::span<const Vec3d> positions, Topology& topology);
 
-// Moves every vertex half way to the average of its neighbours and back onto the surface, `count`
-// times: evens out the triangles of a closed mesh.
+// Makes the triangles of a closed mesh more even: moves each vertex half way to the average of its
+// neighbours and back onto the surface, `count` times.
 void relax(const Topology& topology, int count, const std::function<Vec3d(const Vec3d&)>& project,
            std::vector<Vec3d>& positions);
 

@@ -11,7 +11,7 @@
 
 namespace paim::poses {
 
-// What the files of one sequence share is formatted once.
+// Formats the files of a sequence. Text that all files share is formatted once.
 class ObjWriter {
   public:
     // With `colored`, vertices carry their albedo: "v x y z r g b", linear.
@@ -26,7 +26,7 @@ class ObjWriter {
     std::string faces_;
 };
 
-// "NAME_0012.obj"; more digits where the last pose needs them.
+// "NAME_0012.obj", with more digits if the last pose needs them.
 std::string obj_file_name(std::string_view name, uint32_t p, uint32_t num_poses);
 
 // Writes all poses into the directory, several at a time, each all or nothing; calls written()

@@ -1,4 +1,4 @@
-// The showpiece: an octopus whose eight arms curl with travelling waves.
+// The example sequence: an octopus whose eight arms curl with travelling waves.
 #pragma once
 
 #include <memory>

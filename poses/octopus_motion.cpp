@@ -11,13 +11,13 @@ namespace paim::poses {
 namespace {
 
 constexpr size_t kNumSections = 513;
-constexpr double kSectionsEnd = 5.25;  // beyond the tip's cap
+constexpr double kSectionsEnd = 5.25;  // distance of the last section, beyond the cap of the tip
 constexpr double kStep = kSectionsEnd / (kNumSections - 1);
 
 constexpr double kStandingHeight = 1.45;  // of the arms' roots above the ground
 constexpr double kBob = 0.05;
 
-// A number in 0 … 1 that differs from arm to arm without a pattern that the eye would find.
+// A number in 0 … 1 that differs from arm to arm without a visible pattern.
 double variety(int arm, int aspect) {
     constexpr std::array<double, kNumArms> kValues{0.15, 0.80, 0.45, 1.00, 0.30, 0.65, 0.00, 0.55};
     return kValues[static_cast<size_t>((arm * 3 + aspect * 5) % kNumArms)];
@@ -27,7 +27,7 @@ double variety(int arm, int aspect) {
 // Each has one whole period a loop, so that the loop closes.
 ArmBend bend(int arm, double s, double phase_rad) {
     const double own_rad = 2.0 * kPi * (3.0 * arm / kNumArms + 0.1 * variety(arm, 0));
-    // Down from the web, then out along the ground.
+    // The arm goes down from the web, then out along the ground.
     const double posture = -1.08 * smoothstep(0.72, 1.75, s) +
                            (1.02 + 0.1 * variety(arm, 1)) * smoothstep(1.5, 2.75, s);
     // Waves travel outwards and grow on their way.
@@ -36,7 +36,7 @@ ArmBend bend(int arm, double s, double phase_rad) {
     const double sway =
         0.62 * smoothstep(0.9, 2.6, s) * std::sin(1.5 * s - phase_rad + own_rad + 1.9) +
         0.16 * smoothstep(0.8, 1.6, s) * std::sin(phase_rad + 2.0 * own_rad);
-    // The tips roll up into a logarithmic spiral, more and less as the wave arrives.
+    // The tips roll up into a logarithmic spiral, by an amount that follows the wave.
     const double rolled = 0.66 + 0.34 * std::sin(phase_rad - own_rad - 0.9);
     constexpr double kRollLength = 2.45,
                      kBeyondTip = 0.38;  // the spiral's centre lies beyond the tip
@@ -45,7 +45,7 @@ ArmBend bend(int arm, double s, double phase_rad) {
                         smoothstep(kArmLength + kBeyondTip - kRollLength, 4.2, s) *
                         std::max(std::log(kRollLength / left), 0.0);
     const double aside = 0.2 * (2.0 * variety(arm, 3) - 1.0) * smoothstep(2.6, 4.7, s);
-    // Rolled tips leave their plane, as a corkscrew does, so that they pass beside their own arm.
+    // Rolled tips leave their plane, as a corkscrew does, so that they miss their own arm.
     const double skew = 0.75 * std::min(0.5 * rolled * roll, 1.0);
     return {posture + wave + rolled * roll, sway + aside, skew};
 }

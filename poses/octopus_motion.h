@@ -9,8 +9,8 @@
 
 namespace paim::poses {
 
-// How far the direction of an arm's axis has turned from straight outwards: above the horizon, then
-// to the lateral side about the vertical, then out of the plane that these two lie in.
+// Angles between the direction of an arm's axis and straight outwards: above the horizon, then to
+// the lateral side about the vertical, then out of the plane of these two.
 struct ArmBend {
     double pitch_rad, yaw_rad, skew_rad;
 };
@@ -21,7 +21,7 @@ class ArmCurve {
     // phase_rad is the moment of the loop, 0 … 2π.
     ArmCurve(int arm, double phase_rad);
 
-    // Where a point of the rest pose goes that is (s, up, lateral) in the arm's frame.
+    // The place of the point of the rest pose that is (s, up, lateral) in the arm's frame.
     Vec3d place(double s, double up, double lateral) const;
 
     // The axis itself.
@@ -44,8 +44,8 @@ class OctopusMotion {
   public:
     explicit OctopusMotion(double phase_rad);
 
-    // Where a point of the rest pose goes. Smooth in the point: neighbouring arms are blended over
-    // the web between them, arms and mantle over the neck.
+    // The place of a point of the rest pose. It is smooth in the point: neighbouring arms are
+    // blended over the web between them, and arms and mantle over the neck.
     Vec3d place(const Vec3d& rest) const;
 
     const ArmCurve& arm(int k) const { return arms_[static_cast<size_t>(k)]; }

@@ -106,7 +106,8 @@ OctopusPlan plan_octopus(const OctopusSizes& sizes, uint32_t num_vertices) {
     OctopusPlan best;
     double best_cost = 1e9;
     for (uint32_t num_columns = 3;; ++num_columns) {
-        // Vertices grow with the square of the columns: past this, no spacing allowed below fits.
+        // The number of vertices grows with the square of the columns. With more columns none of
+        // the spacings below fits.
         if (make_plan(sizes, num_columns, 1.25 * kHalfRim / num_columns).num_vertices >
             num_vertices) {
             break;

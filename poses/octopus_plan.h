@@ -1,4 +1,5 @@
-// How many rings and columns the octopus gets, so that it has the number of vertices asked for.
+// Chooses the numbers of rings and columns of the octopus, so that it has the wanted number of
+// vertices.
 #pragma once
 
 #include <cstdint>
@@ -34,8 +35,8 @@ constexpr double kArmSpacingAtTip = 0.45;
 // Distance along the arm, as a share of it, of the ring at `fraction`.
 double arm_ring_share(double fraction);
 
-// The plan with at most the wanted number of vertices that comes nearest to it with triangles about
-// as long as wide.
+// The plan with the largest number of vertices up to the wanted one, with triangles about as long
+// as wide.
 OctopusPlan plan_octopus(const OctopusSizes& sizes, uint32_t num_vertices);
 
 }  // namespace paim::poses

@@ -16,7 +16,8 @@ using Vec2d = Eigen::Vector2d;
 constexpr size_t kNumOffsets = 33;     // meridians between the arm's middle and the sector's edge
 constexpr size_t kNumFractions = 257;  // points on each
 
-// Where the field changes sign on the way from `inside` by `length` along the unit direction.
+// The distance from `inside` along the unit direction, up to `length`, at which the field changes
+// sign.
 double crossing(const Vec3d& inside, const Vec3d& direction, double length) {
     double low = 0.0, high = length;
     if (octopus_body(inside + high * direction).value <= 0.0) return high;

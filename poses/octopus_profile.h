@@ -1,4 +1,5 @@
-// Where the octopus at rest cuts planes: meridians of the body, and cross-sections of the arms.
+// Curves of the surface of the octopus at rest: meridians of the body, and cross-sections of the
+// arms.
 #pragma once
 
 #include <vector>

@@ -12,7 +12,7 @@ namespace paim::poses {
 namespace {
 
 constexpr double kArmStart = 0.45;        // distance of the arms' first sphere from the axis
-constexpr double kArmStartRadius = 0.38;  // and its radius
+constexpr double kArmStartRadius = 0.38;  // radius of that sphere
 constexpr double kBodyBlend = 0.15;       // width of the fillets between mantle, head and arms
 constexpr double kEyeBlend = 0.05;
 
@@ -44,7 +44,7 @@ FieldValue round_cone(const Vec3d& point, const Vec3d& start, const Vec3d& direc
             across / off_axis * cosine + slope * direction};
 }
 
-// −k log Σ exp(−d/k): smooth wherever its parts are, and the same in any order.
+// Smooth minimum −k log Σ exp(−d/k), which does not depend on the order of its parts.
 template <size_t N>
 FieldValue smooth_union(const std::array<FieldValue, N>& parts, double blend) {
     double nearest = parts[0].value;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int64_t kMaxPoses = 10'000;
 
-// Options are read wider than needed, so that a number out of range gets our message.
+// Options are read as wider integers, so that numbers out of range give our message.
 uint32_t checked(const char* option, int64_t value, int64_t low, int64_t high) {
     if (value < low || value > high) {
         throw_usage("{}: expected {} to {}, got {}", option, low, high, value);

@@ -22,7 +22,7 @@ struct Mesh {
     std::vector<Vec3d> positions;
 };
 
-// Vertices shared by the patches of a mesh, found by an exact key.
+// Finds vertices that patches of a mesh share, by an exact key.
 template <typename Key>
 class Welder {
   public:
@@ -42,7 +42,7 @@ class Welder {
     std::map<Key, uint32_t> ids_;
 };
 
-// The whole number >= 1 whose count comes nearest to the one asked for.
+// The whole number >= 1 whose count is nearest to the wanted one.
 uint32_t nearest_size(uint32_t wanted, const std::function<double(double)>& count) {
     uint32_t size = 1;
     while (std::abs(count(size + 1) - wanted) < std::abs(count(size) - wanted)) ++size;
@@ -108,7 +108,7 @@ Mesh make_sphere(uint32_t size) {
 void add_square(uint32_t size, const Vec3d& center, const Vec3d& u, const Vec3d& v, Mesh& mesh,
                 Welder<std::array<int, 3>>& welder) {
     const auto vertex = [&](uint32_t i, uint32_t j) {
-        // In halves of a cell, so that coordinates of all six sides of a cube are whole.
+        // In units of half a cell, so that coordinates of all six sides of a cube are whole.
         const Vec3d doubled = center * size + (2.0 * i - size) * u + (2.0 * j - size) * v;
         const Eigen::Vector3i key = doubled.array().round().matrix().cast<int>();
         return welder.vertex({key.x(), key.y(), key.z()}, doubled / size);
@@ -135,7 +135,8 @@ Mesh make_cube(uint32_t size, bool inside_out) {
     return mesh;
 }
 
-// The lower one faces up, the upper one down; heights −1 and 1 stand for ∓distance/2.
+// Two plates: the lower one faces up, the upper one down. Heights −1 and 1 are scaled to
+// ∓distance/2.
 Mesh make_plates(uint32_t size) {
     Mesh mesh;
     Welder<std::array<int, 3>> welder(mesh);
@@ -222,7 +223,7 @@ Eigen::Matrix3d part(uint32_t p, uint32_t num_poses) {
     return Vec3d(1.0, 0.5 * plates_distance(p, num_poses), 1.0).asDiagonal();
 }
 
-// A point that faces a parallel rectangle of a by b at distance 1, from below its corner.
+// Form factor of a point below the corner of a parallel rectangle of a by b at distance 1.
 double corner_factor(double a, double b) {
     const double ra = std::sqrt(1.0 + a * a), rb = std::sqrt(1.0 + b * b);
     return (a / ra * std::atan(b / ra) + b / rb * std::atan(a / rb)) / (2.0 * kPi);

@@ -1,26 +1,23 @@
-// Small shapes whose light is known in closed form. Each keeps its answer in every pose. Vertex
-// counts are the nearest that the shape's grid can have.
+// Small shapes whose transfer is known in closed form. The number of vertices is the nearest one
+// that the shape's grid can have.
 //
-//  sphere  A closed unit sphere round the origin (geodesic). Convex: nothing is shadowed, so
-//  transfer
-//          is â_l y_i(n) with n = position / radius. Poses: the radius swings 0.75 … 1.25.
-//  box     The closed cube [−1, 1]³. Convex: unshadowed; inside a face n is the face's normal.
-//  Poses:
-//          one turn about Y.
+//  sphere  A closed unit sphere about the origin (geodesic). It is convex, so nothing is shadowed,
+//          and the transfer is â_l y_i(n) with n = position / radius. Poses: the radius swings 0.75
+//          … 1.25.
+//  box     The closed cube [−1, 1]³. It is convex, so nothing is shadowed; inside a face n is the
+//          face's normal. Poses: one turn about Y.
 //  plates  Two single square sheets [−1, 1]² at y = ±distance/2, facing each other. From a point of
-//          one, the other blocks what the form factor of a point facing a parallel rectangle says
-//          (plates_blocked). Poses: the distance swings 0.5 … 1.5, beginning with 1.
+//          one, the other blocks the form factor of a point that faces a parallel rectangle
+//          (plates_blocked). Poses: the distance swings 0.5 … 1.5, starting with 1.
 //  cavity  The cube [−1, 1]³ seen from inside, faces inwards. No vertex sees sky: transfer is 0.
 //          Poses: one turn about Y.
 //  bowl    A single sheet: the lower half of the unit sphere, faces inwards, open at y = 0. The
-//  form
-//          factor between any two patches of a sphere is area / (4π), so the hemisphere hides
-//          exactly half of every point's cosine-weighted sky: t_00 = y_00 / 2 everywhere, on the
-//          rim too. For flat triangles it holds up to their sagitta, O(1/V). Poses: the radius
+//          form factor between any two patches of a sphere is area / (4π), so the hemisphere hides
+//          exactly half of the cosine-weighted sky of every point: t_00 = y_00 / 2 everywhere, also
+//          on the rim. For flat triangles this holds up to their sagitta, O(1/V). Poses: the radius
 //          swings 0.75 … 1.25.
 // Based on: Howell, A Catalog of Radiation Heat Transfer Configuration Factors (plates: B-4, bowl:
-// the
-//           inside of a sphere)
+//           the inside of a sphere)
 #pragma once
 
 #include <memory>

@@ -111,7 +111,7 @@ inline Asset make_clustered_example(uint32_t bands = 2, uint32_t channels = 1,
     return integers ? quantise_example(asset) : asset;
 }
 
-// Two triangles of three colours, which stand still.
+// A still part: two triangles of three colours.
 inline CodedMesh make_example_still(const TransferLayout& layout) {
     RandomStream random(8);
     CodedMesh mesh;
@@ -149,7 +149,7 @@ inline CodedMesh make_quantised_still(const TransferLayout& layout) {
     return mesh;
 }
 
-// The example, and what stands still around it.
+// The example with a still part.
 inline Asset with_still(Asset asset, CodedMesh still) {
     asset.parts.push_back(std::move(still));
     return asset;

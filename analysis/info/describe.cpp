@@ -1,4 +1,4 @@
-// What a .paim file or a .bake directory holds.
+// Describes a .paim file or a .bake directory.
 #include "analysis/info/describe.h"
 
 #include <fmt/format.h>
@@ -84,10 +84,10 @@ ordered_json describe_bake(const std::filesystem::path& path) {
     json["normals"] = identity.normals;
     json["bounces"] = identity.bounces;
     if (!identity.floor.empty()) json["floor"] = identity.floor;
-    for (const auto& source : identity.scenery) json["static"].push_back(source.name);
-    if (bake.scenery()) {
-        json["scenery_vertices"] = bake.scenery()->topology.num_vertices;
-        json["scenery_triangles"] = bake.scenery()->topology.triangles.size();
+    for (const auto& source : identity.still_meshes) json["static"].push_back(source.name);
+    if (bake.still_mesh()) {
+        json["scenery_vertices"] = bake.still_mesh()->topology.num_vertices;
+        json["scenery_triangles"] = bake.still_mesh()->topology.triangles.size();
     }
     json["origin"] = {identity.origin.x(), identity.origin.y(), identity.origin.z()};
     const PoseStatistics total = bake.total_statistics();
@@ -104,7 +104,7 @@ ordered_json describe_bake(const std::filesystem::path& path) {
     return json;
 }
 
-// In full where that is short, as coordinates of an origin are.
+// All digits if they are few, as those of an origin are.
 std::string number_text(double value) {
     std::string exact = fmt::format("{}", value);
     return exact.size() <= 10 ? exact : fmt::format("{:.5g}", value);

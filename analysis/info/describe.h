@@ -1,4 +1,4 @@
-// What a .paim file or a .bake directory holds.
+// Describes a .paim file or a .bake directory.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -8,10 +8,10 @@
 
 namespace paim {
 
-// Everything about the file as JSON. Reads and checks all of it. Errors: those of the readers.
+// A description of the file as JSON. Reads and checks the whole file. Errors: those of the readers.
 nlohmann::ordered_json describe(const std::filesystem::path& path);
 
-// The same for people, as indented lines "key: value".
+// The same as text: indented lines "key: value".
 std::string as_text(const nlohmann::ordered_json& description);
 
 }  // namespace paim

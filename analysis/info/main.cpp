@@ -1,4 +1,4 @@
-// paim-info: what a .paim file or a .bake directory holds.
+// paim-info: describes a .paim file or a .bake directory.
 #include <fmt/format.h>
 
 #include "analysis/info/describe.h"

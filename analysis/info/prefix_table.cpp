@@ -1,4 +1,4 @@
-// The prefixes of a .paim that can be played, and how far off they are.
+// The prefixes of a .paim that can be played, with their errors.
 #include "analysis/info/prefix_table.h"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ using nlohmann::ordered_json;
 
 namespace {
 
-// Long lists are thinned out to so many rows, the first and the last among them.
+// Of long lists so many rows are shown, the first and the last among them.
 constexpr size_t kMaxRows = 20;
 
 std::optional<ErrorStatement> find_statement(const Asset& asset,
@@ -39,9 +39,11 @@ ordered_json describe_prefixes(const std::filesystem::path& path) {
     json["position_rms_of_whole_file"] = errors.position_stated ? "stated" : "unknown";
     json["prefixes"] = ordered_json::array();
     for (const Prefix& prefix : read_prefixes(path)) {
-        // A table may have sections that META does not count.
-        const auto kg = std::min(prefix.geometry_components, asset.moving().positions.num_components);
-        const auto kt = std::min(prefix.transfer_components, asset.moving().transfer->matrix.num_components);
+        // A file may have more component sections than META counts.
+        const auto kg =
+            std::min(prefix.geometry_components, asset.moving().positions.num_components);
+        const auto kt =
+            std::min(prefix.transfer_components, asset.moving().transfer->matrix.num_components);
         json["prefixes"].push_back({{"size_bytes", prefix.size_bytes},
                                     {"share_of_file", static_cast<double>(prefix.size_bytes) /
                                                           static_cast<double>(size_bytes)},

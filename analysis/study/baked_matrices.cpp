@@ -1,4 +1,4 @@
-// A sequence baked into memory.
+// Bakes a sequence into memory.
 #include "analysis/study/baked_matrices.h"
 
 #include <algorithm>

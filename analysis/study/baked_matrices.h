@@ -1,4 +1,4 @@
-// A sequence baked into memory, and how far an approximation of it is from the truth.
+// Bakes a sequence into memory, and measures errors of approximations to the truth.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,11 +15,12 @@ struct BakedMatrices {
     uint64_t num_rays = 0;  // traced
 };
 
-// The first num_poses poses.
+// Bakes the first num_poses poses.
 BakedMatrices bake_matrices(const PoseSource& source, const BakeOptions& options,
                             uint32_t num_poses);
 
-// Measures approximations against a bake of many rays, whose own noise is known and taken out.
+// Measures errors to a bake of many rays. The noise of that bake is known, and subtracted from the
+// errors.
 class Truth {
   public:
     explicit Truth(BakedMatrices truth);
@@ -27,8 +28,8 @@ class Truth {
     // Relative RMS error of the transfer.
     double error(const Eigen::MatrixXf& approximation) const;
 
-    // The error (L2 norm over its coefficients) that this share of all vertices of all poses stays
-    // below. The truth's own noise counts.
+    // The quantile of the errors (L2 norm over coefficients) of all vertices in all poses. It
+    // includes the noise of the truth.
     double vertex_error(const Eigen::MatrixXf& approximation, uint32_t num_vertices,
                         double share) const;
 

@@ -1,7 +1,8 @@
-// How small and how fast clustered principal components are: the tables of docs/results/clusters.md.
+// paim-cluster-study: sizes and times of clustered principal components, the tables of
+// docs/results/clusters.md.
 //   paim-cluster-study X.bake|VxPLANESxCOLUMNS [--curves] [--rounds MEANxAFFINE] [--projection D]
 //                      [--seed S] [CLUSTERSxCOMPONENTS[xASSUMED]]...
-// A size in place of a bake stands for synthetic points.
+// With a size in place of a bake, the points are synthetic.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -37,7 +38,7 @@ double sum_of_squares(const PointSource& points) {
 
 struct Times {
     double wall_s = 0.0;
-    double cpu_s = 0.0;  // of all threads: what a busy machine disturbs least
+    double cpu_s = 0.0;  // of all threads, which a busy machine disturbs least
 };
 
 template <typename Body>
@@ -71,7 +72,7 @@ void measure(const PointSource& points, const ClusteringOptions& options, double
     std::fflush(stdout);
 }
 
-// Numbers with an x between; nothing if there is anything else.
+// Numbers separated by x; empty if the text is anything else.
 std::vector<uint32_t> numbers(const std::string& text) {
     std::vector<uint32_t> values;
     if (text.empty() || text.find_first_not_of("0123456789x") != std::string::npos) return values;

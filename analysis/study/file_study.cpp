@@ -1,6 +1,7 @@
-// paim-file-study: how small and how cheap to play files of a given error are, against the paper's own
-// storage at the same error: the table of docs/results/files.md.
-// Based on: Cardoso and Kry, Error Analysis of Precomputed Radiance Transfer for Deforming Geometry, 2012
+// paim-file-study: size and playing cost of files of a given error, compared with the paper's
+// storage at the same error. Prints the table of docs/results/files.md.
+// Based on: Cardoso and Kry, Error Analysis of Precomputed Radiance Transfer for Deforming
+//           Geometry, 2012
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -35,7 +36,7 @@ class Study {
         bake_.verify_all();
     }
 
-    // Encodes, measures what was written anew, and prints a line.
+    // Encodes, measures the written file again, and prints a line.
     TargetSummary measure(const std::string& name, double error, const Setting& setting,
                           const TargetSummary* paper) const {
         EncodeOptions options;
@@ -50,7 +51,7 @@ class Study {
         const std::string clusters =
             chosen.clusters == 0 ? ""
                                  : fmt::format("{}x{}", chosen.clusters, chosen.cluster_components);
-        // The issue of light aside: decoding alone, and light of one channel.
+        // Cost of decoding, and of light of one channel.
         const uint32_t coefficients = chosen.bands * chosen.bands;
         const uint32_t grey = chosen.clusters == 0 ? (chosen.components + 1) * coefficients
                                                    : chosen.cluster_components + 1;

@@ -1,4 +1,4 @@
-// What encoding does to the noise of a bake.
+// The effect of encoding on the noise of a bake.
 // Based on: Gavish and Donoho, Optimal Shrinkage of Singular Values, 2017
 #include <fmt/format.h>
 
@@ -38,15 +38,17 @@ struct Case {
     VectorXd singular_values;
 };
 
-// The error from the truth that is expected from the bake alone, relative to the truth as Truth's is.
+// The error to the truth that is expected from the bake alone, relative to the truth like the
+// errors of Truth.
 double expected_error(const Case& c, Index num_components, const MatrixXf& approximation) {
     const Index poses = c.v.rows();
     const Index vertices = approximation.rows() / static_cast<Index>(c.layout.num_planes());
     const MatrixXf weights = c.v.leftCols(num_components).cast<float>();
-    const MatrixXd kept = orthonormal_pose_space(
+    const MatrixXd span = orthonormal_pose_space(
         {weights.data(), static_cast<size_t>(weights.size())}, static_cast<uint32_t>(poses));
     TransferErrorMeter meter(c.layout, static_cast<uint32_t>(vertices),
-                             static_cast<uint32_t>(poses), BandPower::flat(c.layout.in_bands), kept);
+                             static_cast<uint32_t>(poses), BandPower::flat(c.layout.in_bands),
+                             span);
     for (uint32_t plane = 0; plane < c.layout.num_planes(); ++plane) {
         const Index first = static_cast<Index>(plane) * vertices;
         meter.add(plane, c.baked.transfer.middleRows(first, vertices),

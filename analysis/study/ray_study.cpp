@@ -1,4 +1,4 @@
-// What rays buy: samplers, and rays where they matter.
+// Error against the number of rays: for each sampler, and with noise targets.
 #include <fmt/format.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Slow singular values to compare with: one-sided Jacobi in long double on the whole centred
+// Slow reference of singular values: one-sided Jacobi in long double on the whole centred
 // matrix, without scaling, pivoting, blocks or QR.
 // Based on: Hestenes, Inversion of Matrices by Biorthogonalization and Related Results, 1958
 #pragma once

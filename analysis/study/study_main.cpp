@@ -1,4 +1,4 @@
-// paim-study: the measurements on which the defaults rest.
+// paim-study: the measurements behind the defaults.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

@@ -1,4 +1,4 @@
-// What decides how a pose is baked.
+// Options of the baker.
 #include "compressor/bake/bake_options.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// What decides how a pose is baked.
+// Options of the baker.
 #pragma once
 
 #include <cstdint>
@@ -21,17 +21,17 @@ constexpr Streams kStreams[] = {Streams::per_pose, Streams::shared, Streams::mix
 
 struct BakeOptions {
     uint32_t bands = 5;   // 1 … sh::kMaxBands
-    uint32_t rays = 512;  // per vertex, even, 2 … 2^24; with a transfer_error, the limit
+    uint32_t rays = 512;  // per vertex, even, 2 … 2^24; the limit if there is a transfer_error
     uint64_t seed = 1;
     // The noise target, if above 0: rays are traced at each vertex until the estimated error of its
     // transfer (noise_target.h) is at most this fraction of the transfer of an unshadowed vertex.
     double transfer_error = 0.0;
     SamplerKind sampler = SamplerKind::cosine;
     Streams streams = Streams::per_pose;
-    uint32_t bounces = 0;  // of light between vertices, 0 … kMaxBounces (bounces.h)
+    uint32_t bounces = 0;  // number of times that light bounces, 0 … kMaxBounces (bounces.h)
 };
 
-// The key of the rays of one half (0 or 1) of a vertex.
+// Key of the random numbers of the rays of one half (0 or 1) of a vertex.
 uint64_t half_key(const BakeOptions& options, uint32_t p, uint32_t v, uint32_t half);
 
 // The L2 norm of the transfer of an unshadowed vertex, which does not depend on its normal:

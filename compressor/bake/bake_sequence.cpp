@@ -12,7 +12,7 @@ namespace paim {
 
 namespace {
 
-// Reads a pose while another one is baked, for reading keeps one core busy and the others idle.
+// Reads a pose while another one is baked, because reading uses one core only.
 class ReadAhead {
   public:
     explicit ReadAhead(const PoseSource& source) : source_(source) {}
@@ -23,7 +23,7 @@ class ReadAhead {
         pose_ = std::async(std::launch::async, [this, p] { return source_.load_pose(p); });
     }
 
-    // Pose p, whether it was started or not. Errors: those of the source.
+    // Returns pose p, whether reading it was started or not. Errors: those of the source.
     Pose take(uint32_t p) {
         if (pose_.valid() && pose_number_ == p) return pose_.get();
         return source_.load_pose(p);
@@ -41,7 +41,7 @@ BakeIdentity bake_identity(const PoseSource& source, const BakeOptions& options,
                            const std::string& normals, const Surroundings& surroundings) {
     BakeIdentity identity;
     identity.baker = kBakerVersion;
-    identity.layout = TransferBaker::bake_layout(options, source.albedo(), surroundings.scenery);
+    identity.layout = TransferBaker::bake_layout(options, source.albedo(), surroundings.still_mesh);
     identity.bounces = options.bounces;
     identity.sampler = sampler_name(options.sampler);
     identity.streams = streams_name(options.streams);
@@ -50,13 +50,13 @@ BakeIdentity bake_identity(const PoseSource& source, const BakeOptions& options,
     identity.seed = options.seed;
     identity.normals = normals;
     identity.floor = surroundings.floor;
-    identity.scenery = surroundings.scenery.sources;
+    identity.still_meshes = surroundings.still_mesh.sources;
     identity.num_vertices = source.topology().num_vertices;
     identity.num_triangles = static_cast<uint32_t>(source.topology().triangles.size());
     identity.mesh_xxh3 = mesh_checksum(source.topology(), source.albedo());
     identity.origin = source.origin();
     for (uint32_t p = 0; p < source.num_poses(); ++p) {
-        // The file's name alone, so that a bake does not depend on where the poses lie.
+        // The name without its folder, so that a bake does not depend on the place of the files.
         const std::string name = std::filesystem::path(source.pose_name(p)).filename().string();
         identity.poses.push_back({name, source.pose_checksum(p)});
     }
@@ -72,16 +72,16 @@ BakeSummary bake_sequence(const PoseSource& source, const BakeOptions& options,
     PAIM_CHECK_LT(last, source.num_poses());
     const BakeIdentity identity = bake_identity(source, options, normals, surroundings);
     const BakeWriter writer(directory, identity, source.topology(), source.albedo());
-    TransferBaker baker(options, source.albedo(), surroundings.scenery);
+    TransferBaker baker(options, source.albedo(), surroundings.still_mesh);
     const auto lacks = [&](uint32_t p) { return !writer.has_pose(p); };
-    if (const StaticMesh& scenery = surroundings.scenery; !scenery.empty()) {
-        const bool found = writer.has_scenery();
-        // Poses need its light where that bounces.
+    if (const StillMesh& still_mesh = surroundings.still_mesh; !still_mesh.empty()) {
+        const bool found = writer.has_still_mesh();
+        // Poses need the light of the still meshes if it bounces.
         const auto poses = std::views::iota(first, last + 1);
         const bool needed = options.bounces > 0 && std::any_of(poses.begin(), poses.end(), lacks);
         if (!found || needed) {
-            const BakedPose baked = baker.bake_scenery();
-            if (!found) writer.write_scenery({scenery.topology, scenery.albedo, baked});
+            const BakedPose baked = baker.bake_still_mesh();
+            if (!found) writer.write_still_mesh({still_mesh.topology, still_mesh.albedo, baked});
         }
     }
     ReadAhead ahead(source);

@@ -1,4 +1,5 @@
-// Bakes a whole sequence into a .bake directory, pose by pose. Resumes where an earlier run stopped.
+// Bakes a whole sequence into a .bake directory, pose by pose. Resumes where an earlier run
+// stopped.
 #pragma once
 
 #include <filesystem>
@@ -6,7 +7,7 @@
 #include <string>
 
 #include "compressor/bake/transfer_baker.h"
-#include "compressor/scene/static_mesh.h"
+#include "compressor/scene/still_mesh.h"
 #include "paim/format/bake/bake_directory.h"
 #include "paim/mesh/pose_source.h"
 
@@ -18,17 +19,17 @@ struct BakeSummary {
     PoseStatistics total;  // of all poses in range; RMS values over all of them
 };
 
-// The floor and the scenery of a sequence.
+// The floor and the still meshes of a sequence.
 struct Surroundings {
-    std::string floor;   // description of the ground under the poses; empty if there is none
-    StaticMesh scenery;  // blocks and bounces the poses' light; baked once, without the poses
+    std::string floor;     // description of the ground under the poses; empty if there is none
+    StillMesh still_mesh;  // blocks and bounces the poses' light; baked once, without the poses
 };
 
-// Everything that decides the bytes of this bake.
+// The identity of this bake: everything that decides its bytes.
 BakeIdentity bake_identity(const PoseSource& source, const BakeOptions& options,
                            const std::string& normals, const Surroundings& surroundings = {});
 
-// Bakes the poses first … last (inclusive) and the scenery, unless they are baked already.
+// Bakes the poses first … last (inclusive) and the still mesh, unless they are baked already.
 // on_pose   called with the number of each pose once it is baked or found
 // Errors: those of BakeWriter, of the source and of RayScene. Finished poses stay in any case.
 BakeSummary bake_sequence(const PoseSource& source, const BakeOptions& options,

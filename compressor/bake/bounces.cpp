@@ -15,7 +15,7 @@ namespace {
 
 constexpr size_t kRowsPerPiece = 64;
 
-// Rows that are kept, and the rest made anew when needed.
+// Keeps rows up to a number of bytes, and makes the others again whenever they are needed.
 class RowCache {
   public:
     RowCache(const BounceScene& scene, uint64_t max_bytes) : scene_(scene) {
@@ -28,7 +28,7 @@ class RowCache {
             TransportRow row;
             for (size_t v = begin; v < end; ++v) {
                 for (size_t half = 0; half < 2; ++half) {
-                    // Which rows are kept may differ from run to run, what they hold does not.
+                    // Which rows are kept may differ from run to run, their values do not.
                     if (used.load() >= max_bytes) return;
                     scene.make_row(v, half, row);
                     used += row.size() * sizeof(HitWeight);
@@ -53,7 +53,7 @@ class RowCache {
 
 // Albedo times transfer of all vertices, [channels][V + S][C].
 void outgoing(const BounceScene& scene, const std::vector<float>& own,
-              const std::vector<float>* scenery, std::vector<float>& out) {
+              const std::vector<float>* still_mesh, std::vector<float>& out) {
     const size_t num_coefficients = scene.layout.num_coefficients();
     size_t to = 0;
     const auto append = [&](const std::vector<float>& term, const Albedo& albedo, size_t count,
@@ -66,11 +66,13 @@ void outgoing(const BounceScene& scene, const std::vector<float>& own,
     };
     for (uint32_t channel = 0; channel < scene.layout.channels; ++channel) {
         append(own, scene.albedo, scene.num_vertices, channel);
-        if (scenery) append(*scenery, scene.scenery_albedo, scene.num_scenery_vertices, channel);
+        if (still_mesh) append(*still_mesh, scene.still_albedo, scene.num_still_vertices, channel);
     }
 }
 
-// Σ weight · values over the hits of a row. values [V + S][C], sums [C]
+// Sums weight · values over the hits of a row.
+// values  [V + S][C]
+// sums    [C]
 void sum_hits(const TransportRow& row, const float* values, std::vector<double>& sums) {
     std::fill(sums.begin(), sums.end(), 0.0);
     for (const HitWeight& hit : row) {
@@ -82,14 +84,14 @@ void sum_hits(const TransportRow& row, const float* values, std::vector<double>&
     }
 }
 
-// What comes to all vertices of what goes out.
+// Gathers the outgoing light at all vertices by their rows.
 // source  [channels][V + S][C]
-// use     (channel, v, i, value), from several threads, each of its own vertices
+// use     is called with (channel, v, i, value), by several threads for different vertices
 template <typename Use>
 void gather(const BounceScene& scene, const RowCache& rows, size_t half,
             const std::vector<float>& source, const Use& use) {
     const size_t num_coefficients = scene.layout.num_coefficients();
-    const size_t of_channel = (scene.num_vertices + scene.num_scenery_vertices) * num_coefficients;
+    const size_t of_channel = (scene.num_vertices + scene.num_still_vertices) * num_coefficients;
     parallel_for(scene.num_vertices, kRowsPerPiece, [&](size_t begin, size_t end) {
         TransportRow scratch;
         std::vector<double> sums(num_coefficients);
@@ -113,9 +115,9 @@ BounceTerms add_bounces(const BounceScene& scene, uint32_t num_bounces,
     const size_t num_vertices = scene.num_vertices;
     const size_t num_coefficients = scene.layout.num_coefficients();
     const size_t num_channels = scene.layout.channels;
-    const size_t num_all = num_vertices + scene.num_scenery_vertices;
+    const size_t num_all = num_vertices + scene.num_still_vertices;
     const size_t num_sums = num_channels * num_coefficients;
-    if (scene.num_scenery_vertices > 0) PAIM_CHECK_LE(num_bounces, scene.scenery_terms->size());
+    if (scene.num_still_vertices > 0) PAIM_CHECK_LE(num_bounces, scene.still_terms->size());
     BounceTerm term;
     for (size_t half = 0; half < 2; ++half) {
         std::vector<float>& total = halves[half];
@@ -143,9 +145,9 @@ BounceTerms add_bounces(const BounceScene& scene, uint32_t num_bounces,
     for (uint32_t b = 1; b <= num_bounces; ++b) {
         if (keep_terms) terms.push_back(term);
         for (size_t half = 0; half < 2; ++half) {
-            const bool has_scenery = scene.num_scenery_vertices > 0;
+            const bool has_still_mesh = scene.num_still_vertices > 0;
             outgoing(scene, term[half],
-                     has_scenery ? &(*scene.scenery_terms)[b - 1][half] : nullptr, source);
+                     has_still_mesh ? &(*scene.still_terms)[b - 1][half] : nullptr, source);
             gather(scene, rows, half, source, [&](size_t channel, size_t v, size_t i, float value) {
                 term[half][(channel * num_vertices + v) * num_coefficients + i] = value;
                 halves[half][(channel * num_coefficients + i) * num_vertices + v] += value;

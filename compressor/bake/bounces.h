@@ -18,32 +18,33 @@ namespace paim {
 
 constexpr uint32_t kMaxBounces = 16;
 
-// What light that bounced b times adds to the transfer of each half, [2][channels][V][C].
+// The contribution of light that bounced b times to the transfer of each half, [2][channels][V][C].
 using BounceTerm = std::array<std::vector<float>, 2>;
 
-// Those of b = 0 (no bounce) …
+// The terms of b = 0 (no bounce), 1, 2 …
 using BounceTerms = std::vector<BounceTerm>;
 
-// What light bounces between: vertices of a mesh and, after them, of scenery whose light is known.
+// The vertices that light bounces between: those of a mesh and, after them, those of a still mesh,
+// whose light is known.
 struct BounceScene {
     TransferLayout layout;
     size_t num_vertices = 0;
     Albedo albedo;  // [1] or [V]
-    size_t num_scenery_vertices = 0;
-    Albedo scenery_albedo;  // [1] or [S]
-    const BounceTerms* scenery_terms =
-        nullptr;  // of at least the number of bounces; null: no scenery
-    // Row of one half of a vertex; indices from V on are the scenery's. Called from several
-    // threads, possibly more than once for a row, and always with the same answer.
+    size_t num_still_vertices = 0;
+    Albedo still_albedo;  // [1] or [S]
+    const BounceTerms* still_terms =
+        nullptr;  // at least as many terms as bounces; nullptr: no still mesh
+    // Makes the row of one half of a vertex. Indices from V on are of the still mesh. Called from
+    // several threads, possibly more than once for a row, and always with the same answer.
     std::function<void(size_t v, size_t half, TransportRow& row)> make_row;
 };
 
 // Adds num_bounces bounces. Each half bounces its own light with its own rays, so that half their
 // difference still estimates the error of their mean. Rows beyond max_row_bytes are made again for
-// each bounce, which changes the time it takes and nothing else. Deterministic on any number of
+// each bounce, which takes longer and has the same result. Deterministic on any number of
 // threads.
 // halves   in: [C][V] the transfer without bounces; out: [channels · C][V] with them
-// returns  terms 0 … num_bounces − 1, if they are asked for
+// returns  terms 0 … num_bounces − 1 if keep_terms, else nothing
 BounceTerms add_bounces(const BounceScene& scene, uint32_t num_bounces,
                         std::array<std::vector<float>, 2>& halves, bool keep_terms,
                         uint64_t max_row_bytes = uint64_t{1} << 30);

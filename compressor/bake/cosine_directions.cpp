@@ -1,7 +1,7 @@
 // Cosine-distributed directions.
-// Based on: Shirley and Chiu, A Low Distortion Map Between Disk and Square, 1997 (concentric, so
-//           that neighbouring points stay neighbours); projecting the disk up gives cosine density
-//           (Malley)
+// Based on: Shirley and Chiu, A Low Distortion Map Between Disk and Square, 1997 (concentric map,
+//           which keeps neighbouring points together). Projecting the disk onto the hemisphere
+//           gives cosine density (Malley).
 #include "compressor/bake/cosine_directions.h"
 
 #include <algorithm>
@@ -12,8 +12,9 @@ namespace paim {
 
 namespace {
 
-// Vector registers on every machine we know (SSE2, NEON); GCC and Clang do arithmetic on them
-// directly. Left to itself GCC 12 keeps this loop scalar, at two and a half times the cost.
+// Vector registers of SSE2 and NEON. GCC and Clang do arithmetic on these types directly. GCC 12
+// does not vectorise this loop by itself; as scalar code it would take two and a half times as
+// long.
 constexpr uint32_t kLanes = 4;
 using Floats = float __attribute__((vector_size(16)));
 using Ints = int32_t __attribute__((vector_size(16)));
@@ -31,7 +32,7 @@ inline Floats select(Ints mask, Floats yes, Floats no) {
                                     (~mask & reinterpret_cast<Ints>(no)));
 }
 
-// As integers, which order as the floats do.
+// |x| as integers, which have the same order as the floats.
 inline Ints magnitude(Floats x) {
     return reinterpret_cast<Ints>(x) & 0x7fffffff;
 }
@@ -41,15 +42,15 @@ inline Floats square_root(Floats x) {
     return x;
 }
 
-// scrambled_fraction of four coordinates, stretched to [−1, 1).
+// scrambled_fraction() of four coordinates, scaled to [−1, 1).
 inline Floats signed_fraction(Words reversed, uint32_t seed) {
     const Words scrambled = reverse_bits(laine_karras_permutation(reversed, seed)) >> 8;
-    // 24 bits are exact in float; as signed numbers, which SSE2 can convert.
+    // 24 bits are exact in float. SSE2 can only convert signed numbers.
     const Floats integer = __builtin_convertvector(reinterpret_cast<Ints>(scrambled), Floats);
     return integer * 0x1.0p-23f - 1.0f;
 }
 
-// sin and cos for |x| <= π/4, Taylor series to below float rounding.
+// sin and cos for |x| <= π/4 by Taylor series, with errors below the rounding of floats.
 inline Floats small_sin(Floats x) {
     const Floats s = x * x;
     return x *
@@ -88,14 +89,14 @@ void CosineDirections::generate(const Vec3f& normal, uint64_t key, DirectionArra
     out.y.resize(padded);
     out.z.resize(padded);
     float* const to[3] = {out.x.data(), out.y.data(), out.z.data()};
-    // Two loops, each short enough for the processor to overlap its steps.
+    // Two loops, each so short that the processor can overlap its steps.
     for (uint32_t j = 0; j < padded; j += kLanes) {
         const Floats a = signed_fraction(load<Words>(points_.reversed_x.data() + j), seed_x);
         const Floats b = signed_fraction(load<Words>(points_.reversed_y.data() + j), seed_y);
         std::memcpy(to[0] + j, &a, sizeof a);
         std::memcpy(to[1] + j, &b, sizeof b);
     }
-    const Vec3f n = normal;  // a copy, which the stores below cannot change
+    const Vec3f n = normal;  // a copy: the compiler knows that the stores below do not change it
     for (uint32_t j = 0; j < padded; j += kLanes) {
         const Floats a = load<Floats>(to[0] + j);
         const Floats b = load<Floats>(to[1] + j);

@@ -1,4 +1,4 @@
-// Cosine-distributed directions round a normal, low-discrepancy and keyed.
+// Cosine-distributed directions about a normal: keyed low-discrepancy sequences.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,8 @@ class CosineDirections {
     uint32_t count() const { return count_; }
     uint32_t padded_count() const { return static_cast<uint32_t>(points_.reversed_x.size()); }
 
-    // normal unit; out is resized to padded_count()
+    // normal  unit
+    // out     resized to padded_count()
     void generate(const Vec3f& normal, uint64_t key, DirectionArrays& out) const;
 
   private:

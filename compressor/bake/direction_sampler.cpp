@@ -1,4 +1,4 @@
-// The directions in which a vertex looks.
+// The directions of a vertex's rays and their weights.
 #include "compressor/bake/direction_sampler.h"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ class CosineSampler : public DirectionSampler {
     CosineDirections directions_;
 };
 
-// Empties the set and fills it from points in the unit square, uniform over the sphere by
+// Fills a set with directions from points in the unit square. They are uniform over the sphere by
 // Archimedes' hat-box theorem.
 class UniformSet {
   public:

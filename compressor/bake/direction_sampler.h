@@ -10,7 +10,7 @@
 namespace paim {
 
 enum class SamplerKind : uint32_t {
-    cosine,         // cosine-distributed, low-discrepancy: the one to use
+    cosine,         // cosine-distributed, low-discrepancy: the default
     uniform,        // uniform over the sphere, random: the slow reference
     uniform_sobol,  // uniform over the sphere, low-discrepancy
 };
@@ -21,11 +21,11 @@ const char* sampler_name(SamplerKind kind);
 constexpr SamplerKind kSamplerKinds[] = {SamplerKind::cosine, SamplerKind::uniform,
                                          SamplerKind::uniform_sobol};
 
-// The power of the number of rays with which the squared error of a mean over directions falls: 1
-// for random points; 1.5, measured where occluders have edges, for low-discrepancy points.
+// The exponent p of the squared error ∝ rays^−p of a mean over directions: 1 for random points, and
+// 1.5 for low-discrepancy points, as measured for occluders with edges.
 double error_power(SamplerKind kind);
 
-// Directions to trace. Weights are padded with zeros like the directions.
+// Directions to trace, with weights. Both are padded with zeros.
 struct RaySet : DirectionArrays {
     std::vector<float> weights;
     uint32_t num_rays = 0;
@@ -40,7 +40,7 @@ class DirectionSampler {
     virtual ~DirectionSampler() = default;
     uint32_t num_points() const { return num_points_; }
 
-    // normal unit. Points below its horizon count nothing and are left out of the rays.
+    // normal  unit; points below its horizon contribute nothing and are not among the rays
     virtual void generate(const Vec3f& normal, uint64_t key, RaySet& out) const = 0;
 
   private:

@@ -1,4 +1,4 @@
-// Which vertices need more rays.
+// Finds the vertices that need more rays.
 #include "compressor/bake/noise_target.h"
 
 #include <cmath>
@@ -14,11 +14,12 @@ std::vector<uint32_t> above_noise_target(const Topology& topology,
                                          std::span<const uint32_t> candidates) {
     PAIM_CHECK_EQ(noise_energy.size(), topology.num_vertices);
     PAIM_CHECK_EQ(num_rays.size(), topology.num_vertices);
-    std::vector<double> falls(topology.num_vertices);  // squared error of one ray over that of all
+    // Squared error of one ray divided by that of all rays.
+    std::vector<double> falls(topology.num_vertices);
     for (size_t v = 0; v < falls.size(); ++v) {
         falls[v] = std::pow(static_cast<double>(num_rays[v]), power);
     }
-    // Over triangles, so that inner neighbours count twice and those along a border once.
+    // Sums over triangles, so that inner neighbours count twice and those along a border once.
     std::vector<double> sums(topology.num_vertices, 0.0);
     std::vector<uint32_t> counts(topology.num_vertices, 0);
     for (const Triangle& t : topology.triangles) {

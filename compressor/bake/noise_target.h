@@ -1,4 +1,4 @@
-// Which vertices need more rays.
+// Finds the vertices that need more rays.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace paim {
 // without neighbours uses its own estimate. Neighbours may have different numbers of rays, so the
 // average is over squared errors times a power of the rays, which does not depend on the rays.
 // noise_energy  [V] estimated squared error
-// num_rays      [V] rays that the estimate is from; 0: there is none
+// num_rays      [V] number of rays of the estimate; 0: no estimate
 // power         of the rays, with which squared errors fall (direction_sampler.h: error_power)
 // candidates    vertices to decide on, ascending
 // returns       the candidates that need more rays, ascending

@@ -1,4 +1,4 @@
-// How far shadow rays start off the surface.
+// Distance of the start of shadow rays from the surface.
 #include "compressor/bake/ray_offset.h"
 
 #include <algorithm>
@@ -16,9 +16,9 @@ std::vector<float> ray_offsets(const Topology& topology, std::span<const Vec3f> 
     std::vector<double> shortest(positions.size(), kNone);  // edge
     std::vector<float> largest(positions.size(), 0.0f);     // coordinate
     for (const Triangle& t : topology.triangles) {
-        // A face without area says nothing about the detail of the surface, and cannot be hit.
+        // Faces without area cannot be hit, and do not show the size of details of the surface.
         if (face_normal(positions[t[0]], positions[t[1]], positions[t[2]]).isZero(0.0)) continue;
-        // All three corners of a face take part in where a ray crosses it.
+        // The place where a ray crosses a face depends on all three corners.
         float coordinate = 0.0f;
         for (const uint32_t v : t) {
             coordinate = std::max(coordinate, positions[v].cwiseAbs().maxCoeff());

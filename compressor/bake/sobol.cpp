@@ -9,7 +9,8 @@ namespace paim {
 
 namespace {
 
-// The second coordinate of point j, its bits reversed; the first one's are j itself.
+// The second coordinate of point j with reversed bits. The first coordinate with reversed bits is
+// j.
 uint32_t reversed_second(uint32_t j) {
     uint32_t y = 0;
     uint32_t direction = 0x80000000u;  // v_{j+1} = v_j ^ (v_j >> 1)
@@ -20,7 +21,7 @@ uint32_t reversed_second(uint32_t j) {
     return reverse_bits(y);
 }
 
-// Bits of x and y in turn, the highest first.
+// Interleaves the bits of x and y, the highest first.
 // Based on: G. M. Morton, A Computer Oriented Geodetic Data Base, 1966
 uint64_t morton_code(uint32_t x, uint32_t y) {
     uint64_t code = 0;

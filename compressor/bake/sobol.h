@@ -20,7 +20,7 @@ struct SobolPoints {
     SobolPoints(uint32_t first, uint32_t count);
 };
 
-// These two take one number or, as vectors of the compiler, several.
+// The next two functions take one number, or several as a vector type of the compiler.
 template <typename Word>
 constexpr Word reverse_bits(Word x) {
     x = (x >> 16) | (x << 16);

@@ -1,4 +1,4 @@
-// What half of a vertex's rays says about its transfer.
+// Estimates of the transfer of a vertex from each half of its rays.
 // Based on: Owen 2013 (see the header)
 #include "compressor/bake/split_estimate.h"
 
@@ -12,7 +12,7 @@ namespace {
 
 constexpr size_t kBatch = sh::BatchBasis::kBatch;
 constexpr size_t kSumLanes = sh::BatchBasis::kSumLanes;
-// Lane sums are single precision; they are emptied into double before rounding matters.
+// Lane sums are floats. After this many rays they are added to doubles, before rounding matters.
 constexpr size_t kRaysPerFlush = 32 * kBatch;
 
 }  // namespace
@@ -31,7 +31,7 @@ void SplitTracer::trace(const RayScene& scene, const Vec3f& origin, const Vec3f&
 }
 
 void SplitTracer::add(SplitEstimate& sums) {
-    open_weights_ = rays_.weights;  // padding keeps its weight of zero
+    open_weights_ = rays_.weights;  // the weight of padding is zero
     for (size_t j = 0; j < rays_.num_rays; ++j) open_weights_[j] *= 1.0f - occluded_[j];
     accumulate(rays_.weights, sums.all);
     accumulate(open_weights_, sums.open);

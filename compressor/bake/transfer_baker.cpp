@@ -23,9 +23,9 @@ namespace paim {
 namespace {
 
 constexpr size_t kVerticesPerPiece = 64;
-// Points of a half in the first batch towards an error target: two packets of rays.
+// Points of a half in the first batch with a noise target: two packets of rays.
 constexpr uint32_t kFirstBatch = 32;
-// Sums that may be kept between batches; a larger mesh is baked part by part. 256 MB.
+// Number of sums that are kept between batches, 256 MB. A larger mesh is baked in pieces.
 constexpr size_t kMaxSums = size_t{1} << 25;
 
 std::vector<std::unique_ptr<DirectionSampler>> make_batches(const BakeOptions& options) {
@@ -35,7 +35,7 @@ std::vector<std::unique_ptr<DirectionSampler>> make_batches(const BakeOptions& o
         batches.push_back(make_sampler(options.sampler, 0, num_points));
         return batches;
     }
-    // Up to powers of two, where the points are a net, and half-way between them.
+    // Batches end at powers of two, where the points are a net, and half-way between these.
     uint32_t end = kFirstBatch;
     for (uint32_t first = 0; first < num_points;
          end += std::has_single_bit(end) ? end / 2 : end / 3) {
@@ -60,20 +60,20 @@ using Halves = std::array<SplitEstimate, 2>;
 
 }  // namespace
 
-// The bake of one pose while it lasts.
+// The state of baking one pose.
 class TransferBaker::PoseBake {
   public:
-    // scenery  with scenery_terms, if light bounces
+    // still_mesh  with still_terms, if light bounces
     PoseBake(const TransferBaker& baker, const Topology& topology, const Pose& pose, uint32_t p,
-             const Albedo& albedo, const StaticMesh& scenery)
+             const Albedo& albedo, const StillMesh& still_mesh)
         : baker_(baker),
           options_(baker.options_),
           topology_(topology),
           pose_(pose),
           p_(p),
           albedo_(albedo),
-          scenery_(scenery),
-          scene_(topology, pose.positions, scenery.topology, scenery.pose.positions),
+          still_mesh_(still_mesh),
+          scene_(topology, pose.positions, still_mesh.topology, still_mesh.pose.positions),
           offsets_(ray_offsets(topology, pose.positions)),
           lobe_(cosine_lobe_by_coefficient(options_.bands)),
           num_rays_(topology.num_vertices),
@@ -83,7 +83,7 @@ class TransferBaker::PoseBake {
         for (auto& half : halves_) half.resize(lobe_.size() * topology.num_vertices, 0.0f);
     }
 
-    // terms  of the bounces, if they are asked for
+    // terms  receives those of the bounces, unless nullptr
     BakedPose run(BounceTerms* terms) {
         if (options_.transfer_error > 0.0) {
             bake_to_target();
@@ -110,7 +110,8 @@ class TransferBaker::PoseBake {
     bool has_normal(size_t v) const { return !pose_.normals[v].isZero(0.0f); }
     Vec3f ray_origin(size_t v) const { return pose_.positions[v] + offsets_[v] * pose_.normals[v]; }
 
-    // Traces another batch of a vertex's rays; adds them up only where their sums can matter.
+    // Traces another batch of a vertex's rays. Adds them up only if the result depends on their
+    // sums.
     void shoot(size_t v, const DirectionSampler& batch, bool is_only_batch, Halves& halves,
                Workspace& work) const {
         const Vec3f& normal = pose_.normals[v];
@@ -128,7 +129,7 @@ class TransferBaker::PoseBake {
         for (size_t h = 0; h < 2; ++h) work.tracers[h].add(halves[h]);
     }
 
-    // Writes what the halves say so far.
+    // Writes the estimates of both halves from their present sums.
     void estimate(size_t v, const Halves& halves, Workspace& work) {
         std::span<const double> unoccluded;
         if (options_.sampler == SamplerKind::cosine) {
@@ -196,22 +197,22 @@ class TransferBaker::PoseBake {
         num_above_target_ += static_cast<uint32_t>(active.size());
     }
 
-    // Adds light that bounces to the halves, by the same rays that they were made of.
+    // Adds bounced light to the estimates of the halves, by the same rays.
     void bounce(BounceTerms* terms) {
         Topology topology = topology_;
-        topology.append(scenery_.topology);
+        topology.append(still_mesh_.topology);
         std::vector<Vec3f> positions = pose_.positions;
-        positions.insert(positions.end(), scenery_.pose.positions.begin(),
-                         scenery_.pose.positions.end());
+        positions.insert(positions.end(), still_mesh_.pose.positions.begin(),
+                         still_mesh_.pose.positions.end());
         std::vector<uint32_t> num_back_hits[2];
         for (auto& counts : num_back_hits) counts.resize(topology_.num_vertices, 0);
         BounceScene scene;
         scene.layout = baker_.layout();
         scene.num_vertices = topology_.num_vertices;
         scene.albedo = albedo_;
-        scene.num_scenery_vertices = scenery_.topology.num_vertices;
-        scene.scenery_albedo = scenery_.albedo;
-        scene.scenery_terms = &baker_.scenery_terms_;
+        scene.num_still_vertices = still_mesh_.topology.num_vertices;
+        scene.still_albedo = still_mesh_.albedo;
+        scene.still_terms = &baker_.still_terms_;
         scene.make_row = [&](size_t v, size_t half, TransportRow& row) {
             row.clear();
             if (num_occluded_[v] == 0) return;
@@ -233,7 +234,8 @@ class TransferBaker::PoseBake {
         }
     }
 
-    // The halves become their mean and half their difference.
+    // Turns the estimates of the halves into transfer (their mean) and noise (half their
+    // difference).
     BakedPose finish() {
         BakedPose baked;
         baked.positions = to_planes(pose_.positions);
@@ -267,11 +269,11 @@ class TransferBaker::PoseBake {
     const Pose& pose_;
     const uint32_t p_;
     const Albedo& albedo_;
-    const StaticMesh& scenery_;
+    const StillMesh& still_mesh_;
     const RayScene scene_;
     const std::vector<float> offsets_;
     const std::vector<double> lobe_;  // [C]
-    // [planes][V] the estimates of both halves; until light bounces of one channel
+    // [planes][V] the estimates of both halves; of one channel until bounced light is added
     std::array<std::vector<float>, 2> halves_;
     std::vector<uint64_t> num_rays_;      // [V]
     std::vector<uint64_t> num_occluded_;  // [V]
@@ -281,10 +283,10 @@ class TransferBaker::PoseBake {
     uint32_t num_above_target_ = 0;
 };
 
-TransferBaker::TransferBaker(const BakeOptions& options, Albedo albedo, StaticMesh scenery)
+TransferBaker::TransferBaker(const BakeOptions& options, Albedo albedo, StillMesh still_mesh)
     : options_(options),
       albedo_(std::move(albedo)),
-      scenery_(std::move(scenery)),
+      still_mesh_(std::move(still_mesh)),
       batches_(make_batches(options)),
       basis_(static_cast<int>(options.bands)) {
     PAIM_CHECK(options.rays >= 2 && options.rays % 2 == 0);
@@ -292,21 +294,23 @@ TransferBaker::TransferBaker(const BakeOptions& options, Albedo albedo, StaticMe
 }
 
 TransferLayout TransferBaker::bake_layout(const BakeOptions& options, const Albedo& albedo,
-                                          const StaticMesh& scenery) {
-    const bool coloured = is_coloured(albedo) || (!scenery.empty() && is_coloured(scenery.albedo));
+                                          const StillMesh& still_mesh) {
+    const bool coloured =
+        is_coloured(albedo) || (!still_mesh.empty() && is_coloured(still_mesh.albedo));
     return {TransferKind::diffuse, options.bands, options.bounces > 0 && coloured ? 3u : 1u};
 }
 
-BakedPose TransferBaker::bake_scenery() {
-    const StaticMesh nothing;
-    return PoseBake(*this, scenery_.topology, scenery_.pose, kSceneryPose, scenery_.albedo, nothing)
-        .run(&scenery_terms_);
+BakedPose TransferBaker::bake_still_mesh() {
+    const StillMesh nothing;
+    return PoseBake(*this, still_mesh_.topology, still_mesh_.pose, kStillMeshPose,
+                    still_mesh_.albedo, nothing)
+        .run(&still_terms_);
 }
 
 BakedPose TransferBaker::bake(const Topology& topology, const Pose& pose, uint32_t p) const {
     PAIM_CHECK_EQ(pose.positions.size(), topology.num_vertices);
     PAIM_CHECK_EQ(pose.normals.size(), topology.num_vertices);
-    return PoseBake(*this, topology, pose, p, albedo_, scenery_).run(nullptr);
+    return PoseBake(*this, topology, pose, p, albedo_, still_mesh_).run(nullptr);
 }
 
 }  // namespace paim

@@ -1,4 +1,4 @@
-// Where the rays of a vertex end.
+// Rows of the transport matrix: the vertices that the rays of a vertex hit.
 #include "compressor/bake/transport_row.h"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ void HitTracer::trace(const Vec3f& origin, const Vec3f& normal, const DirectionS
 }
 
 void HitTracer::end(TransportRow& row) {
-    // Stable, so that sums have one order.
+    // Stable, so that sums have a fixed order.
     std::stable_sort(shares_.begin(), shares_.end(),
                      [](const HitWeight& a, const HitWeight& b) { return a.vertex < b.vertex; });
     row.clear();

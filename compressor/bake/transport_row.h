@@ -1,4 +1,4 @@
-// Where the rays of a vertex end: the vertices whose light it sees, and how much each counts.
+// Rows of the transport matrix: the vertices that the rays of a vertex hit, with their weights.
 #pragma once
 
 #include <cstdint>
@@ -16,20 +16,21 @@ struct HitWeight {
     float weight;
 };
 
-// A row of the matrix that takes radiance from vertices to a vertex: Σ weight · radiance(vertex) is
-// the mean over its rays of the radiance that they hit, interpolated on the triangles. Sorted by
-// vertex.
+// A row of the matrix that carries radiance from vertices to one vertex: Σ weight ·
+// radiance(vertex) is the mean over its rays of the radiance at their hits, interpolated on the
+// triangles. Sorted by vertex.
 using TransportRow = std::vector<HitWeight>;
 
 // Traces one row.
 class HitTracer {
   public:
-    // topology, positions  of all that the scene holds, in its order; they and the scene stay
+    // topology, positions  of all meshes of the scene, in its order
+    // Keeps references to all arguments.
     HitTracer(const RayScene& scene, const Topology& topology, std::span<const Vec3f> positions)
         : scene_(scene), topology_(topology), positions_(positions) {}
 
-    // Adds a batch of rays to the row. Triangles hit from behind take a ray's light away and give
-    // none.
+    // Adds a batch of rays to the row. A triangle that is hit from behind blocks the ray and gives
+    // no light.
     void trace(const Vec3f& origin, const Vec3f& normal, const DirectionSampler& sampler,
                uint64_t key);
 

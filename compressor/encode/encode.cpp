@@ -164,7 +164,7 @@ EncodeSummary encode_unmeasured(const BakeReader& bake, const EncodeOptions& opt
     summary.size_bytes = paim_size_bytes(asset);
     if (options.measure) {
         check_measuring_memory(summary.size_bytes, mesh.topology.num_vertices, asset.num_poses(),
-                               bake_size(bake).scenery_bytes, options.memory_bytes,
+                               bake_size(bake).still_mesh_bytes, options.memory_bytes,
                                output.string());
     }
     PaimWriter writer(output, asset);

@@ -12,7 +12,7 @@ namespace paim {
 AssetError state_errors(const std::filesystem::path& file, const BakeReader& bake,
                         const BandPower& spectrum, uint64_t memory_bytes) {
     check_measuring_memory(std::filesystem::file_size(file), bake.identity().num_vertices,
-                           bake.num_poses(), bake_size(bake).scenery_bytes, memory_bytes,
+                           bake.num_poses(), bake_size(bake).still_mesh_bytes, memory_bytes,
                            file.string());
     Asset asset = read_paim(file);
     const AssetError error = measure_asset(asset, bake, spectrum);

@@ -1,4 +1,4 @@
-// The order in which people number files.
+// Natural order of file names.
 #include "compressor/io/natural_order.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ bool is_digit(char c) {
     return c >= '0' && c <= '9';
 }
 
-// Cuts the digits at the front of the text off and returns them without leading zeros.
+// Removes the digits at the front of the text, and returns them without leading zeros.
 std::string_view take_number(std::string_view& text) {
     const auto end = std::find_if_not(text.begin(), text.end(), is_digit);
     std::string_view digits = text.substr(0, static_cast<size_t>(end - text.begin()));
@@ -20,7 +20,7 @@ std::string_view take_number(std::string_view& text) {
     return digits;
 }
 
-// Negative, zero or positive, without the tie-break.
+// Negative, zero or positive, without the tie-break by bytes.
 int compare_naturally(std::string_view a, std::string_view b) {
     while (!a.empty() && !b.empty()) {
         if (is_digit(a[0]) && is_digit(b[0])) {

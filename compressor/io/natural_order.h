@@ -1,4 +1,4 @@
-// The order in which people number files: x_2 before x_10.
+// Natural order of file names: x_2 before x_10.
 #pragma once
 
 #include <filesystem>

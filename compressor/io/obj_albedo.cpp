@@ -11,7 +11,7 @@ namespace paim {
 
 namespace {
 
-// Clamps to [0, 1] and counts what it changed.
+// Clamps to [0, 1] and counts the colours that it changed.
 Vec3d clamp_color(const Vec3d& color, size_t& num_clamped) {
     // Written so that NaN becomes 0.
     const Vec3d clamped =

@@ -1,4 +1,4 @@
-// The albedo of a mesh from what its OBJ file says about colour.
+// The albedo of a mesh from the colours of its OBJ file.
 #pragma once
 
 #include <string>
@@ -10,11 +10,11 @@
 
 namespace paim {
 
-// The first that there is: a colour at every vertex; Kd of materials, averaged over the faces round
-// each vertex (a face counts once, whatever its area; faces without a Kd count with the default
-// albedo); the default albedo. One value where all faces agree. Values are linear.
-// warnings  gets a line if values had to be clamped to [0, 1], and one about textures, which are
-// not
+// The albedo is the colours of the vertices, if all have one; else the Kd of materials, averaged
+// over the faces at each vertex (each face counts once, whatever its area; a face without Kd has
+// the default albedo); else the default albedo. It is one value if all faces have the same. Values
+// are linear.
+// warnings  gets a line if values were clamped to [0, 1], and one about textures, which are not
 //           read
 Albedo obj_albedo(const std::string& name, const Polygons& faces, const ParsedObj& parsed,
                   std::vector<std::string>& warnings);

@@ -1,4 +1,4 @@
-// Which files make up a pose sequence.
+// Finds the OBJ files of a pose sequence.
 #include "compressor/io/obj_files.h"
 
 #include <glob.h>

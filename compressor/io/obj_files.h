@@ -1,4 +1,4 @@
-// Which files make up a pose sequence: command-line arguments to a list of OBJ paths.
+// Finds the OBJ files of a pose sequence from command-line arguments.
 #pragma once
 
 #include <filesystem>
@@ -7,14 +7,13 @@
 
 namespace paim {
 
-// arguments   files, patterns with * ? [] (for shells that leave them alone, and for more files
-// than
-//             a command line holds), folders (every *.obj in them, not below)
+// arguments   files, patterns with * ? [] (which shells may not expand, or not into so many files),
+//             folders (every *.obj directly in them)
 // keep_order  false: the whole list in natural order (x_2 before x_10), each path once;
-//             true: arguments as they come, each pattern or folder in natural order within itself,
-//             a path that is named twice is two poses
-// An existing file is taken whatever its name; patterns and folders give files ending in .obj only
-// (in either case). A plain name that does not exist is passed on: opening it says what is wrong.
+//             true: in the order of the arguments, each pattern or folder in natural order within
+//             itself; a path that is named twice is two poses
+// A named file may have any name; patterns and folders give only files that end in .obj (in either
+// case). A name without pattern that does not exist is returned, too; opening it gives the error.
 // Errors (bad input): no arguments; a pattern or folder without an OBJ file; an unreadable folder.
 std::vector<std::filesystem::path> find_obj_files(const std::vector<std::string>& arguments,
                                                   bool keep_order);

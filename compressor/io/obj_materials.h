@@ -18,9 +18,8 @@ struct ObjMaterial {
 
 // name      of the library, for messages
 // text      of the library; rewritten in place where it has comments
-// warnings  gets one line for every Kd that is no colour (a spectral curve, say); such a Kd is as
-// good
-//           as none
+// warnings  gets a line for every Kd that is not a colour, such as a spectral curve; such a Kd is
+//           ignored
 std::vector<ObjMaterial> parse_obj_materials(const std::string& name, std::span<char> text,
                                              std::vector<std::string>& warnings);
 

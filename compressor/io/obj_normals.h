@@ -10,9 +10,9 @@
 
 namespace paim {
 
-// The normalised average of the unit vn at the corners round each vertex. A vn of length 0 does not
-// count. Where no direction remains (they are all 0, or cancel out), the vertex gets what
-// mesh/normals.h computes from its triangles, and so do vertices without faces: zero.
+// The normalised average of the unit vn of the corners at each vertex. A vn of length 0 does not
+// count. If all are 0, or cancel, the vertex has the normal that mesh/normals.h computes from its
+// triangles. It is zero for vertices without faces.
 // positions  [V] scene units, from any origin
 // returns    [V] unit or zero
 std::vector<Vec3f> obj_normals(const Topology& topology, const Polygons& faces,

@@ -15,8 +15,8 @@
 #include "paim/base/error.h"
 #include "paim/base/file.h"
 
-// A copy of our own with double coordinates, under another name than that in the packaged library,
-// so that the two can meet in one program.
+// A copy of tinyobjloader with double coordinates. Its namespace differs from that of the packaged
+// library, so that both can be in one program.
 #define tinyobj paim_tinyobj
 #define TINYOBJLOADER_USE_DOUBLE
 #define TINYOBJLOADER_IMPLEMENTATION
@@ -26,7 +26,7 @@ namespace paim {
 
 namespace {
 
-// All material libraries of one OBJ together; many times what scenes have.
+// Limit of all material libraries of one OBJ together. Scenes have far less.
 constexpr uint64_t kMaxMaterialBytes = uint64_t{4} << 20;
 constexpr size_t kMaxWarnings = 8;
 
@@ -37,8 +37,8 @@ class MemoryBuffer : public std::streambuf {
     }
 };
 
-// Reads material libraries in the place of the library's own reader, which reads whatever path the
-// file names, devices and gigabytes too, and does not tell a black Kd from none.
+// Replaces tinyobjloader's reader of material libraries, which would read any path that the file
+// names, such as devices and huge files, and does not distinguish a black Kd from none.
 class MaterialReader : public tinyobj::MaterialReader {
   public:
     MaterialReader(std::filesystem::path folder, ParsedObj& parsed)
@@ -46,7 +46,7 @@ class MaterialReader : public tinyobj::MaterialReader {
 
     bool operator()(const std::string& file, std::vector<tinyobj::material_t>*,
                     std::map<std::string, int>* indices, std::string*, std::string*) override {
-        if (file.empty()) return false;  // from a double space between names
+        if (file.empty()) return false;  // two spaces between names
         try {
             const std::filesystem::path path = folder_ / file;
             std::vector<char> text = read_file(path, kMaxMaterialBytes - num_bytes_);
@@ -69,8 +69,8 @@ class MaterialReader : public tinyobj::MaterialReader {
     uint64_t num_bytes_ = 0;
 };
 
-// Counts the usemtl names that the library did not find. The rest of its messages is about what is
-// not used here, or has been said better.
+// Counts the usemtl names that tinyobjloader did not find. Its other messages are about unused
+// data, or repeat ours.
 void warn_about_unknown_materials(const std::string& name, const std::string& library_warnings,
                                   std::vector<std::string>& warnings) {
     std::set<std::string> unknown;
@@ -89,7 +89,7 @@ void warn_about_unknown_materials(const std::string& name, const std::string& li
                                    unknown.size(), printable(first)));
 }
 
-// Not too many of them, each once.
+// Removes repeated warnings, and shortens a long list.
 void shorten_warnings(const std::string& name, std::vector<std::string>& warnings) {
     std::set<std::string> seen;
     std::erase_if(warnings, [&](const std::string& text) { return !seen.insert(text).second; });
@@ -117,7 +117,7 @@ ParsedObj parse_obj(const std::string& name, std::span<char> text, const ObjScan
     std::vector<tinyobj::shape_t> shapes;
     std::vector<tinyobj::material_t> materials;
     std::string warnings, errors;
-    // Not triangulated: that would depend on the geometry of each pose.
+    // Does not triangulate, because the result would depend on the geometry of each pose.
     const bool loaded =
         tinyobj::LoadObj(&attributes, &shapes, &materials, &warnings, &errors, &stream,
                          options.read_materials ? &reader : nullptr, false, false);

@@ -1,4 +1,4 @@
-// Parsing scanned OBJ text, and the materials it names, through tinyobjloader.
+// Parses scanned OBJ text, and its material libraries, by tinyobjloader.
 #pragma once
 
 #include <cstdint>
@@ -29,10 +29,10 @@ struct ObjParseOptions {
     std::filesystem::path material_folder;
 };
 
-// text  rewritten by scan_obj, which gave `scan` with positions; tinyobjloader's are not used, for
-//       they may be some roundings off
-// Unreadable material libraries give warnings. Errors (bad input) if tinyobjloader refuses the file
-// or reads it otherwise than the scan did.
+// text  as rewritten by scan_obj(), which returned `scan` with positions. Those of tinyobjloader
+//       are not used, because they may be wrong by some roundings.
+// Unreadable material libraries give warnings. Errors (bad input): tinyobjloader refuses the file,
+// or finds other faces than the scan.
 ParsedObj parse_obj(const std::string& name, std::span<char> text, const ObjScan& scan,
                     const ObjParseOptions& options = {});
 

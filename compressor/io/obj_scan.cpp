@@ -15,19 +15,19 @@ namespace paim {
 
 namespace {
 
-// Parsers hold indices in int.
+// Parsers store indices as int.
 constexpr int64_t kMaxIndex = std::numeric_limits<int32_t>::max();
 constexpr int kMaxCorners = 255;
 
-// Indices into one kind of element (v, vt or vn), checked as far as is possible before the number
-// of elements is known.
+// The range of indices into one kind of element (v, vt or vn). They are checked as far as possible
+// before the number of elements is known.
 struct IndexRange {
     const char* what;
     int64_t num_elements = 0;
     int64_t greatest = 0;  // of the positive ones
     size_t greatest_line = 0;
 
-    // The index from 0, or an error if it cannot be in range.
+    // The index counted from 0. Error if it cannot be in range.
     int64_t resolve(const ObjText& text, int64_t index, bool fits, const char* word) {
         if (fits && index > 0 && index <= kMaxIndex) {
             if (index > greatest) {
@@ -190,7 +190,7 @@ class Scanner {
                             expected.num_faces(), reference.name);
         }
         if (got == expected) return;
-        size_t corner = 0;  // the faces before are the same, so it counts for both
+        size_t corner = 0;  // all earlier faces are the same, so it is valid for both files
         for (size_t i = 0; i < got.num_faces(); ++i) {
             const std::span a = std::span(got.corners).subspan(corner, got.sizes[i]);
             const std::span b = std::span(expected.corners).subspan(corner, expected.sizes[i]);

@@ -28,7 +28,7 @@ namespace {
 
 constexpr uint64_t kMaxFileBytes = uint64_t{4} << 30;
 
-// "as in" names: without the folder if it is the same.
+// The name of the first file for messages about another: without its folder if both have the same.
 std::string reference_name(const std::filesystem::path& first, const std::filesystem::path& other) {
     return first.parent_path() == other.parent_path() ? first.filename().string() : first.string();
 }
@@ -45,8 +45,8 @@ ObjSequence::ObjSequence(std::vector<std::filesystem::path> files, const ObjOpti
 
 void ObjSequence::check_files() {
     checksums_.resize(files_.size());
-    std::vector<BoundsD> bounds(files_.size());      // of vertices that a face has
-    std::vector<BoundsD> all_bounds(files_.size());  // of all
+    std::vector<BoundsD> bounds(files_.size());      // of vertices of faces
+    std::vector<BoundsD> all_bounds(files_.size());  // of all vertices
     const auto check = [&](size_t i) {
         std::vector<char> text = read_file(files_[i], kMaxFileBytes);
         checksums_[i] = xxh3(text.data(), text.size());
@@ -61,7 +61,8 @@ void ObjSequence::check_files() {
     };
     check(0);
 
-    // Files behind one that failed need no look; those before it do, since the first counts.
+    // Files after one that failed are skipped. Those before it are checked, because the first error
+    // in the order of the sequence is reported.
     std::atomic<size_t> first_failed{files_.size()};
     std::vector<std::exception_ptr> failures(files_.size());
     parallel_for(files_.size(), 1, [&](size_t i, size_t) {
@@ -83,8 +84,8 @@ void ObjSequence::check_files() {
     for (size_t i = 0; i < files_.size(); ++i) check_local(i, all_bounds[i]);
 }
 
-// Floats below the normal ones have fewer digits the smaller they are: rays would start within the
-// surface.
+// Error for meshes below the normal floats. Such floats have fewer digits, so rays would start
+// within the surface.
 void ObjSequence::check_size(const BoundsD& bounds) const {
     constexpr auto kSmallest = static_cast<double>(std::numeric_limits<float>::min());
     const double diagonal = bounds.diagonal();
@@ -93,7 +94,8 @@ void ObjSequence::check_size(const BoundsD& bounds) const {
                     files_[0].string(), diagonal, kSmallest);
 }
 
-// Rounding is monotonic: where the bounds are finite in local(), all between them is.
+// Error if local() coordinates are not finite. Rounding is monotonic, so checking the bounds is
+// enough.
 void ObjSequence::check_local(size_t file, const BoundsD& bounds) const {
     if (bounds.empty()) return;
     for (const Vec3f& corner : local({bounds.lower, bounds.upper})) {
@@ -103,7 +105,7 @@ void ObjSequence::check_local(size_t file, const BoundsD& bounds) const {
     }
 }
 
-// Counted from the origin while they are still in double.
+// Subtracts the origin in double, then rounds to float.
 std::vector<Vec3f> ObjSequence::local(const std::vector<Vec3d>& positions) const {
     std::vector<Vec3f> moved(positions.size());
     for (size_t v = 0; v < moved.size(); ++v) moved[v] = (positions[v] - origin_).cast<float>();
@@ -116,7 +118,7 @@ ParsedObj ObjSequence::parse(uint32_t p, bool with_materials) const {
     if (xxh3(text.data(), text.size()) != checksums_[p]) {
         throw_bad_input("{}: changed since the sequence was opened", name);
     }
-    // Scanned again for the sake of the clean text that it leaves; it costs a tenth of the parsing.
+    // Scanned again for the rewritten text, which takes a tenth of the time of parsing.
     const ObjScan scan = scan_obj(name, text, {options_.normals_from_file, nullptr, true});
     return parse_obj(name, text, scan, {with_materials, files_[p].parent_path()});
 }

@@ -20,9 +20,9 @@ struct ObjOptions {
     bool normals_from_file = false;
     // Overrides the colours and materials of the file; linear, 0..1.
     std::optional<Vec3f> albedo;
-    // What positions are counted from, instead of what mesh/origin.h chooses.
+    // Origin of positions, instead of the one that mesh/origin.h chooses.
     std::optional<Vec3d> origin;
-    // Called each time that another file was checked, from several threads at once.
+    // Called whenever a file has been checked, by several threads at once.
     std::function<void()> on_file_checked;
 };
 
@@ -30,26 +30,26 @@ struct ObjOptions {
 // groups, smoothing, points and lines are ignored.
 class ObjSequence : public PoseSource {
   public:
-    // Checks every file (obj_scan.h) before anything else is done, in parallel. The faces are
+    // Checks all files (obj_scan.h) first, in parallel. The faces are
     // triangulated by the geometry of the first one, which also gives the albedo (obj_albedo.h).
     // files  at least one; find_obj_files() gives them. The same file may be several poses.
     // Errors (bad input): any file unreadable, above 4 GiB, damaged, unlike the first, or with a
-    // coordinate that is no float when counted from the origin; of several, the first in the order
-    // of the sequence is reported, on any number of threads (coordinates after all else). A mesh
-    // smaller than normal floats (1.2e-38).
+    // coordinate that is not a finite float relative to the origin; or a mesh smaller than normal
+    // floats (1.2e-38). Of several errors, the first in the order of the sequence is reported, on
+    // any number of threads (coordinates after all others).
     explicit ObjSequence(std::vector<std::filesystem::path> files, const ObjOptions& options = {});
 
     const Topology& topology() const override { return topology_; }
     const Albedo& albedo() const override { return albedo_; }
     uint32_t num_poses() const override { return static_cast<uint32_t>(files_.size()); }
-    // As the options say, or from the bounds of all poses (mesh/origin.h).
+    // The origin of the options, or one chosen from the bounds of all poses (mesh/origin.h).
     Vec3d origin() const override { return origin_; }
     std::string pose_name(uint32_t p) const override;   // the path as given
     uint64_t pose_checksum(uint32_t p) const override;  // of the bytes of the file
-    // Error (bad input) if the file is not what it was when the sequence was opened.
+    // Error (bad input) if the file has changed since the sequence was opened.
     Pose load_pose(uint32_t p) const override;
 
-    // What is odd but no error: each a line that names the file.
+    // Oddities that are not errors: lines, each with the name of the file.
     const std::vector<std::string>& warnings() const { return warnings_; }
 
   private:
@@ -62,7 +62,7 @@ class ObjSequence : public PoseSource {
 
     std::vector<std::filesystem::path> files_;
     ObjOptions options_;
-    ObjScan first_;  // what the scan of the first file gave
+    ObjScan first_;  // scan of the first file
     std::vector<uint64_t> checksums_;
     Vec3d origin_ = Vec3d::Zero();
     Topology topology_;

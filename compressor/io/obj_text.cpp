@@ -17,9 +17,9 @@ namespace {
 
 // 38 digits stay below the largest float, 3.4e38, so that most numbers need not be evaluated.
 constexpr int kSafeDigits = 38;
-// Longer words are no numbers, unless they are all digits of a fraction.
+// Longer words are not numbers, unless all digits belong to a fraction.
 constexpr size_t kMaxNumberLength = 128;
-// Surely 0 as a float, whose least value is 1.4e-45.
+// Smaller values are 0 as floats; the smallest positive float is 1.4e-45.
 constexpr double kTiny = 1e-60;
 
 bool is_digit(char c) {
@@ -28,11 +28,11 @@ bool is_digit(char c) {
 
 enum class Number { finite, zero, too_large, none };
 
-// A word that is not just a few digits and a point.
+// Classifies a word that is not just a few digits and a point.
 Number classify_number(std::string_view word) {
     if (word.size() > kMaxNumberLength) return Number::none;
     const size_t first = word.starts_with('+') || word.starts_with('-') ? 1 : 0;
-    // Refuses "+-1", "inf" and "nan", which from_chars would take.
+    // Refuses "+-1", "inf" and "nan", which from_chars() accepts.
     if (first == word.size() || !(is_digit(word[first]) || word[first] == '.')) return Number::none;
     word.remove_prefix(first);
     double size = 0.0;
@@ -147,9 +147,9 @@ void ObjText::skip_number(const char* what) {
 double ObjText::read_number(const char* what) {
     const char* start = at_;
     skip_number(what);
-    if (*start == '+') ++start;  // from_chars takes none
+    if (*start == '+') ++start;  // from_chars() accepts no plus sign
     double value = 0.0;
-    std::from_chars(start, at_, value);  // leaves 0 where a number is too small for a double
+    std::from_chars(start, at_, value);  // leaves 0 if the number is too small for a double
     return value;
 }
 
@@ -160,7 +160,7 @@ void ObjText::skip_unusual_number(char* start, const char* what) {
         case Number::finite:
             return;
         case Number::zero:
-            // Simple parsers overflow on the way to the value of 0e999 or 1e-9999.
+            // Simple parsers overflow while they compute the value of 0e999 or 1e-9999.
             *start = '0';
             std::fill(start + 1, at_, ' ');
             return;

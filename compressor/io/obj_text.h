@@ -1,4 +1,4 @@
-// Reading OBJ text number by number, with line numbers for messages.
+// Reads OBJ text number by number, with line numbers for messages.
 #pragma once
 
 #include <cstddef>
@@ -9,41 +9,43 @@
 
 namespace paim {
 
-// The text made fit for a message: at most 40 characters, control and non-ASCII bytes as '?'.
+// The text for a message: at most 40 characters, with '?' for control characters and non-ASCII
+// bytes.
 std::string printable(std::string_view text);
 
-// A cursor over OBJ text. It also rewrites the text in place so that a less careful parser reads
-// the same from it: continued lines are joined and comments at the end of a line blanked, with
-// spaces, so that no byte moves.
+// A cursor over OBJ text. It also rewrites the text in place, so that a less careful parser reads
+// the same: it joins continued lines and blanks comments at the ends of lines, with spaces, so that
+// no byte moves.
 class ObjText {
   public:
     // name  of the file, for messages; must outlive the cursor
     ObjText(const std::string& name, std::span<char> text);
 
     bool at_end() const { return at_ == end_; }
-    size_t line() const { return line_; }  // from 1
+    size_t line() const { return line_; }  // counted from 1
 
     // The first word of the line (up to a space), or nothing on an empty line. Leading space is
     // skipped.
     std::string_view read_keyword();
     // Turns the line whose keyword was just read into a comment.
     void comment_out_line() { *keyword_ = '#'; }
-    // Blanks what remains of the line.
+    // Blanks the rest of the line.
     void blank_rest_of_line();
-    // What remains of the line, without space at either end.
+    // The rest of the line, without space at either end.
     std::string_view read_rest_of_line();
     void next_line();
 
-    // Skips space and continuations; true if another word follows on this line.
+    // Skips space and continued line ends. Returns true if another word follows on this line.
     bool find_word();
     // Skips a finite decimal number within float's range that fills the whole word. Numbers far too
     // small for float become 0 in the text.
-    // what  is named in the error (bad input) if the word is anything else
+    // Error (bad input) if the word is anything else.
+    // what  names the number in the message
     void skip_number(const char* what);
-    // The same, and the number as a double.
+    // The same; returns the number as a double.
     double read_number(const char* what);
-    // An integer, up to where the digits end. False if it exceeds 64 bits, in which case the digits
-    // are skipped. Error (bad input) if there is none; `what` is named.
+    // Reads an integer up to the end of its digits. Returns false if it exceeds 64 bits; its digits
+    // are skipped then. Error (bad input), naming `what`, if there is none.
     bool read_integer(const char* what, int64_t& value);
     // Skips one character if it is `c`.
     bool skip(char c);
@@ -57,7 +59,7 @@ class ObjText {
 
   private:
     bool at_line_end() const { return at_ == end_ || *at_ == '\n' || *at_ == '\r'; }
-    // Bytes of a backslash and the line end behind it, or 0.
+    // Number of bytes of a backslash and the line end after it; 0 if there are none.
     size_t continuation_size(const char* at) const;
     void skip_unusual_number(char* start, const char* what);
 

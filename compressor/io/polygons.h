@@ -1,4 +1,4 @@
-// Faces as files have them: polygons of any size.
+// Faces of files: polygons of any size.
 #pragma once
 
 #include <cstddef>

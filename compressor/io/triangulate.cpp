@@ -1,4 +1,4 @@
-// Polygons to triangles, once for all poses.
+// Triangulates polygons, once for all poses.
 // Based on: G. H. Meisters, Polygons Have Ears, 1975
 #include "compressor/io/triangulate.h"
 
@@ -14,7 +14,8 @@ namespace {
 using Vec2d = Eigen::Vector2d;
 using Corners = std::vector<uint32_t>;
 
-// Twice the area vector of the polygon, best-fitting for one that is not flat; zero without area.
+// Twice the area vector of the polygon, of a best-fitting plane if it is not flat. Zero without
+// area.
 Vec3d newell_normal(const std::vector<Vec3d>& points) {
     Vec3d sum = Vec3d::Zero();
     for (size_t i = 1; i + 1 < points.size(); ++i) {
@@ -28,16 +29,17 @@ double cross(const Vec2d& a, const Vec2d& b, const Vec2d& c) {
     return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
 
-// Cuts one polygon at a time; scratch memory is kept from one to the next.
+// Triangulates one polygon at a time, with scratch memory that is reused.
 class Cutter {
   public:
     explicit Cutter(std::vector<Triangle>& triangles) : triangles_(triangles) {}
 
-    // False if the polygon is degenerate; it is cut all the same.
+    // Returns false if the polygon is degenerate; it is triangulated in any case.
     bool cut(const Corners& corners, std::span<const Vec3f> positions) {
         corners_ = &corners;
         points_.clear();
-        // Scaled to unit size round the first corner, so that no product under- or overflows.
+        // Coordinates relative to the first corner, scaled to unit size, so that products neither
+        // underflow nor overflow.
         const Vec3d origin = positions[corners[0]].cast<double>();
         double extent = 0.0, magnitude = 0.0;
         for (const uint32_t v : corners) {
@@ -48,12 +50,12 @@ class Cutter {
         if (extent > 0.0) {
             for (Vec3d& point : points_) point /= extent;
         }
-        // Rounding of the coordinates to float, in these units.
+        // The rounding of coordinates to float, in these units.
         tolerance_ = extent > 0.0 ? 0x1p-24 * magnitude / extent : 0.0;
 
         if (corners.size() == 3) {
             emit(0, 1, 2);
-            return true;  // a triangle is what it is, with or without area
+            return true;  // a triangle needs no cut, with or without area
         }
         return corners.size() == 4 ? cut_quad() : cut_polygon();
     }
@@ -87,7 +89,7 @@ class Cutter {
         remaining_.clear();
         for (size_t i = 0; i < points_.size(); ++i) remaining_.push_back(i);
         const bool has_area = project();
-        // Nearly straight corners are kept for later, unless only they are left.
+        // Nearly straight corners are clipped only if no others are left.
         bool clipped = has_area && (clip_ears(4.0 * tolerance_) || clip_ears(0.0));
         if (!clipped) {
             for (size_t i = 1; i + 1 < remaining_.size(); ++i) {
@@ -97,7 +99,7 @@ class Cutter {
         return clipped;
     }
 
-    // Into the plane of the Newell normal, counter-clockwise. False without area.
+    // Projects into the plane of the Newell normal, counter-clockwise. Returns false without area.
     bool project() {
         const Vec3d normal = newell_normal(points_);
         const double length = normal.norm();
@@ -109,13 +111,13 @@ class Cutter {
         return true;
     }
 
-    // Clips ears until a triangle is left, which is emitted too. False if it gets stuck.
-    // tolerance  areas up to this are no area
+    // Clips ears until one triangle is left, which is added, too. Returns false if there is no ear.
+    // tolerance  areas up to this count as zero
     bool clip_ears(double tolerance) {
         is_ear_.clear();
         for (size_t i = 0; i < remaining_.size(); ++i) is_ear_.push_back(test_ear(i, tolerance));
         size_t at = 0;
-        bool fresh = true;  // every entry of is_ear_ was tested against what remains now
+        bool fresh = true;  // every entry of is_ear_ was tested against the remaining polygon
         while (remaining_.size() > 3) {
             const size_t num = remaining_.size();
             size_t steps = 0;
@@ -133,7 +135,7 @@ class Cutter {
             remaining_.erase(remaining_.begin() + static_cast<std::ptrdiff_t>(at));
             is_ear_.erase(is_ear_.begin() + static_cast<std::ptrdiff_t>(at));
             if (at == remaining_.size()) at = 0;
-            // Of a simple polygon only these two change.
+            // In a simple polygon only these two corners change.
             is_ear_[at] = test_ear(at, tolerance);
             is_ear_[before(at)] = test_ear(before(at), tolerance);
             fresh = false;
@@ -146,8 +148,9 @@ class Cutter {
     size_t before(size_t i) const { return i > 0 ? i - 1 : remaining_.size() - 1; }
     size_t after(size_t i) const { return i + 1 < remaining_.size() ? i + 1 : 0; }
 
-    // Convex, and no corner that is not convex lies in its triangle or on the rim of it. A triangle
-    // that names a vertex twice (a spike, or what is left of a bridge) is nothing, and free to go.
+    // Whether corner i is an ear: it is convex, and no corner that is not convex lies in its
+    // triangle or on its edges. A triangle that names a vertex twice (a spike, or the rest of a
+    // bridge) is an ear.
     bool test_ear(size_t i, double tolerance) const {
         const uint32_t v_before = vertex(before(i)), v_here = vertex(i), v_after = vertex(after(i));
         if (v_before == v_here || v_here == v_after || v_after == v_before) return true;
@@ -183,7 +186,7 @@ bool repeats_vertex(Corners corners) {
     return std::adjacent_find(corners.begin(), corners.end()) != corners.end();
 }
 
-// Without corners that are the same vertex as the one before.
+// Removes corners that are the same vertex as the one before.
 void merge_neighbours(Corners& corners) {
     corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
     while (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();

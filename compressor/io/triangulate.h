@@ -1,4 +1,4 @@
-// Polygons to triangles, once for all poses.
+// Triangulates polygons, once for all poses.
 // Based on: G. H. Meisters, Polygons Have Ears, 1975
 #pragma once
 
@@ -12,18 +12,19 @@
 namespace paim {
 
 struct Triangulation {
-    std::vector<Triangle> triangles;  // polygon by polygon, winding kept
+    std::vector<Triangle> triangles;  // in the order of the polygons, with their winding
     // Polygons that name a vertex twice. Corners that repeat their neighbour are merged first;
     // triangles that still name one twice are dropped.
     uint64_t num_repeating = 0;
-    // Polygons without area, or that cross themselves: split like a fan where nothing better is
-    // left.
+    // Polygons that have no area or cross themselves. They are split like a fan if ear clipping
+    // fails.
     uint64_t num_degenerate = 0;
 };
 
-// Quads are cut along the diagonal that leaves both triangles facing with the quad, of two such
-// diagonals the shorter, of two equally long ones (to 1e-5, what six printed digits leave) that at
-// the first corner. Larger polygons are cut by ear clipping in the plane of their Newell normal.
+// Quads are cut along the diagonal for which both triangles face like the quad. If both diagonals
+// do, the shorter one is taken; of two equally long ones (to 1e-5, the precision of six printed
+// digits) that at the first corner. Larger polygons are cut by ear clipping in the plane of their
+// Newell normal.
 // positions  [V] scene units, finite
 Triangulation triangulate(const Polygons& polygons, std::span<const Vec3f> positions);
 

@@ -1,4 +1,4 @@
-// The poses of another source with a ground under them.
+// Poses of another source with a floor under them.
 #include "compressor/scene/floor.h"
 
 #include <fmt/format.h>
@@ -17,14 +17,14 @@ namespace paim {
 
 namespace {
 
-// All as parts of the poses' largest extent.
+// All relative to the largest extent of the poses.
 constexpr double kGap = 5e-4;     // below the lowest point: far more than rounding and ray offsets
-constexpr double kFine = 0.08;    // how far fine cells reach beyond the poses' bounds
-constexpr double kEdge = 0.3;     // how far the floor does
-constexpr double kGrowth = 1.25;  // of a cell over its inner neighbour, where they grow
+constexpr double kFine = 0.08;    // distance of fine cells beyond the bounds of the poses
+constexpr double kEdge = 0.3;     // distance of the floor's edge beyond them
+constexpr double kGrowth = 1.25;  // ratio of a cell to its inner neighbour, beyond the fine cells
 
-// Lines of the grid along one axis: fine cells of `cell` from lower to upper (stretched to fit a
-// whole number), then growing ones as far as `reach` on both sides.
+// Lines of the grid along one axis: fine cells of the size `cell` from lower to upper (scaled to
+// fit a whole number), then growing ones up to the distance `reach` on both sides.
 std::vector<double> grid_lines(double lower, double upper, double cell, double reach) {
     const auto num_fine = static_cast<size_t>(std::max(1.0, std::ceil((upper - lower) / cell)));
     const double width = (upper - lower) / static_cast<double>(num_fine);
@@ -35,7 +35,7 @@ std::vector<double> grid_lines(double lower, double upper, double cell, double r
         step *= kGrowth;
     }
     outside.push_back(reach);
-    // A last cell that is a sliver joins the one before.
+    // A very narrow last cell is joined with the one before it.
     if (outside.size() > 1 && reach - outside[outside.size() - 2] < 0.5 * step / kGrowth) {
         outside.erase(outside.end() - 2);
     }
@@ -66,19 +66,19 @@ Floor::Floor(const Bounds& bounds, uint32_t max_vertices) {
         return Grid{grid_lines(lower.x() - fine, upper.x() + fine, cell, reach),
                     grid_lines(lower.z() - fine, upper.z() + fine, cell, reach)};
     };
-    // The finest cells that keep to the number of vertices, to a thousandth. The coarsest grid, of
-    // cells as large as the floor, has 4 × 4 vertices.
+    // Finds, to a thousandth, the finest cells within the number of vertices. The coarsest grid,
+    // with cells as large as the floor, has 4 × 4 vertices.
     double too_fine = 0.0, cell = (1.0 + 2.0 * kEdge) * extent;
     while (cell - too_fine > 1e-3 * cell) {
         const double middle = 0.5 * (too_fine + cell);
-        // The first comparison bounds the lines before they are made.
+        // The first comparison bounds the number of lines before they are made.
         const bool fits =
             extent / middle <= max_vertices && grid_of(middle).num_vertices() <= max_vertices;
         (fits ? cell : too_fine) = middle;
     }
     const Grid grid = grid_of(cell);
 
-    // Rounding must not lift it back to the lowest point.
+    // Rounding must not move the floor up to the lowest point.
     const double largest = std::max(lower.cwiseAbs().maxCoeff(), upper.cwiseAbs().maxCoeff());
     const double gap = std::max(
         kGap * extent, 16.0 * largest * static_cast<double>(std::numeric_limits<float>::epsilon()));
@@ -96,7 +96,7 @@ Floor::Floor(const Bounds& bounds, uint32_t max_vertices) {
     for (uint32_t j = 0; j + 1 < grid.z.size(); ++j) {
         for (uint32_t i = 0; i + 1 < num_x; ++i) {
             const uint32_t a = j * num_x + i, b = a + 1, c = a + num_x, d = c + 1;
-            // Diagonals in turn, so that no direction is favoured.
+            // Diagonals alternate, so that no direction is preferred.
             if ((i + j) % 2 == 0) {
                 topology.triangles.push_back({a, c, d});
                 topology.triangles.push_back({a, d, b});
@@ -118,7 +118,7 @@ Bounds bounds_of(const PoseSource& source, const std::function<void()>& on_pose)
             for (const uint32_t v : triangle) bounds.extend(pose.positions[v]);
         }
         {
-            const std::lock_guard lock(mutex);  // the order does not matter to a minimum
+            const std::lock_guard lock(mutex);  // a minimum does not depend on the order
             all.extend(bounds.lower);
             all.extend(bounds.upper);
         }

@@ -1,4 +1,4 @@
-// The poses of another source with a ground under them.
+// Poses of another source with a floor under them.
 #pragma once
 
 #include <functional>
@@ -18,26 +18,26 @@ struct FloorOptions {
 constexpr uint32_t kMinFloorVertices = 16;
 constexpr uint32_t kMaxFloorVertices = 4'000'000;
 
-// A horizontal rectangle that faces up (+Y), just under the lowest point of all poses. Under them
-// and a little beyond, its cells are squares of one size; from there to its edge, 0.3 of the
-// largest extent of the poses away, they grow.
+// A horizontal rectangle that faces up (+Y), just below the lowest point of all poses. Its cells
+// are squares of one size under the poses and a little beyond. From there to its edge, at a
+// distance of 0.3 of the largest extent of the poses, they grow.
 struct Floor {
     Topology topology;
     std::vector<Vec3f> positions;  // [N] scene units
-    float height = 0.0f;           // their y
+    float height = 0.0f;           // y of all positions
 
     // bounds  of all poses, not empty
     // Error (bad input) if the bounds are a point, or so large that the floor is not finite.
     Floor(const Bounds& bounds, uint32_t max_vertices);
 };
 
-// Bounds of the vertices that a triangle has, in all poses; every one is read once. A vertex in no
-// triangle cannot be seen, and a floor goes by what can.
+// Bounds over all poses of the vertices of triangles. Vertices without triangles do not count,
+// because they cannot be seen. Each pose is read once.
 // on_pose  called after each pose, from several threads at once
 Bounds bounds_of(const PoseSource& source, const std::function<void()>& on_pose = {});
 
-// The floor's vertices and triangles come after the source's, the same in every pose, so that they
-// are lit, shadowed and compressed with the rest.
+// The poses of a source with a floor. The floor's vertices and triangles follow those of the source
+// and are the same in every pose, so that they are lit, shadowed and compressed with the others.
 class PosesOnFloor : public PoseSource {
   public:
     // Keeps a reference to the source.
@@ -50,10 +50,10 @@ class PosesOnFloor : public PoseSource {
     uint32_t num_poses() const override { return source_.num_poses(); }
     Vec3d origin() const override { return source_.origin(); }
     std::string pose_name(uint32_t p) const override { return source_.pose_name(p); }
-    uint64_t pose_checksum(uint32_t p) const override;  // of the source's and the floor's positions
+    uint64_t pose_checksum(uint32_t p) const override;  // of the positions of source and floor
     Pose load_pose(uint32_t p) const override;
 
-    // For manifests and messages: what a reader needs to tell one floor from another.
+    // The floor in words, for manifests and messages. Different floors have different descriptions.
     const std::string& description() const { return description_; }
 
   private:

@@ -17,7 +17,7 @@ enum class ExitCode : int {
     ok = 0,
     usage = 1,               // the command line makes no sense
     bad_input = 2,           // a file or mesh is missing, damaged or inconsistent
-    unsupported = 3,         // valid, but not something this build can do
+    unsupported = 3,         // valid input, but this build cannot handle it
     output_failed = 4,       // the result could not be written
     threshold_exceeded = 5,  // the result misses the error that was asked for
 };

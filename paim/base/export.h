@@ -1,8 +1,8 @@
-// Marks what a shared libpaim_runtime shows; everything else in it is hidden.
+// PAIM_EXPORT marks the symbols that a shared libpaim_runtime exports; all others are hidden.
 #pragma once
 
-// Defined for those who build or link the shared library only, so that a program or plugin that has
-// the static one inside shows nothing of it.
+// PAIM_SHARED is defined only where the shared library is built or linked, so that a program or
+// plugin that contains the static library exports none of its symbols.
 #if defined(PAIM_SHARED)
 #define PAIM_EXPORT __attribute__((visibility("default")))
 #else

@@ -31,7 +31,7 @@ struct Descriptor {
 }  // namespace
 
 std::vector<char> read_file(const std::filesystem::path& path, uint64_t max_size_bytes) {
-    // Not blocking, so that a pipe is refused below instead of waited for; files do not care.
+    // Non-blocking, so that a pipe is refused below instead of waited for. Regular files ignore it.
     const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
     if (file.fd < 0) throw_bad_input("{}: cannot open: {}", path.string(), std::strerror(errno));
     struct stat info {};
@@ -62,7 +62,7 @@ std::vector<char> read_file(const std::filesystem::path& path, uint64_t max_size
 }
 
 bool is_temporary_name(const std::string& name) {
-    // NAME.PID-NUMBER.tmp, read from its end.
+    // Parses NAME.PID-NUMBER.tmp from its end.
     std::string_view rest = name;
     const auto take_digits = [&] {
         const size_t before = rest.size();
@@ -87,8 +87,8 @@ AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
         descriptor_ = ::open(temporary_path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (descriptor_ < 0 && errno == EEXIST) continue;
         if (descriptor_ < 0) fail("cannot create");
-        // The lock says that someone is still writing. Where remove_abandoned_files() came between
-        // the two calls, the file has lost its name and another is made.
+        // The lock tells other processes that this file is still being written. If
+        // remove_abandoned_files() removed it between the two calls, another is made.
         struct stat info {};
         const bool taken = ::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
         if (taken || (::fstat(descriptor_, &info) == 0 && info.st_nlink == 0)) {
@@ -130,7 +130,7 @@ void AtomicFile::resize(uint64_t size_bytes) {
 }
 
 void AtomicFile::commit() {
-    // Renamed while it is still locked; fsync has reported what close could.
+    // Rename the file while it is still locked. fsync has reported every error that close could.
     if (::fsync(descriptor_) != 0) fail("cannot flush");
     if (::rename(temporary_path_.c_str(), path_.c_str()) != 0) fail("cannot finish writing");
     ::close(std::exchange(descriptor_, -1));

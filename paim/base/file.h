@@ -1,4 +1,4 @@
-// Files: read with a bound, write all or nothing.
+// Files: bounded reads, and writes that happen completely or not at all.
 #pragma once
 
 #include <cstdint>
@@ -9,12 +9,12 @@
 
 namespace paim {
 
-// The whole file. Errors (bad input) name the path: missing, a directory, unreadable, or larger
-// than max_size_bytes.
+// Reads the whole file. Errors (bad input) name the path: missing, a directory, unreadable, or
+// larger than max_size_bytes.
 std::vector<char> read_file(const std::filesystem::path& path, uint64_t max_size_bytes);
 
-// A file that appears under its name only when commit() has written, flushed and renamed all of it;
-// otherwise nothing is left behind. Errors (output failed) name the path and the system's reason.
+// Writes a file under a temporary name; commit() flushes it and renames it to its own. Without
+// commit() nothing is left behind. Errors (output failed) name the path and the system's reason.
 class AtomicFile {
   public:
     explicit AtomicFile(std::filesystem::path path);
@@ -25,7 +25,7 @@ class AtomicFile {
     void write(const void* data, size_t size_bytes);                      // at the end
     void write_at(uint64_t offset, const void* data, size_t size_bytes);  // anywhere
     void write(std::string_view text) { write(text.data(), text.size()); }
-    void resize(uint64_t size_bytes);  // what lies beyond the last write is zero
+    void resize(uint64_t size_bytes);  // bytes beyond the last write are zero
     void commit();
 
   private:
@@ -37,17 +37,17 @@ class AtomicFile {
     uint64_t end_ = 0;
 };
 
-// Whether a file of this name is one that AtomicFile has not committed yet.
+// Whether this is the temporary name of a file that AtomicFile has not committed yet.
 bool is_temporary_name(const std::string& name);
 
-// Removes what AtomicFile left in this directory where a process was killed; files that are being
-// written, by whichever process, stay.
+// Removes the temporary files of killed processes from this directory. Files that any process is
+// still writing stay.
 void remove_abandoned_files(const std::filesystem::path& directory, std::string_view prefix = {});
 
 // Writes the text as a whole, through AtomicFile.
 void write_file(const std::filesystem::path& path, std::string_view contents);
 
-// Creates the directory and its parents. Error (output failed) if it cannot be, or is a file.
+// Creates the directory and its parents. Error (output failed) if that fails, or if it is a file.
 void ensure_directory(const std::filesystem::path& path);
 
 }  // namespace paim

@@ -7,7 +7,7 @@
 
 namespace paim {
 
-// Rounds to nearest, ties to even; beyond 65504 becomes infinite.
+// Rounds to nearest, ties to even. Values that round above 65504 become infinite.
 inline uint16_t to_half(float value) {
     return Eigen::numext::bit_cast<uint16_t>(Eigen::half(value));
 }

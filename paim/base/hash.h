@@ -12,7 +12,7 @@ namespace paim {
 // 64-bit XXH3 of the bytes. Detects damage, not tampering.
 uint64_t xxh3(const void* data, size_t size_bytes);
 
-// The same value, fed piece by piece.
+// The same checksum of bytes that are given piece by piece.
 class StreamingHash {
   public:
     StreamingHash();

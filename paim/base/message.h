@@ -1,5 +1,5 @@
-// Messages with values in them, in the notation of {fmt}, which only message.cpp includes: neither
-// those who embed Paim nor most of its own files compile or link it.
+// Messages with values in them, in the notation of {fmt}. Only message.cpp includes {fmt}: programs
+// that embed Paim, and most of its own files, neither compile nor link it.
 #pragma once
 
 #include <concepts>
@@ -15,11 +15,11 @@
 
 namespace paim {
 
-// A value as messages show it: numbers in the fewest digits that tell them apart.
+// A value in a message. Numbers are printed with the fewest digits that identify them.
 using MessageValue = std::variant<bool, char, int64_t, uint64_t, float, double, std::string_view>;
 
-// The text of a message, checked where it is compiled: "{}" stands for each value in turn, and
-// "{:.3g}" (or e, f) for one that is float or double; "{{" and "}}" are braces.
+// The text of a message, checked when it is compiled. "{}" stands for the next value, "{:.3g}" (or
+// e, f) for the next value that is float or double, and "{{" and "}}" for braces.
 template <typename... Values>
 class MessageFormat {
   public:
@@ -45,7 +45,7 @@ class MessageFormat {
     std::string_view text() const { return text_; }
 
   private:
-    // Not constexpr, so that the compiler stops at a call and shows its name.
+    // Not constexpr, so that the compiler rejects a call of one and shows its name.
     static void a_brace_stands_alone() {}
     static void more_places_than_values() {}
     static void more_values_than_places() {}
@@ -84,7 +84,7 @@ MessageValue message_value(const T& value) {
 PAIM_EXPORT std::string format_message(std::string_view format,
                                        std::initializer_list<MessageValue> values);
 
-// The text with the values in it.
+// Puts the values into the text.
 template <typename... Values>
 std::string message(MessageFormat<std::type_identity_t<Values>...> format,
                     const Values&... values) {

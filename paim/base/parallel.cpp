@@ -14,8 +14,8 @@ namespace {
 
 std::atomic<const ParallelHook*> current_hook{nullptr};
 
-// A loop whose pieces the hook runs. Exceptions do not pass through the hook, which may be code of
-// any kind: the first one is kept, and pieces that have not begun are left out.
+// A loop whose pieces the hook runs. Exceptions do not pass through the hook, which may be C code:
+// the first exception is kept, and pieces that have not started are skipped.
 struct Loop {
     size_t count, grain;
     const std::function<void(size_t, size_t)>& body;

@@ -1,5 +1,5 @@
-// The hook by which a program lends its threads: loops inside Paim run on them. Without a hook every
-// loop runs on the thread that starts it. Results are the same bytes either way.
+// The hook by which a program lets loops inside Paim run on its threads. Without a hook every loop
+// runs on the thread that starts it. Results have the same bytes either way.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,8 @@ struct ParallelHook {
     void* user = nullptr;  // given to both functions
 };
 
-// Loops that start from now on use the hook, which stays where it is while they do; nullptr: none.
+// Loops that start from now on use the hook, which the caller keeps alive while they run.
+// hook  nullptr: no hook
 PAIM_EXPORT void set_parallel_hook(const ParallelHook* hook);
 
 }  // namespace paim

@@ -1,4 +1,4 @@
-// Random streams keyed by what they are for, so that results do not depend on threads or order.
+// Random streams keyed by pose, vertex and part, so that results do not depend on threads or order.
 // Based on: Sebastiano Vigna, "splitmix64" (public domain), the finaliser of Steele, Lea and Flood,
 //           Fast Splittable Pseudorandom Number Generators, 2014
 #pragma once
@@ -14,7 +14,7 @@ constexpr uint64_t mix_bits(uint64_t x) {
     return x ^ (x >> 31);
 }
 
-// The key of the stream of one vertex in one pose; `part` tells independent streams of it apart.
+// Key of the random stream of one vertex in one pose. Different `part`s give independent streams.
 constexpr uint64_t stream_key(uint64_t seed, uint64_t pose, uint64_t vertex, uint64_t part = 0) {
     return mix_bits(mix_bits(mix_bits(mix_bits(seed) ^ pose) ^ vertex) ^ part);
 }

@@ -1,4 +1,4 @@
-// Parallel loops on oneTBB, and a limit on its threads: what Paim's own tools use.
+// Parallel loops on oneTBB, and a limit on its threads. Paim's tools use them.
 #pragma once
 
 #include <memory>
@@ -8,7 +8,7 @@ namespace paim {
 // From now on parallel loops of this process run on oneTBB, on every core.
 void use_tbb();
 
-// Limits the threads of all loops on oneTBB while it lives; 0 means every core.
+// Limits the threads of all loops on oneTBB during its lifetime; 0 means every core.
 class ThreadLimit {
   public:
     explicit ThreadLimit(int num_threads);

@@ -1,4 +1,4 @@
-// The small vectors that every room shares.
+// The small vectors that all folders share.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-// How the tools print their help: descriptions wrapped beside the options' names.
+// How the tools print their help: descriptions wrapped to the right of the options' names.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -10,10 +10,11 @@ namespace paim {
 
 namespace {
 
-// Points whose sums (32 KB) stay in the first- or second-level cache while all components are added.
+// Points whose sums (32 KB) stay in the first- or second-level cache while all components are
+// added.
 constexpr size_t kPoints = 8192;
 
-// The next components that can be added at once: some of one type.
+// The components from number k on that can be added at once: all have one type.
 Columns columns_from(std::span<const StoredValues> components, size_t k, size_t first) {
     Columns columns;
     columns.type = type_of(components[k]);

@@ -1,4 +1,4 @@
-// A compressed animation in memory: what a .paim file holds.
+// A compressed animation in memory: the contents of a .paim file.
 #pragma once
 
 #include <algorithm>
@@ -14,13 +14,13 @@
 
 namespace paim {
 
-// The most poses that a file may hold: twelve hours at 24 frames a second.
+// The largest number of poses of a file: twelve hours at 24 frames a second.
 constexpr uint32_t kMaxPoses = 1u << 20;
 
-// What vertices have: each attribute is compressed on its own.
+// Attributes of vertices. Each is compressed on its own.
 enum class Attribute { geometry, transfer };
 
-// One lit thing: a character, the floor under it, or what stands still around it.
+// One lit mesh: the moving part (with its floor), or the still part around it.
 struct CodedMesh {
     Topology topology;
     Albedo albedo;
@@ -28,7 +28,7 @@ struct CodedMesh {
     LowRank positions;       // 3 planes: x, y, z, scene units; a point is a vertex
     CodedTransfer transfer;  // of layout.num_planes() planes
 
-    // 1 if it stands still under still light. Attributes that have one pose only keep it for ever.
+    // 1 for a still part. An attribute with a single pose has the same values at all times.
     uint32_t num_poses() const {
         return std::max(positions.num_poses, transfer.empty() ? 0u : transfer->matrix.num_poses);
     }
@@ -37,28 +37,29 @@ struct CodedMesh {
     }
 };
 
-// Whose order vertices and triangles have.
+// The order of vertices and triangles.
 enum class VertexOrder : uint32_t {
-    baked = 0,  // the bake's
-    cache = 1,  // what cache_order() makes of it (mesh/cache_order.h)
+    baked = 0,  // that of the bake
+    cache = 1,  // that of cache_order() (mesh/cache_order.h)
 };
 
 struct Asset {
-    // The first part moves. Others may stand still: they were baked without the first part, so that
-    // it casts no shadow on them, but they block and bounce its light.
+    // The first part moves. Others are still: they were baked without the first part, so that it
+    // casts no shadow on them, but they block and bounce its light.
     std::vector<CodedMesh> parts = std::vector<CodedMesh>(1);
-    // What positions are counted from, scene units: adding it, in double, gives scene coordinates.
-    // Zero unless the mesh was far from the world's origin; who shows one asset alone may ignore it.
+    // Origin of all positions, scene units: adding it, in double, gives scene coordinates. Zero
+    // unless the mesh was far from the world's origin. A program that shows a single asset may
+    // ignore it.
     Vec3d origin = Vec3d::Zero();
     float frames_per_second = 24.0f;
     VertexOrder vertex_order = VertexOrder::baked;  // of every part
-    bool complete = true;  // false: the file has more components, which were not there yet
+    bool complete = true;  // false: read from a prefix, without all components of the file
     std::string name;
-    std::string provenance_json;  // a JSON object: how it was made, for people and paim-info
+    std::string provenance_json;  // a JSON object: how the file was made, shown by paim-info
 
     const CodedMesh& moving() const { return parts.front(); }
     CodedMesh& moving() { return parts.front(); }
-    // What stands still; nullptr if nothing does. A file holds one such part at most.
+    // The still part, or nullptr. A file holds at most one.
     const CodedMesh* still() const { return parts.size() > 1 ? &parts[1] : nullptr; }
     CodedMesh* still() { return parts.size() > 1 ? &parts[1] : nullptr; }
     uint32_t num_poses() const { return moving().num_poses(); }

@@ -11,16 +11,17 @@ namespace paim {
 
 struct TransferCodec {
     std::string_view name;
-    // The metadata member that only files of this codec have; empty: files without any of the others'.
+    // The metadata member that only files of this codec have. Empty: files without the marker of
+    // any other codec have this codec.
     std::string_view marker;
-    std::unique_ptr<TransferModel> (*make)();  // without values
+    std::unique_ptr<TransferModel> (*make)();  // an empty model, which the reader fills
 };
 
-// Built-in codecs first, then those that were added.
+// All codecs: the built-in ones, then those that were added.
 std::span<const TransferCodec> transfer_codecs();
 
-// Lets files of another codec be read from now on. Its name and marker are its own (checked). Not to be
-// called while another thread reads files.
+// Adds a codec, so that its files can be read. No other codec has its name or marker (checked).
+// Must not be called while another thread reads files.
 void add_transfer_codec(const TransferCodec& codec);
 
 }  // namespace paim

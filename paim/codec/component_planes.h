@@ -1,4 +1,4 @@
-// Planes of a decoded animation over all of its poses, whatever its codec: what errors are measured on.
+// Planes of a decoded animation over all of its poses, of any codec. Errors are measured on them.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,7 +9,8 @@
 
 namespace paim {
 
-// Plane 0 … 2 of the positions (scene units), or plane layout.plane(channel, i) of the transfer.
+// Decodes plane 0 … 2 of the positions (scene units), or plane layout.plane(channel, i) of the
+// transfer.
 // returns [V][P]
 Eigen::MatrixXf decode_plane(const CodedMesh& mesh, Attribute attribute, uint32_t plane);
 

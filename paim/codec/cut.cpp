@@ -1,4 +1,4 @@
-// Leaves out bands and components of coded data.
+// Removes bands and components of coded data.
 #include "paim/codec/cut.h"
 
 #include <vector>

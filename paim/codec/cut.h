@@ -1,4 +1,4 @@
-// Leaves out bands and components of coded data, without computing anything again.
+// Removes bands and components of coded data. The remaining values stay as they are.
 #pragma once
 
 #include "paim/codec/asset.h"
@@ -9,8 +9,8 @@ namespace paim {
 // Keeps the first bands of the transfer, at least one.
 void keep_bands(CodedMesh& mesh, uint32_t bands);
 
-// Keeps bands of all parts, and components over the poses, within the limits. Components of each vertex
-// stay.
+// Keeps the bands, and the components over the poses, of all parts within the limits. Components of
+// vertices within their clusters stay.
 void keep_within(const DecodeLimits& limits, Asset& asset);
 
 }  // namespace paim

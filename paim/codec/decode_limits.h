@@ -1,4 +1,4 @@
-// How much of a file is used when it is played.
+// Limits of how much of a file is used when it is played.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 namespace paim {
 
-// Larger numbers than there are mean all; at least one band is kept.
+// Numbers larger than those of the file mean all. At least one band is used.
 struct DecodeLimits {
     uint32_t geometry_components = std::numeric_limits<uint32_t>::max();
     uint32_t transfer_components = std::numeric_limits<uint32_t>::max();

@@ -7,21 +7,22 @@
 
 namespace paim {
 
-// A mean counts as a component of weight 1.
+// Multiply-adds of decoding and lighting one frame. A mean counts as a component of weight 1.
 struct FrameCost {
     uint64_t decode_per_vertex = 0;
-    uint64_t light_per_vertex = 0;  // after decoding
+    uint64_t light_per_vertex = 0;  // to light a decoded vertex
     uint64_t cpu_per_frame = 0;     // once for all vertices
 
     uint64_t per_vertex() const { return decode_per_vertex + light_per_vertex; }
 };
 
-// Products of light that a vertex needs: 1 under grey light if its transfer is grey, otherwise 3.
+// Channels of radiance that are computed for a vertex: 1 for grey transfer under grey light,
+// otherwise 3.
 inline uint32_t num_radiance_channels(const TransferLayout& layout, bool coloured_light) {
     return coloured_light || layout.channels > 1 ? 3 : 1;
 }
 
-// Positions: mean and components of three coordinates.
+// Cost of positions: mean and components of three coordinates.
 inline FrameCost positions_cost(uint32_t num_components) {
     return {3 * (uint64_t{num_components} + 1), 0, 0};
 }

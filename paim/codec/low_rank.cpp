@@ -1,4 +1,4 @@
-// A mean and weighted components: what they bound, and how they are cut short.
+// Bounds of low-rank matrices, and removal of components.
 #include "paim/codec/low_rank.h"
 
 #include <algorithm>
@@ -28,7 +28,8 @@ std::vector<double> plane_maxima(const StoredValues& values, uint32_t num_planes
     return maxima;
 }
 
-// Without looking at values that their type already bounds.
+// Upper bounds by the type of integers, without looking at the values; of floats, the same as
+// above.
 std::vector<double> type_maxima(const StoredValues& values, uint32_t num_planes,
                                 uint32_t num_points) {
     if (values.holds_floats()) return plane_maxima(values, num_planes, num_points);
@@ -43,8 +44,8 @@ std::vector<double> bounds_of(const LowRank& matrix, Maxima maxima_of) {
     for (uint32_t k = 0; k < matrix.num_components; ++k) {
         double weight = 0.0;
         for (uint32_t p = 0; p < matrix.num_poses; ++p) {
-            weight = std::max(
-                weight, std::abs(double{matrix.weights[size_t{k} * matrix.num_poses + p]}));
+            weight = std::max(weight,
+                              std::abs(double{matrix.weights[size_t{k} * matrix.num_poses + p]}));
         }
         const std::vector<double> maxima =
             maxima_of(matrix.components[k], matrix.num_planes, matrix.num_points);
@@ -89,7 +90,8 @@ void LowRank::keep_components(uint32_t count) {
 }
 
 std::vector<double> magnitude_bounds(const LowRank& matrix) {
-    // Integers are bounded by their type nearly always; only what that does not settle is looked at.
+    // The bounds by the types of integers are nearly always enough. Values are looked at only if
+    // not.
     constexpr double kSafe = 1e37;
     std::vector<double> bounds = bounds_of(matrix, type_maxima);
     if (std::all_of(bounds.begin(), bounds.end(), [](double b) { return b <= kSafe; })) {

@@ -13,28 +13,29 @@ namespace paim {
 
 // Column p of the matrix is pose p (E3, E4):
 //   mean + Σ_k weights[k][p] · components[k].
-// Rows are plane-major: row = plane · N + n. A point n is a vertex, or whatever else a codec rebuilds
-// vertices from.
+// Rows are plane-major: row = plane · N + n. A point n is a vertex, or another row that the codec
+// rebuilds vertices from.
 //
-// Floats: components have unit RMS (|component_k|² = rows) before noise is taken out of them, so that
-// half floats hold them well, and the weights carry the singular value. Integers: values are multiples
-// of their plane's step, and weights have about unit RMS, so that one step costs about the same error
-// in every component.
+// Floats: components have unit RMS (|component_k|² = rows) before noise is taken out of them, so
+// that half floats are precise enough, and weights contain the singular value. Integers: values are
+// multiples of their plane's step, and weights have about unit RMS, so that one step costs about
+// the same error in every component.
 struct PAIM_EXPORT LowRank {
     uint32_t num_points = 0;
     uint32_t num_planes = 0;
     uint32_t num_poses = 0;
     uint32_t num_components = 0;
     Precision precision = Precision::f32;  // widest type in the section; a plane may be narrower
-    std::vector<float> steps;              // [planes], of integers; floats: empty, 1 each
+    std::vector<float> steps;              // [planes] of integers; floats: empty, all 1
     StoredValues mean;                     // [planes][N], in steps
     std::vector<StoredValues> components;  // [K] of [planes][N], in steps
     std::vector<float> weights;            // [K][P]
-    // [K] weights of component k are integer multiples of this; empty: floats as they are.
+    // [K] The weights of component k are integer multiples of this. Empty: weights are arbitrary
+    // floats.
     std::vector<float> weight_steps;
     std::vector<double> singular_values;  // [rank of the full matrix], descending, unshrunk
-    // [K] which singular value each component has, ascending; empty: component k has the k-th.
-    // Values are skipped where quantisation rounded a whole component to zero.
+    // [K] Index of the singular value of each component, ascending. Empty: component k has the
+    // k-th. An index is missing where quantisation rounded a whole component to zero.
     std::vector<uint32_t> singular_indices;
 
     uint32_t singular_index(uint32_t k) const {
@@ -44,7 +45,7 @@ struct PAIM_EXPORT LowRank {
     float step(uint32_t plane) const { return steps.empty() ? 1.0f : steps[plane]; }
     bool holds_floats() const { return mean.holds_floats(); }
 
-    // Something that stands still: a mean without components, in one pose.
+    // The matrix of a still part: a mean without components, in one pose.
     // values  [planes][N], in steps
     // steps   [planes], of integers; empty for floats
     static LowRank still(uint32_t num_planes, StoredValues values, std::vector<float> steps = {});
@@ -58,9 +59,9 @@ struct PAIM_EXPORT LowRank {
     bool operator==(const LowRank&) const = default;
 };
 
-// An upper bound of |mean + Σ_k w_k · component_k| over all points, all poses and the moments between
-// them, and every number of components; +inf where floats overflow. No partial sum of a decoder is
-// larger than this by more than rounding.
+// An upper bound of |mean + Σ_k w_k · component_k| over all points, all poses and the moments
+// between them, and every number of components; +inf where floats overflow. No partial sum of a
+// decoder is larger than this by more than rounding.
 // returns [planes]
 PAIM_EXPORT std::vector<double> magnitude_bounds(const LowRank& matrix);
 

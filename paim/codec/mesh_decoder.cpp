@@ -1,4 +1,4 @@
-// Rebuilds poses of a coded mesh, whatever its codec.
+// Rebuilds poses of a coded mesh of any codec.
 #include "paim/codec/mesh_decoder.h"
 
 namespace paim {

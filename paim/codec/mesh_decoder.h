@@ -1,4 +1,4 @@
-// Rebuilds poses of a coded mesh, whatever its codec.
+// Rebuilds poses of a coded mesh of any codec.
 #pragma once
 
 #include <memory>
@@ -13,12 +13,12 @@ namespace paim {
 
 // One rebuilt pose.
 struct DecodedPose {
-    TransferLayout layout;         // bands as limited
+    TransferLayout layout;         // with the bands within the limits
     std::vector<float> positions;  // [3][V] scene units
     std::vector<float> transfer;   // [layout.num_planes()][V]
 };
 
-// Keeps scratch memory: one a thread.
+// Keeps scratch memory; each thread needs its own decoder.
 class MeshDecoder {
   public:
     // Keeps a reference to the mesh.
@@ -29,8 +29,8 @@ class MeshDecoder {
     uint32_t num_vertices() const { return mesh_.topology.num_vertices; }
     uint32_t num_poses() const { return mesh_.num_poses(); }
 
-    // Rebuilds the pose at `time` in poses: 0 … P−1, fractions interpolate the weights linearly;
-    // clamped to that range. Reuses what `out` holds.
+    // Rebuilds the pose at `time` in poses, clamped to 0 … P−1. At fractions weights are
+    // interpolated linearly. Reuses the memory of `out`.
     void decode(double time, const DecodeLimits& limits, DecodedPose& out);
 
   private:

@@ -13,7 +13,7 @@ namespace paim {
 
 namespace {
 
-// Of the bounding box of the mean positions.
+// The centre of the bounding box of the mean positions.
 Vec3f centre_of(const CodedMesh& mesh) {
     const std::vector<float> planes = mesh.positions.mean_floats();
     const auto num_vertices = static_cast<Eigen::Index>(mesh.topology.num_vertices);
@@ -48,7 +48,7 @@ struct Playback::Part {
     PositionDecoder decoder;
     std::unique_ptr<TransferPlayer> player;
     LightCoefficients light;
-    bool is_lit = false;         // radiance is that of the light
+    bool is_lit = false;         // whether the radiance is up to date with the light
     std::optional<double> time;  // of positions and radiance
     DecodeLimits limits;
     std::vector<float> positions;

@@ -1,4 +1,4 @@
-// Plays an asset on the CPU: a light and a time in, positions and radiance out.
+// Plays an asset on the CPU: from a light and a time to positions and radiance.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,9 @@
 
 namespace paim {
 
-// Owns its scratch memory: one a thread; any number may share an asset. update() does only what is
-// needed: nothing if neither time, limits nor light changed; the light alone if the pose is the same.
+// A Playback has scratch memory of its own, so each thread needs one; any number may share an
+// asset. update() computes only what changed: nothing if time, limits and light are the same, the
+// light alone if only the light is new.
 class PAIM_EXPORT Playback {
   public:
     // asset  with at least one part (checked), as read_paim() returns it
@@ -25,11 +26,12 @@ class PAIM_EXPORT Playback {
     const Asset& asset() const;
     size_t num_parts() const;
 
-    // Lights all parts from the next update() on. The field is asked at the centre of each part's mean
-    // positions, for as many bands as the part has; it is not kept.
+    // Lights all parts from the next update() on. The light of a part is the field at the centre of
+    // the part's mean positions, in as many bands as the part has. The field is not kept.
     void set_light(const LightField& light);
 
-    // Rebuilds what is shown at `time` in poses: 0 … P−1, clamped; fractions lie between two poses.
+    // Computes positions and radiance at `time` in poses, clamped to 0 … P−1. Fractions lie between
+    // poses.
     void update(double time, const DecodeLimits& limits = {});
 
     // Results of the last update(), valid until the next one.

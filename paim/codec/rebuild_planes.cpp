@@ -1,4 +1,4 @@
-// Rebuilding a low-rank matrix.
+// Rebuilds planes of a low-rank matrix.
 // Based on: Cardoso and Kry, Error Analysis of Precomputed Radiance Transfer for Deforming
 //           Geometry, 2012
 #include "paim/codec/rebuild_planes.h"
@@ -28,8 +28,8 @@ void interpolate_weights(const LowRank& matrix, double time, std::vector<float>&
 void rebuild_planes(const LowRank& matrix, std::span<const uint32_t> planes,
                     std::span<const float> weights, uint32_t num_components,
                     std::vector<float>& out) {
-    // Long enough that components are read in long runs, and short enough that all threads have
-    // something to do even of three planes.
+    // Points a piece of work: enough that components are read in long runs, and few enough that all
+    // threads have work even if there are only three planes.
     constexpr size_t kPoints = 8192;
     const size_t num_points = matrix.num_points;
     const size_t num_pieces = (num_points + kPoints - 1) / kPoints;
@@ -49,8 +49,8 @@ void PositionDecoder::decode(const LowRank& positions, double time, uint32_t num
                              std::vector<float>& out) {
     constexpr std::array<uint32_t, 3> kPlanes{0, 1, 2};
     interpolate_weights(positions, time, weights_);
-    rebuild_planes(positions, kPlanes, weights_,
-                   std::min(num_components, positions.num_components), out);
+    rebuild_planes(positions, kPlanes, weights_, std::min(num_components, positions.num_components),
+                   out);
 }
 
 void PointDecoder::decode(const LowRank& matrix, const TransferLayout& whole, double time,

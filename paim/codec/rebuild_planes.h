@@ -1,4 +1,4 @@
-// Rebuilding a low-rank matrix: mean + components · weights, for one pose or for all of them (E4).
+// Rebuilds planes of a low-rank matrix, mean + components · weights, in one pose or in all (E4).
 // Based on: Cardoso and Kry, Error Analysis of Precomputed Radiance Transfer for Deforming
 //           Geometry, 2012
 #pragma once
@@ -20,8 +20,8 @@ namespace paim {
 void interpolate_weights(const LowRank& matrix, double time, std::vector<float>& weights);
 
 // out[j][N] = plane planes[j] of mean + Σ_k weights[k] · component k, steps applied, with the first
-// num_components components. The same numbers in the same order give the same bytes, whatever was
-// rebuilt before and on any number of threads.
+// num_components components. The same `planes` give the same bytes on any number of threads,
+// whatever was rebuilt before.
 void rebuild_planes(const LowRank& matrix, std::span<const uint32_t> planes,
                     std::span<const float> weights, uint32_t num_components,
                     std::vector<float>& out);
@@ -51,7 +51,8 @@ class PointDecoder {
     std::vector<uint32_t> planes_;
 };
 
-// One plane in all poses. returns [N][P]
+// Rebuilds one plane in all poses.
+// returns  [N][P], steps applied
 Eigen::MatrixXf rebuild_sequence(const LowRank& matrix, uint32_t plane);
 
 }  // namespace paim

@@ -11,16 +11,14 @@ namespace paim {
 
 namespace {
 
-// Multiply-adds that sequence_bounds() may spend: about two seconds on one core.
-constexpr uint64_t kMaxWork = uint64_t{1} << 33;
-
-// The bounds, and of what stands still everything within so many of their diagonals.
+// The bounds of the moving part, enlarged by those of the still parts as far as `diagonals` times
+// the diagonal of the former around them.
 Bounds with_still(const Bounds& bounds, const Bounds& still, double diagonals) {
     if (still.empty()) return bounds;
     Bounds all = bounds;
     all.extend(still);
     const double reach = diagonals * static_cast<double>(bounds.diagonal());
-    if (!(reach > 0.0)) return all;  // the animation is a point: everything that stands still
+    if (!(reach > 0.0)) return all;  // the moving part is a point: all still parts count
     const Vec3d around = Vec3d::Constant(reach);
     all.lower = all.lower.cwiseMax((bounds.lower.cast<double>() - around).cast<float>());
     all.upper = all.upper.cwiseMin((bounds.upper.cast<double>() + around).cast<float>());
@@ -35,7 +33,7 @@ Bounds still_bounds(const Asset& asset) {
     return bounds;
 }
 
-// Decodes the part that moves, keeping its memory from pose to pose.
+// Bounds of poses of the moving part; keeps its memory from pose to pose.
 class MovingBounds {
   public:
     explicit MovingBounds(const LowRank& positions) : positions_(positions) {}
@@ -57,9 +55,8 @@ class MovingBounds {
 
 Bounds pose_bounds(const Asset& asset, double time, uint32_t num_geometry_components) {
     constexpr double kSeenDiagonals = 500.0;
-    return with_still(
-        MovingBounds(asset.moving().positions).at(time, num_geometry_components),
-        still_bounds(asset), kSeenDiagonals);
+    return with_still(MovingBounds(asset.moving().positions).at(time, num_geometry_components),
+                      still_bounds(asset), kSeenDiagonals);
 }
 
 Bounds framed_bounds(const Bounds& poses, const Bounds& still) {
@@ -67,12 +64,13 @@ Bounds framed_bounds(const Bounds& poses, const Bounds& still) {
     return with_still(poses, still, kFramedDiagonals);
 }
 
-Bounds sequence_bounds(const Asset& asset) {
+Bounds sequence_bounds(const Asset& asset, uint64_t max_multiply_adds) {
     const LowRank& positions = asset.moving().positions;
     const uint64_t pose_work =
         uint64_t{3} * positions.num_points * (uint64_t{positions.num_components} + 1);
     const uint64_t num_poses = asset.num_poses();
-    const uint64_t max_samples = std::max<uint64_t>(2, kMaxWork / std::max<uint64_t>(1, pose_work));
+    const uint64_t max_samples =
+        std::max<uint64_t>(2, max_multiply_adds / std::max<uint64_t>(1, pose_work));
     const uint64_t step = (num_poses + max_samples - 1) / max_samples;
     MovingBounds moving(positions);
     Bounds bounds;

@@ -1,26 +1,31 @@
-// Where a compressed animation lies in space; what the player and the reference images frame, so
-// that their default cameras agree.
+// Bounds of a coded animation in space. The player and the reference images frame them, so that their
+// default cameras agree.
 #pragma once
 
-#include <span>
+#include <cstdint>
 
 #include "paim/codec/asset.h"
 #include "paim/mesh/bounds.h"
 
 namespace paim {
 
-// Bounds of all that is seen at `time` (in poses, clamped to 0 … P−1): the part that moves, and the
-// parts that stand still as far as 500 diagonals of its bounds around it. Anything farther away would
+// Bounds of the moving part at `time` (in poses, clamped to 0 … P−1), decoded with the first
+// components, and of still parts as far as 500 of its diagonals around it. Anything farther away would
 // take the depth buffer's precision from the animation.
 Bounds pose_bounds(const Asset& asset, double time, uint32_t num_geometry_components);
 
-// Bounds of all poses and of still parts as far as one diagonal of the poses around them, so that a
-// wide landscape does not make the character small; with all components. Long sequences of large meshes
-// are sampled: every n-th pose and the last, with the smallest n that keeps the work within a few
-// seconds. The same asset gives the same bounds everywhere.
-Bounds sequence_bounds(const Asset& asset);
+// Work that sequence_bounds() may do: about two seconds on one core.
+inline constexpr uint64_t kMaxBoundsMultiplyAdds = uint64_t{1} << 33;
 
-// What sequence_bounds() makes of the bounds of all poses and of everything that stands still.
+// Bounds of all poses, decoded with all components, and of still parts as far as one diagonal of the
+// poses around them, so that a wide landscape does not make the character small. The same asset gives
+// the same bounds on every machine.
+// max_multiply_adds  If decoding all poses takes more, the bounds are those of every n-th pose and the
+//                    last, with the smallest n that keeps the poses before the last within it; of at
+//                    most 3 poses if even two take more.
+Bounds sequence_bounds(const Asset& asset, uint64_t max_multiply_adds = kMaxBoundsMultiplyAdds);
+
+// The bounds that sequence_bounds() makes of the bounds of all poses and those of all still parts.
 Bounds framed_bounds(const Bounds& poses, const Bounds& still);
 
 }  // namespace paim

@@ -1,4 +1,4 @@
-// Values of a matrix as memory holds them: floats, or small integers that count steps.
+// Values of a matrix in memory: floats, or small integers that are multiples of a step.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace paim {
 
-// How values are stored. Half floats are floats again in memory; integers stay integers.
+// How values are stored in files. In memory half floats are floats; integers stay integers.
 enum class Precision : uint32_t { f32 = 0, f16 = 1, i16 = 2, i8 = 3 };
 
 constexpr const char* precision_name(Precision precision) {
@@ -33,7 +33,7 @@ constexpr bool is_integer(Precision precision) {
     return precision == Precision::i16 || precision == Precision::i8;
 }
 
-// The largest magnitude an integer of this precision has: 127 or 32767, so that the range is
+// The largest magnitude of an integer of this precision: 127 or 32767, so that the range is
 // symmetrical.
 constexpr int32_t largest_integer(Precision precision) {
     return precision == Precision::i8 ? 127 : 32767;
@@ -76,13 +76,13 @@ class StoredValues {
             values_);
     }
 
-    // The floats (checked).
+    // The values; they must be floats (checked).
     const std::vector<float>& floats() const {
         PAIM_CHECK(holds_floats());
         return std::get<std::vector<float>>(values_);
     }
 
-    // use(j, value j in steps) for j in [first, first + count)
+    // Calls use(j, value j in steps) for each j in [first, first + count).
     template <typename Use>
     void for_each(size_t first, size_t count, const Use& use) const {
         std::visit(

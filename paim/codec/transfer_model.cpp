@@ -1,4 +1,4 @@
-// What codecs have in common: rebuild points, make vertices of them, light these.
+// Code that codecs share: rebuilding points, computing vertices from them, and lighting these.
 #include "paim/codec/transfer_model.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace paim {
 
 namespace {
 
-// Decodes first and lights what was decoded.
+// Decodes the transfer of all vertices, then lights it.
 class DecodingPlayer : public TransferPlayer {
   public:
     DecodingPlayer(const TransferModel& model, const TransferLayout& layout)
@@ -45,8 +45,8 @@ class DecodingPlayer : public TransferPlayer {
     const TransferModel& model_;
     const TransferLayout layout_;
     PointDecoder points_;
-    std::vector<float> values_;  // [planes][N]
-    std::optional<double> time_;  // of what transfer_ holds
+    std::vector<float> values_;   // [planes][N]
+    std::optional<double> time_;  // of transfer_
     DecodeLimits limits_;
     TransferLayout lit_layout_;
     std::vector<float> transfer_;  // [planes][V]

@@ -1,8 +1,8 @@
 // Coded transfer: the interface that every codec implements, and the value that owns one.
 //
-// A codec is one folder: its class here, its name in codecs.cpp, and nothing elsewhere asks which
-// codec it is. All of them store a matrix over the poses (LowRank); they differ in what a point of that
-// matrix is, and in how vertices are rebuilt from points.
+// A codec is one folder with a class that implements this interface, and a line in codecs.cpp. No
+// other code asks which codec it is. All codecs store a matrix over the poses (LowRank); they
+// differ in what a point of that matrix is, and in how vertices are rebuilt from points.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,23 +24,24 @@
 
 namespace paim {
 
-struct FrameCost;       // codec/frame_cost.h
+struct FrameCost;      // codec/frame_cost.h
 class TransferPlayer;  // codec/transfer_player.h
 
 class PAIM_EXPORT TransferModel {
   public:
     virtual ~TransferModel();
 
-    // What people and files call the codec: "svd".
+    // The name of the codec in files and messages, such as "svd".
     virtual std::string_view codec_name() const = 0;
     virtual std::unique_ptr<TransferModel> clone() const = 0;
 
     virtual uint32_t num_vertices() const = 0;
-    // Components that every vertex combines, in addition to those over the poses; 0 if there are none.
+    // Components of each vertex in addition to those over the poses, such as those of its cluster;
+    // 0 if there are none.
     virtual uint32_t num_vertex_components() const { return 0; }
 
-    // Every vertex's values from the points' values, on all threads. Codecs whose points are the
-    // vertices do not get this call.
+    // Computes the values of all vertices from those of the points, on all threads. It is not
+    // called for codecs whose points are the vertices.
     // points          [planes][N] steps applied
     // num_components  at most num_vertex_components(): how many of them to use
     // out             [planes][V]
@@ -48,34 +49,40 @@ class PAIM_EXPORT TransferModel {
     virtual void vertices_from_points(std::span<const float> points, uint32_t num_components,
                                       std::span<float> out) const;
 
-    // Decodes and lights, with scratch memory of its own. Keeps references to both arguments' data.
+    // An object that decodes and lights, with its own scratch memory. It keeps references to this
+    // model and to the layout.
     virtual std::unique_ptr<TransferPlayer> make_player(const TransferLayout& layout) const;
 
-    // Multiply-adds of a frame within the limits. coloured_light  of three channels
+    // Multiply-adds of a frame within the limits.
+    // coloured_light  whether the light has three channels
     virtual FrameCost cost(const TransferLayout& layout, const DecodeLimits& limits,
                            bool coloured_light) const = 0;
 
-    // Bytes in memory of everything but the matrix, with the first num_components per vertex.
+    // Bytes in memory of all values outside the matrix, with the first num_components of each
+    // vertex.
     virtual uint64_t vertex_bytes(uint32_t num_components) const;
 
-    // Largest factor by which magnitudes grow from points to vertices, so that what a file decodes to
-    // is known to be finite before anything is decoded.
+    // Largest factor by which magnitudes grow from points to vertices. The reader uses it to check
+    // that a file decodes to finite values before it decodes any.
     virtual double vertex_gain() const { return 1.0; }
 
-    // How squares of point values add up over the vertices: quadratic forms of consecutive runs of
-    // points; empty: each point counts once.
+    // Quadratic forms, one for each consecutive run of points, by which squared errors of point
+    // values add up over the vertices. Empty: each point counts once.
     virtual std::vector<Eigen::MatrixXd> point_metrics() const { return {}; }
 
-    // Numbers of the metadata that describe this codec, in the order of the file. The codec's marker
+    // The numbers of the metadata that this codec has, in the order of the file. The codec's marker
     // (codecs.h) is one of them.
     virtual std::vector<NamedNumber> numbers() { return {}; }
-    // For those who only read them.
+    // The same numbers, to be read only.
     std::vector<NamedNumber> numbers() const { return const_cast<TransferModel*>(this)->numbers(); }
-    // Called when the numbers are read: how many points the matrix has. num_vertices  of the mesh
+    // Called when the numbers have been read.
+    // num_vertices  of the mesh
+    // returns       number of points of the matrix
     virtual uint32_t start(uint32_t num_vertices) = 0;
-    // Sections beyond those of the matrix, in the order of the file; sizes are known by now.
+    // The sections in addition to those of the matrix, in the order of the file. Called after
+    // start().
     virtual std::vector<SectionRow> sections() { return {}; }
-    // Whether files store these sections packed although all of their values are floats.
+    // Whether files store these sections packed even if all their values are floats.
     virtual bool always_packed() const { return false; }
 
     LowRank matrix;
@@ -87,8 +94,8 @@ class PAIM_EXPORT TransferModel {
     TransferModel& operator=(const TransferModel&) = default;
 };
 
-// Owns a TransferModel and copies like a value. A default one is empty: nothing but assigning to it,
-// and asking whether it is, makes sense then.
+// Owns a TransferModel and copies like a value. A default one is empty: it may only be assigned to,
+// or be asked whether it is empty.
 class CodedTransfer {
   public:
     CodedTransfer() = default;
@@ -115,7 +122,7 @@ class CodedTransfer {
     const TransferModel& operator*() const { return *get(); }
     TransferModel& operator*() { return *operator->(); }
 
-    // The codec's own type, for the codec's own code; nullptr if it is another codec.
+    // The model as its own type, for code of the codec itself; nullptr if the codec is another.
     template <typename Model>
     const Model* as() const {
         return dynamic_cast<const Model*>(model_.get());

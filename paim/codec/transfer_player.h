@@ -11,21 +11,22 @@
 
 namespace paim {
 
-// One a thread. What it was made from has to outlive it.
+// Used by one thread at a time. The model that it was made from must outlive it.
 class TransferPlayer {
   public:
     virtual ~TransferPlayer() = default;
 
-    // The transfer of every vertex at `time` in poses: 0 … P−1, fractions interpolate the weights
-    // linearly; clamped to that range.
-    // layout    of what is decoded: bands as limited
+    // The transfer of all vertices at `time` in poses, clamped to 0 … P−1. At fractions weights are
+    // interpolated linearly.
+    // layout    of the result: with the bands within the limits
     // transfer  [layout.num_planes()][V]
     virtual void decode(double time, const DecodeLimits& limits, TransferLayout& layout,
                         std::vector<float>& transfer) = 0;
 
-    // What every vertex shows: albedo(v) · Σ_i t_i(v) L_i, per channel. Bands beyond the light's are
-    // taken as zero. Calls with the same time and limits as the last one reuse the pose.
-    // radiance  [V] linear RGB; may be slightly negative where the light rings
+    // The radiance of all vertices, albedo(v) · Σ_i t_i(v) L_i per channel. Bands that the light
+    // does not have are zero. A call with the same time and limits as the last one reuses the pose.
+    // radiance  [V] linear RGB; may be slightly negative where the spherical harmonics of
+    //           the light ring
     virtual void light(double time, const DecodeLimits& limits, const LightCoefficients& light,
                        const Albedo& albedo, std::vector<Vec3f>& radiance) = 0;
 };

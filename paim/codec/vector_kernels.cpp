@@ -1,4 +1,4 @@
-// The inner loops of decoding, once for every vector unit.
+// The inner loops of decoding, one version for each vector unit.
 #include "paim/codec/vector_kernels.h"
 
 #if defined(__x86_64__)
@@ -15,7 +15,7 @@ using Type = Columns::Type;
 
 typedef float FourFloats __attribute__((vector_size(16)));
 
-// The least vector that divides a tile.
+// The portable vector: the smallest one that divides a tile.
 struct OneFour {
     using TileVector = FourFloats;
     static constexpr size_t kFours = 1;
@@ -91,8 +91,8 @@ struct Lanes {
     using Vector = __m512;
     using TileVector = __m512;
     static constexpr size_t kLanes = 16;
-    // With a mask, though it hides nothing and costs nothing: GCC 12 warns of what its own header
-    // leaves uninitialised in the others.
+    // The masked functions with all lanes set cost nothing. GCC 12 warns about uninitialised values
+    // in its own header for the functions without a mask.
     static constexpr __mmask16 kAll = 0xffff;
     PAIM_TARGET_INLINE static Vector to_floats(const __m512i& values) {
         return _mm512_maskz_cvtepi32_ps(kAll, values);

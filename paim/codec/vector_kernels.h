@@ -1,4 +1,5 @@
-// The inner loops of decoding, once for every vector unit. For accumulate.cpp and basis_table.cpp.
+// The inner loops of decoding, one version for each vector unit. Used by accumulate.cpp and
+// basis_table.cpp.
 #pragma once
 
 #include <array>
@@ -11,21 +12,21 @@
 
 namespace paim {
 
-// Components that are added at once, so that sums stay in registers: with their weights they fill
+// Components that are added at once, so that sums stay in registers. With their weights they fill
 // the 16 registers of AVX2.
 constexpr size_t kMaxColumns = 8;
-// Planes of a row that are summed at once, and vertices.
+// Planes of a row, and vertices, that are summed at once.
 constexpr int kNarrowTile = 4;
 constexpr int kWideTile = 16;
 constexpr int kWidestTile = 32;
 constexpr size_t kVertices = 64;
 constexpr size_t kLineBytes = 64;
 
-// How far ahead of the sums values are fetched: the processor's own prefetching takes a while to see
-// each of so many streams.
+// Distance at which values are prefetched. The processor's own prefetching takes a while to
+// recognise each of so many streams.
 constexpr size_t kAheadBytes = 1024;
 
-// May point past the values: nothing is read from there.
+// Prefetches; the address may lie past the values, because nothing is read there.
 __attribute__((always_inline)) inline void fetch_ahead(const void* from, size_t offset_bytes) {
     __builtin_prefetch(
         reinterpret_cast<const void*>(std::bit_cast<uintptr_t>(from) + offset_bytes + kAheadBytes));
@@ -40,10 +41,10 @@ struct Columns {
     std::array<const void*, kMaxColumns> values{};
 };
 
-// Vertices with some rows that are added to each, tile by tile.
+// Some rows to add to each of some vertices, for one tile of planes.
 struct RowBlock {
     size_t count = 0;                          // of vertices
-    size_t first_row = 0;                      // of these, counted from rows[v]; 1 starts a sum
+    size_t first_row = 0;                      // relative to rows[v]; 1 starts a sum
     size_t num_rows = 0;                       // at most kMaxColumns
     size_t stride = 0;                         // from row to row
     std::array<const float*, kVertices> rows;  // row 0 of each vertex, from the tile's first plane
@@ -57,14 +58,14 @@ struct VectorKernels {
     void (*add)(const Columns& columns, const float* weights, float* to, size_t count);
     // values[j] *= factor
     void (*scale)(float factor, float* values, size_t count);
-    // sums[v][i] (from first_row = 1: row(v, 0)[i]) + Σ_j coefficients[j][v] · row(v, first_row + j)[i]
-    // for the planes i of a tile, in order of j
+    // sums[v][i] += Σ_j coefficients[j][v] · row(v, first_row + j)[i] for the planes i of a tile, in
+    // order of j. With first_row = 1 sums start from row(v, 0)[i] instead of their old values.
     void (*sum_narrow)(const RowBlock& block, float* sums);
     void (*sum_wide)(const RowBlock& block, float* sums);
     void (*sum_widest)(const RowBlock& block, float* sums);
 };
 
-// Of any unit but plain (checked), which the machine must have.
+// The kernels of a unit that the machine has. `plain` has none (checked).
 const VectorKernels& vector_kernels(VectorUnit unit);
 
 Columns::Type type_of(const StoredValues& stored);

@@ -5,11 +5,11 @@
 
 namespace paim {
 
-// `plain` is one value after the other, as sums are written down: the reference for the others.
-// `portable` leaves vectors to the compiler.
+// `plain` computes one value after another, as the formulas say; it is the reference for the
+// others. `portable` leaves vectorisation to the compiler.
 enum class VectorUnit { plain, portable, avx2, avx512 };
 
-// Those that this machine has, ascending: at least plain and portable.
+// The units of this machine, ascending: at least plain and portable.
 std::span<const VectorUnit> vector_units();
 
 // The last of vector_units().

@@ -27,7 +27,7 @@ namespace paim {
 
 namespace {
 
-// Lines decoded at a time: the most that any compression puts into one chunk.
+// Lines decoded at a time: the largest number that any compression puts into one chunk.
 constexpr int kBlockLines = 256;
 
 // A rectangle of decoded pixels in the file's coordinates.
@@ -61,7 +61,7 @@ void paste(const Block& block, const Imath::Box2i& display, Image& image) {
 Imf::FrameBuffer frame_buffer(Block& block, const std::vector<std::string>& names) {
     constexpr auto kXStride = static_cast<ptrdiff_t>(sizeof(Vec3f));
     const ptrdiff_t y_stride = kXStride * block.width();
-    // OpenEXR wants the address of pixel (0, 0), wherever that is.
+    // OpenEXR takes the address of pixel (0, 0), even if the block does not contain that pixel.
     char* origin = reinterpret_cast<char*>(block.pixels.data()) - block.box.min.x * kXStride -
                    block.box.min.y * y_stride;
     Imf::FrameBuffer buffer;
@@ -77,13 +77,13 @@ void spread_grey(Block& block) {
     for (Vec3f& pixel : block.pixels) pixel = Vec3f::Constant(pixel.x());
 }
 
-// How the picture is coded, from the channels of the first part.
+// How the image is coded, by the channels of the first part.
 struct Coding {
     std::vector<std::string> names;  // R, G, B or Y; empty for luminance-chroma
     bool grey = false;
 };
 
-// A tile description alone does not make a file tiled.
+// Scan-line files may have a tile description, too, so its presence does not decide.
 bool is_tiled(const Imf::InputFile& file) {
     const Imf::Header& header = file.header();
     return header.hasType() ? header.type() == Imf::TILEDIMAGE : Imf::isTiled(file.version());
@@ -154,7 +154,7 @@ void read_tiles(Imf::TiledInputFile& file, const Coding& coding, Image& image) {
     }
 }
 
-// Luminance-chroma: OpenEXR's own conversion, which gives half precision.
+// Reads luminance-chroma images by OpenEXR's own conversion, which gives half precision.
 void read_luminance_chroma(Imf::RgbaInputFile& file, Image& image) {
     const Imath::Box2i& display = file.displayWindow();
     read_line_blocks(file.dataWindow(), display, [&](const Imath::Box2i& box) {
@@ -188,7 +188,7 @@ Image read_checked(const std::string& name) {
     return image;
 }
 
-// A growing file in memory.
+// Writes a file into memory.
 class MemoryStream : public Imf::OStream {
   public:
     explicit MemoryStream(const char* name) : Imf::OStream(name) {}
@@ -213,7 +213,7 @@ void encode(const Image& image, MemoryStream& stream) {
     Imf::Header header(image.width, image.height);
     header.compression() = Imf::ZIP_COMPRESSION;
     Imf::FrameBuffer buffer;
-    // OpenEXR's slices are for reading and writing alike, so they want a mutable address.
+    // OpenEXR uses the same slices for reading and writing, so they take a mutable address.
     char* origin = reinterpret_cast<char*>(const_cast<Vec3f*>(image.pixels.data()));
     const char* const names[] = {"R", "G", "B"};
     for (size_t c = 0; c < 3; ++c) {

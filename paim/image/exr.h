@@ -1,4 +1,4 @@
-// OpenEXR images in and out. The only place that knows OpenEXR.
+// Reads and writes OpenEXR images. Only image/exr*.cpp use OpenEXR.
 #pragma once
 
 #include <filesystem>
@@ -12,11 +12,11 @@ struct ExrLimits {
     int max_height = 16384;
 };
 
-// Reads the RGB channels of a scan-line or tiled (any level mode: the full-resolution level) image;
-// a luminance-only image gives grey, luminance-chroma is converted. The result has the display
-// window's size; pixels outside the data window are black. Errors (bad input) name the file and
-// what is wrong: missing, not EXR, truncated, damaged, larger than the limits, a deep image, no
-// colour channels. Memory is bounded by the limits, whatever the bytes.
+// Reads the RGB channels of a scan-line or tiled image, at full resolution. An image with luminance
+// alone gives grey; luminance-chroma is converted. The result has the size of the display window.
+// Pixels outside the data window are black. Memory is bounded by the limits, whatever the bytes.
+// Errors (bad input) name the file and what is wrong: missing, not EXR, truncated, damaged, larger
+// than the limits, a deep image, no colour channels.
 Image read_exr(const std::filesystem::path& path, const ExrLimits& limits = {});
 
 // Writes 32-bit float RGB, ZIP-compressed, all or nothing. Errors: output failed.

@@ -1,5 +1,6 @@
-// The header walk: names, types and sizes of attributes; only those that size memory are looked
-// into. Based on: The OpenEXR File Layout, https://openexr.com/en/latest/OpenEXRFileLayout.html
+// Walks the headers by names, types and sizes of attributes, and reads the values of those that
+// decide sizes of memory.
+// Based on: The OpenEXR File Layout, https://openexr.com/en/latest/OpenEXRFileLayout.html
 #include "paim/image/exr_header.h"
 
 #include <algorithm>
@@ -24,17 +25,17 @@ constexpr uint32_t kFlagTiled = 0x200;
 constexpr uint32_t kFlagDeep = 0x800;
 constexpr uint32_t kFlagMultiPart = 0x1000;
 
-// No chunk (tile, or block of lines) of a real file comes near this many bytes.
+// Limit of the bytes of a chunk (tile, or block of lines). Real files stay far below it.
 constexpr int64_t kMaxChunkBytes = int64_t{1} << 27;
-// Window corners beyond this are damage; it keeps pointer arithmetic on them far from overflow.
+// Window corners beyond this are refused as damage, so that pointer arithmetic cannot overflow.
 constexpr int64_t kMaxCoordinate = int64_t{1} << 24;
-// A short file may not ask for a picture of gigabytes: above 2^25 pixels (400 MB of RGB) it must
-// hold a byte for every 4096 pixels. Even one constant colour, ZIP-compressed, holds six times
-// that.
+// A short file must not make us allocate gigabytes: above 2^25 pixels (400 MB of RGB) it must hold
+// one byte for every 4096 pixels. A ZIP-compressed image of one constant colour holds six times as
+// much.
 constexpr int64_t kFreePixels = int64_t{1} << 25;
 constexpr int64_t kMaxPixelsPerByte = 4096;
 constexpr size_t kMaxNameLength = 255;
-// Channel lists of real files stay far below; this bounds what a damaged one makes us read.
+// Bounds the bytes of a channel list that are read. Lists of real files stay far below it.
 constexpr int64_t kMaxAttributeRead = int64_t{1} << 20;
 
 struct Window {
@@ -43,7 +44,7 @@ struct Window {
     int64_t height() const { return y_max - y_min + 1; }
 };
 
-// What one part's header says about sizes.
+// Sizes that the header of one part states.
 struct Part {
     std::optional<Window> data_window;
     std::optional<Window> display_window;
@@ -72,7 +73,7 @@ int64_t ceil_div(int64_t a, int64_t b) {
 }
 
 // Scan lines compressed together, by the file's compression code (none, RLE, ZIPS, ZIP, PIZ, PXR24,
-// B44, B44A, DWAA, DWAB); codes unknown here are OpenEXR's to refuse.
+// B44, B44A, DWAA, DWAB). OpenEXR refuses unknown codes.
 int64_t lines_per_chunk(unsigned compression) {
     constexpr std::array<int64_t, 10> kLines{1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
     return compression < kLines.size() ? kLines[compression] : 256;
@@ -156,7 +157,7 @@ class Scanner {
         }
     }
 
-    // Nothing for the empty header that ends the list of parts.
+    // Returns nothing for the empty header that ends the list of parts.
     std::optional<Part> read_part() {
         Part part;
         bool empty = true;
@@ -231,7 +232,7 @@ class Scanner {
             at = std::find(at, bytes.end(), '\0');
             if (bytes.end() - at < 17) throw_bad_input("{}: damaged: channel list", name_);
             sum += load_u32(bytes, static_cast<size_t>(at - bytes.begin()) + 1) == 1 ? 2 : 4;
-            at += 17;  // the name's end, type, linearity and its padding, two samplings
+            at += 17;  // the end of the name, type, linearity and its padding, two samplings
         }
         if (at == bytes.end()) throw_bad_input("{}: damaged: channel list does not end", name_);
         return sum;
@@ -262,7 +263,7 @@ class Scanner {
         check_window(part.data_window, "data");
         check_window(part.display_window, "display");
         if (!part.bytes_per_pixel) throw_bad_input("{}: damaged: no channel list", name_);
-        // OpenEXR takes the flag over the type in single-part files.
+        // In single-part files OpenEXR follows the flag, not the type.
         const bool tiled =
             multi_part ? part.type.starts_with("tiled") || part.type == "deeptile" : tiled_flag;
         if (tiled && part.tile_width == 0) throw_bad_input("{}: damaged: no tile size", name_);
@@ -275,7 +276,7 @@ class Scanner {
                             name_, tiled ? "tiles" : "blocks of lines", chunk_width, chunk_height,
                             bytes_per_pixel, kMaxChunkBytes >> 20);
         }
-        // The chunk table holds 8 bytes a chunk, and each chunk has at least 8 more of its own.
+        // The chunk table has 8 bytes a chunk, and each chunk itself has at least 8 more.
         const int64_t num_chunks =
             std::max(ceil_div(window.width(), tiled ? chunk_width : window.width()) *
                          ceil_div(window.height(), chunk_height),

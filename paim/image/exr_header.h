@@ -1,4 +1,4 @@
-// A first look at an EXR file's headers, before OpenEXR allocates anything on their word.
+// Checks an EXR file's headers before OpenEXR allocates memory by them.
 // Based on: The OpenEXR File Layout, https://openexr.com/en/latest/OpenEXRFileLayout.html
 #pragma once
 
@@ -9,10 +9,10 @@
 namespace paim {
 
 // Walks the headers of all parts and checks everything that sizes an allocation against the limits
-// and the length of the file: attributes, windows, tiles, chunks and their table. What passes makes
-// OpenEXR allocate at most a few times 128 MiB besides the picture.
+// and the length of the file: attributes, windows, tiles, chunks and their table. For a file that
+// passes, OpenEXR allocates at most a few times 128 MiB in addition to the image.
 // Errors (bad input) name the file: missing, not EXR, ended too early, inconsistent, larger than
-// the limits, deep. Whether the pixels are there and whole is left to OpenEXR.
+// the limits, deep. OpenEXR itself checks the pixels.
 void check_exr_header(const std::filesystem::path& path, const ExrLimits& limits);
 
 }  // namespace paim

@@ -9,7 +9,7 @@
 
 namespace paim {
 
-// Row 0 is the top row.
+// An image of linear RGB radiance. Row 0 is the top row.
 struct Image {
     int width = 0;
     int height = 0;

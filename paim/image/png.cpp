@@ -24,7 +24,7 @@ namespace paim {
 void write_png(const std::filesystem::path& path, const Image& image, const ToneCurve& curve) {
     PAIM_CHECK_LE(1, image.width);
     PAIM_CHECK_LE(1, image.height);
-    // stb counts bytes, with a filter byte a row, in int.
+    // stb counts bytes in an int, with one filter byte for each row.
     if ((3LL * image.width + 1) * image.height > INT_MAX / 2) {
         throw_output_failed("{}: {} x {} pixels, expected fewer for a PNG", path.string(),
                             image.width, image.height);

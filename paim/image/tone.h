@@ -21,7 +21,7 @@ struct ToneCurve {
 // [height · width] display values.
 std::vector<std::array<uint8_t, 3>> tone_map(const Image& image, const ToneCurve& curve);
 
-// The exposure, in stops, at which 98 % of the pixels that are not black stay below white; 0 for a
+// The exposure in stops at which 98 % of the pixels that are not black stay below white. 0 for a
 // black image.
 float suggested_exposure_ev(const Image& image);
 

@@ -1,4 +1,4 @@
-// Directions of lat-long maps, and the light that such a map gives.
+// Directions of lat-long maps, and distant light from such a map.
 #include "paim/light/environment.h"
 
 #include <algorithm>
@@ -11,8 +11,9 @@ namespace paim {
 
 namespace {
 
-// Lossy compression and filters leave dark rims round bright lights a little below zero (half a
-// percent of the energy in maps seen so far); beyond this the map is not radiance.
+// Largest ratio of negative to positive values of a map. Lossy compression and filters make dark
+// rims around bright lights slightly negative (0.5 % in the maps seen so far). A map with more is
+// not radiance.
 constexpr double kMaxNegativeEnergy = 0.05;
 
 void check_radiance(const Image& image) {

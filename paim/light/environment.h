@@ -9,26 +9,29 @@
 
 namespace paim {
 
-// Unit direction of image coordinates: u, v in [0, 1], (0, 0) is the upper left corner of the first
-// pixel: latitude π/2 − π v, longitude π − 2π u, direction (sin lon cos lat, sin lat, cos lon cos
-// lat).
+// Unit direction of image coordinates u, v in [0, 1], where (0, 0) is the upper left corner of the
+// first pixel: latitude π/2 − π v, longitude π − 2π u, direction (sin lon cos lat, sin lat, cos lon
+// cos lat).
 Vec3d direction_from_latlong(double u, double v);
 
-// The inverse, u in [0, 1), v in [0, 1]; direction need not be unit but not zero.
+// The inverse of direction_from_latlong(): u in [0, 1), v in [0, 1]. The direction is not zero; it
+// need not be unit.
 std::pair<double, double> latlong_from_direction(const Vec3d& direction);
 
 // Projects a lat-long map: each pixel is constant over its exact solid angle
 // Δlon · (sin lat_top − sin lat_bottom); the basis is taken at the pixel's centre
-// (docs/conventions.md). image  RGB linear radiance, finite; any size >= 1x1 bands  1 …
-// sh::kMaxBands
+// (docs/conventions.md).
+// image  linear RGB radiance, finite; at least 1 x 1 pixels
+// bands  1 … sh::kMaxBands
 LightCoefficients project_latlong(const Image& image, int bands);
 
 class EnvironmentLight : public LightField {
   public:
     // Throws Error(bad input), naming the pixel, if the image is empty, has a value that is not
-    // finite, or values below zero that sum to more than 5 % of those above. Smaller ones, which
-    // lossy compression leaves round bright lights, are used as they are: clamping them would
-    // brighten the map, while in sums over many pixels they cancel the ringing that they belong to.
+    // finite, or negative values that sum to more than 5 % of the positive ones. Smaller negative
+    // values, which lossy compression leaves around bright lights, are used as they are: in sums
+    // over many pixels they cancel the ringing around the light, and clamping them would brighten
+    // the map.
     explicit EnvironmentLight(Image image);
 
     const Image& image() const { return image_; }

@@ -1,4 +1,4 @@
-// Light at a place, and turning it.
+// Distant light, and rotation of light about +Y.
 #include "paim/light/light.h"
 
 #include <Eigen/Geometry>

@@ -1,4 +1,4 @@
-// Light as the shading sees it: RGB spherical-harmonic coefficients of incident radiance at a place.
+// Light for shading: RGB spherical-harmonic coefficients of incident radiance at a place.
 #pragma once
 
 #include <vector>
@@ -29,15 +29,15 @@ class PAIM_EXPORT DistantLight : public LightField {
   public:
     explicit DistantLight(LightCoefficients coefficients);
 
-    // The first bands; those that it does not have are zero.
+    // The first `bands` bands; bands that the light does not have are zero.
     LightCoefficients at(const Vec3f& place, int bands) const override;
 
   private:
     LightCoefficients coefficients_;
 };
 
-// Coefficients of the light turned about +Y by the angle, counter-clockwise seen from above (what
-// --env-rotation means everywhere).
+// Coefficients of the light rotated about +Y by the angle, counter-clockwise seen from above, as by
+// the option --env-rotation of the tools.
 PAIM_EXPORT LightCoefficients turn_about_y(const LightCoefficients& light, double angle_rad);
 
 }  // namespace paim

@@ -1,8 +1,9 @@
-// Projection of a lat-long map in two steps, as the basis separates about the map's own polar axis
-// +Y: each row's Fourier sums in longitude, then Legendre functions over the rows; the coefficients
-// are at last turned from polar axis +Y to the basis' +Z. The result is that of summing pixel ·
-// solid angle · y_i(centre) over all pixels, at 2B − 1 instead of B² products a pixel. Based on:
-// Driscoll and Healy, Computing Fourier Transforms and Convolutions on the 2-Sphere, 1994
+// Projects a lat-long map in two steps, because the basis about the map's polar axis +Y is a
+// product of functions of longitude and latitude: Fourier sums in longitude of each row, then sums
+// of Legendre functions over the rows. The coefficients are then rotated from the polar axis +Y to
+// the basis' +Z. The result is Σ pixel · solid angle · y_i(centre) over all pixels, at 2B − 1
+// instead of B² products a pixel.
+// Based on: Driscoll and Healy, Computing Fourier Transforms and Convolutions on the 2-Sphere, 1994
 #include <cmath>
 
 #include "paim/base/check.h"
@@ -75,10 +76,10 @@ LightCoefficients project_latlong(const Image& image, int bands) {
     std::vector<double> legendre(num_values);
     for (size_t y = 0; y < height; ++y) {
         const double latitude = kPi * (0.5 - (static_cast<double>(y) + 0.5) / image.height);
-        // A pixel's Δlon (sin lat_top − sin lat_bottom), without the cancellation.
+        // Δlon (sin lat_top − sin lat_bottom) of a pixel, in a form without cancellation.
         const double solid_angle =
             2.0 * kPi / image.width * 2.0 * std::cos(latitude) * std::sin(0.5 * kPi / image.height);
-        // At azimuth 0 the functions of m >= 0 are their Legendre factors alone.
+        // At azimuth 0 the basis functions of m >= 0 equal their Legendre factors.
         sh::evaluate_basis(bands, Vec3d(std::cos(latitude), 0.0, std::sin(latitude)), legendre);
         for (size_t c = 0; c < 3; ++c) {
             const double* cosine = cosine_sums.data() + y * stride + c * num_bands;
@@ -95,8 +96,8 @@ LightCoefficients project_latlong(const Image& image, int bands) {
         }
     }
 
-    // Longitude starts at +Z and grows towards +X, so that the sums' axes x, y, z are the map's Z,
-    // X, Y.
+    // Longitude starts at +Z and grows towards +X, so the axes x, y, z of the sums are Z, X, Y of
+    // the map.
     Eigen::Matrix3d map_from_sums;
     map_from_sums << 0, 1, 0, 0, 0, 1, 1, 0, 0;
     const sh::Rotation rotation(bands, map_from_sums);

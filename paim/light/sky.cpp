@@ -1,5 +1,5 @@
-// The built-in sky: a few smooth terms chosen by eye after photographs of late afternoons, not a
-// model of the atmosphere. Nothing in it is narrower than the sun's disc, so that small maps hold
+// The built-in sky: a few smooth terms chosen by eye from photographs of late afternoons, not a
+// model of the atmosphere. Its smallest feature is the disc of the sun, so that small maps can show
 // it.
 #include "paim/light/sky.h"
 
@@ -15,13 +15,14 @@ namespace paim {
 namespace {
 
 constexpr double kDegree = kPi / 180.0;
-// The sun stands over the scene's front left, between −X and +Z: to the side of the default camera,
-// so that forms show.
+// The sun is in front of the scene and to its left, between −X and +Z. It is to the side of the
+// default camera, so that shading shows the shape of objects.
 constexpr double kSunElevation = 28.0 * kDegree;
 constexpr double kSunAzimuth = -50.0 * kDegree;  // from +Z towards +X
-// Brings the average to about a half, so that light surfaces are well exposed at 0 EV.
+// Scales the average radiance (see sky.h), so that light surfaces are well exposed at 0 EV.
 constexpr double kBrightness = 0.7;
-// Fully bright to the inner radius, dark from the outer one on; ten times the real sun.
+// The sun is fully bright within the inner radius and dark beyond the outer one. Its radius is ten
+// times that of the real sun.
 constexpr double kSunInner = 2.0 * kDegree;
 constexpr double kSunOuter = 4.0 * kDegree;
 
@@ -51,7 +52,7 @@ Vec3d sky_radiance(const Vec3d& direction, const Vec3d& sun) {
 
     const double up = direction.y();
     const double angle = std::atan2(direction.cross(sun).norm(), direction.dot(sun));
-    // 1 on the sun's side of the horizon, 0 opposite; it fades towards the zenith by itself.
+    // 1 at the horizon below the sun, 0 opposite; 0.5 at the zenith.
     const double side = 0.5 + 0.5 * (direction.x() * sun.x() + direction.z() * sun.z()) /
                                   std::hypot(sun.x(), sun.z());
 
@@ -65,11 +66,11 @@ Vec3d sky_radiance(const Vec3d& direction, const Vec3d& sun) {
     const double depth = std::max(0.0, -up);
     Vec3d ground = mix(ground_far, ground_near, std::pow(depth, 0.35));
     ground += 0.3 * glow * std::exp(-depth / 0.2) * side * side;
-    // The horizon is two degrees soft.
+    // Ground and sky are mixed over two degrees about the horizon.
     return mix(ground, sky, smooth_step(-0.02, 0.015, up));
 }
 
-// The average over the pixel, from factor × factor samples weighted by solid angle.
+// Average radiance of the pixel, from factor × factor samples weighted by solid angle.
 Vec3d average_radiance(int x, int y, const Image& image, int factor, const Vec3d& sun) {
     Vec3d sum = Vec3d::Zero();
     double weights = 0.0;
@@ -91,7 +92,7 @@ Image make_sky(int height_pixels) {
     PAIM_CHECK_LE(2, height_pixels);
     PAIM_CHECK_LE(height_pixels, 4096);
     Image image(2 * height_pixels, height_pixels);
-    // Samples a third of a degree apart, whatever the size of the map.
+    // Samples are a third of a degree apart, whatever the size of the map.
     const int factor = std::max(1, (512 + height_pixels - 1) / height_pixels);
     const Vec3d sun = sun_direction();
     parallel_for(static_cast<size_t>(height_pixels), 1, [&](size_t begin, size_t end) {

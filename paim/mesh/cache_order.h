@@ -10,12 +10,12 @@
 namespace paim {
 
 struct CacheOrder {
-    std::vector<uint32_t> old_vertex;  // [V] which vertex of the old mesh each one is
-    Topology topology;                 // triangles reordered, and perhaps turned, not mirrored
+    std::vector<uint32_t> old_vertex;  // [V] number of each vertex in the old mesh
+    Topology topology;                 // reordered; corners of a triangle may be rotated
 };
 
-// Depends on the topology alone: whoever knows the old mesh finds the same order. Vertices without
-// triangles come last, in their old order.
+// The order depends on the topology alone, so that it can be found again from the old mesh.
+// Vertices without triangles come last, in their old order.
 CacheOrder cache_order(const Topology& topology);
 
 }  // namespace paim

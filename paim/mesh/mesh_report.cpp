@@ -1,4 +1,4 @@
-// What is odd about a mesh.
+// Counts odd properties of a mesh.
 #include "paim/mesh/mesh_report.h"
 
 #include <algorithm>
@@ -37,7 +37,7 @@ struct SortedFace {
 enum class Copy : uint8_t { none, same_side, other_side };
 
 // Whether an earlier face has the same three vertices, [F]. Faces that name a vertex twice are
-// none.
+// never copies.
 std::vector<Copy> find_copies(std::span<const Triangle> faces) {
     std::vector<SortedFace> sorted;
     sorted.reserve(faces.size());
@@ -59,10 +59,10 @@ std::vector<Copy> find_copies(std::span<const Triangle> faces) {
     return copies;
 }
 
-// Each vertex's number or, if others lie exactly where it does, the least of theirs.
-// Empty if no two do.
+// [V] The lowest number of the vertices that lie exactly where this one does. Empty if no two
+// vertices have the same position.
 std::vector<uint32_t> first_at_position(std::span<const Vec3f> positions) {
-    // −0 compares equal to 0, as it should.
+    // −0 and 0 compare equal.
     const auto key = [&](uint32_t v) {
         return std::tie(positions[v].x(), positions[v].y(), positions[v].z());
     };
@@ -85,7 +85,7 @@ std::vector<uint32_t> first_at_position(std::span<const Vec3f> positions) {
 
 void count_edges(std::span<const Triangle> faces, const std::vector<Copy>& copies,
                  TopologyReport& report) {
-    // Lesser and greater vertex, and whether the face runs from the greater to the lesser.
+    // Lower and higher vertex number, and whether the face runs from the higher to the lower.
     using Edge = std::tuple<uint32_t, uint32_t, bool>;
     std::vector<Edge> edges;
     edges.reserve(3 * faces.size());
@@ -133,8 +133,8 @@ PoseReport report_pose(const Topology& topology, std::span<const Vec3f> position
     PAIM_CHECK_EQ(positions.size(), topology.num_vertices);
     const std::vector<uint32_t> first = first_at_position(positions);
     PoseReport report;
-    std::vector<Triangle> faces;   // with area, with their vertices
-    std::vector<Triangle> places;  // the same with the first vertex at each position
+    std::vector<Triangle> faces;   // faces with area
+    std::vector<Triangle> places;  // the same faces, by the first vertex at each position
     for (const Triangle& face : topology.triangles) {
         if (face_normal(positions[face[0]], positions[face[1]], positions[face[2]]).isZero(0.0)) {
             ++report.zero_area_faces;

@@ -1,5 +1,5 @@
-// What is odd about a mesh: counted, so that nobody is surprised by its light. What the bake does
-// about each is in docs/geometry.md.
+// Counts properties of a mesh that make its light surprising, such as flipped faces.
+// docs/geometry.md says how the bake treats each.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace paim {
 
-// Known from the faces alone. Edges are those of faces with three different vertices, duplicates
-// left out.
+// Counts that depend on the faces alone. Edges are those of faces with three different vertices,
+// without duplicate faces.
 struct TopologyReport {
     uint64_t isolated_vertices = 0;  // in no face
     uint64_t duplicate_faces = 0;    // an earlier face has the same vertices and faces the same way
@@ -22,20 +22,20 @@ struct TopologyReport {
 
 TopologyReport report_topology(const Topology& topology);
 
-// Different in every pose.
+// Counts that differ from pose to pose.
 struct PoseReport {
     uint64_t zero_area_faces = 0;
-    // Faces with area whose corners lie exactly where those of an earlier one do, in any order,
-    // without being its vertices.
+    // Faces with area whose corners lie exactly at those of an earlier face, in any order, but are
+    // other vertices.
     uint64_t coincident_faces = 0;
 };
 
 // positions [V] finite
 PoseReport report_pose(const Topology& topology, std::span<const Vec3f> positions);
 
-// The topology without the faces that have the same three vertices as an earlier one. Vertex
-// normals are computed from these: a face that is there twice is no larger, and has the side of the
-// first.
+// The topology without faces that have the same three vertices as an earlier one. Vertex normals
+// are computed from it, so that a duplicate face counts once, with the orientation of its first
+// copy.
 Topology without_duplicate_faces(const Topology& topology);
 
 }  // namespace paim

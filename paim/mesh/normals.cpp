@@ -12,14 +12,14 @@ namespace paim {
 Vec3d face_normal(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
     Vec3d ab = b.cast<double>() - a.cast<double>();
     Vec3d ac = c.cast<double>() - a.cast<double>();
-    // Scaled by their largest entry, so that neither tiny nor huge meshes under- or overflow.
+    // Scaling by the largest entry avoids underflow in tiny meshes and overflow in huge ones.
     const double scale = std::max(ab.cwiseAbs().maxCoeff(), ac.cwiseAbs().maxCoeff());
     if (!(scale > 0.0)) return Vec3d::Zero();
     ab /= scale;
     ac /= scale;
     const Vec3d normal = ab.cross(ac);
     const double length = normal.norm();
-    // Parallel edges leave only the rounding of the products, a few 2^-53.
+    // The cross product of parallel edges is only rounding, a few 2^-53.
     if (length <= 1e-15) return Vec3d::Zero();
     return normal / length;
 }
@@ -34,7 +34,7 @@ std::vector<Vec3f> vertex_normals(const Topology& topology, std::span<const Vec3
     std::vector<Vec3f> normals(positions.size());
     std::transform(sums.begin(), sums.end(), normals.begin(), [](const Vec3d& sum) -> Vec3f {
         const double length = sum.norm();
-        // Opposite faces cancel to rounding; there is no direction in what remains.
+        // Opposite faces cancel; the remaining sum is rounding, and its direction means nothing.
         if (length < 1e-9) return Vec3f::Zero();
         return (sum / length).cast<float>();
     });

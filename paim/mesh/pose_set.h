@@ -1,4 +1,4 @@
-// A pose sequence held in memory: small ones, made by code.
+// A pose sequence held in memory, for small sequences made by code.
 #pragma once
 
 #include <string>

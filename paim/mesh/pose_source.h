@@ -11,7 +11,7 @@
 namespace paim {
 
 struct Pose {
-    std::vector<Vec3f> positions;  // [V] scene units, counted from the sequence's origin
+    std::vector<Vec3f> positions;  // [V] scene units, relative to the sequence's origin
     std::vector<Vec3f> normals;    // [V] unit; zero where a vertex has no face of any area
 };
 
@@ -23,15 +23,15 @@ class PoseSource {
     virtual const Albedo& albedo() const = 0;
     virtual uint32_t num_poses() const = 0;
 
-    // Positions of all poses are counted from here: adding it, in double, gives scene coordinates.
+    // Positions of all poses are relative to it: adding it, in double, gives scene coordinates.
     // Zero unless the mesh is far from the world's origin (mesh/origin.h).
     virtual Vec3d origin() const { return Vec3d::Zero(); }
 
     // A name for messages and manifests: a file name, or what made the pose.
     virtual std::string pose_name(uint32_t p) const = 0;
 
-    // A checksum of what pose p is made from, by which a resumed bake knows that it has not
-    // changed.
+    // A checksum of the input of pose p. A resumed bake compares it to find out whether the input
+    // has changed.
     virtual uint64_t pose_checksum(uint32_t p) const = 0;
 
     // Reads pose p < num_poses(). May be called from several threads at once.

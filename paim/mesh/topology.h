@@ -1,4 +1,4 @@
-// What all poses of a sequence share: the triangles and the albedo.
+// The triangles and the albedo, which all poses of a sequence share.
 #pragma once
 
 #include <array>
@@ -17,8 +17,8 @@ struct Topology {
 
     bool operator==(const Topology&) const = default;
 
-    // The other's vertices and triangles follow one's own. The sum of both vertex counts fits into
-    // 32 bits.
+    // Adds the other's vertices and triangles after the existing ones. The sum of both vertex
+    // counts fits into 32 bits.
     void append(const Topology& other) {
         triangles.reserve(triangles.size() + other.triangles.size());
         for (const Triangle& t : other.triangles) {
@@ -34,8 +34,8 @@ struct Albedo {
 
     const Vec3f& at(uint32_t v) const { return values.size() == 1 ? values[0] : values[v]; }
 
-    // The albedo of `num_own` vertices of this and `num_other` of the other after them: still one
-    // value if both have the same one.
+    // Adds the albedo of `num_other` vertices of the other after that of `num_own` vertices of
+    // this. The result stays one value if both have one, and the same.
     void append(const Albedo& other, uint32_t num_own, uint32_t num_other) {
         if (values.size() == 1 && other.values.size() == 1 && values[0] == other.values[0]) return;
         if (values.size() == 1) values.assign(num_own, Vec3f(values[0]));

@@ -1,4 +1,4 @@
-// How far decoded values are from the baked ones.
+// Errors of decoded values to the baked ones.
 #include "paim/metrics/array_error.h"
 
 #include <cmath>
@@ -10,7 +10,7 @@ namespace paim {
 
 namespace {
 
-// What is not a number is worse than any, and stays the worst.
+// NaN is worse than any number, and stays the worst.
 bool is_worse(double error, double worst) {
     return !(error <= worst) && !std::isnan(worst);
 }

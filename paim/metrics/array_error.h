@@ -1,4 +1,5 @@
-// How far decoded values are from the baked ones: worst value and where, RMS, relative.
+// Errors of decoded values to the baked ones: the worst value and its place, RMS, and relative
+// error.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +7,7 @@
 
 namespace paim {
 
-// Sums, so that several poses make one figure.
+// Error of values over all poses that are added.
 struct ArrayError {
     double squared_sum = 0.0;            // Σ (a − b)²
     double reference_squared_sum = 0.0;  // Σ b²
@@ -22,7 +23,8 @@ struct ArrayError {
     void add(std::span<const float> values, std::span<const float> reference, uint32_t pose);
 };
 
-// The same for distances between points: planes x, y, z of V values each.
+// Error of points over all poses that are added, as distances. Planes x, y, z of V values each,
+// scene units.
 struct DistanceError {
     double squared_sum = 0.0;  // Σ |p − p'|²
     uint64_t num_vertices = 0;

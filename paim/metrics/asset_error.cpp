@@ -1,4 +1,4 @@
-// A compressed animation, whatever its codec, against the bake it was made from.
+// Errors of a compressed animation to the bake that it was made from.
 #include "paim/metrics/asset_error.h"
 
 #include <limits>
@@ -26,17 +26,17 @@ void expect_equal(const BakeReader& bake, const char* what, uint64_t expected, u
                     bake.directory().string(), expected, what, got);
 }
 
-// Which vertex of the bake each vertex of the file is.
+// [V] The vertex of the bake for each vertex of the file.
 std::vector<uint32_t> check_same_part(const Asset& asset, size_t number, const BakeReader& bake,
                                       const BakedPart& baked) {
     const CodedMesh& mesh = asset.parts[number];
     const bool still = number > 0;
-    expect_equal(bake, still ? "vertices of scenery" : "vertices", baked.num_vertices(),
+    expect_equal(bake, still ? "vertices of still meshes" : "vertices", baked.num_vertices(),
                  mesh.topology.num_vertices);
     expect_equal(bake, "poses", baked.num_poses(), mesh.num_poses());
     std::vector<uint32_t> old_vertex = match_vertices(
         mesh.topology, asset.vertex_order, baked.topology(), bake.directory().string(),
-        still ? "triangles of the scenery" : "triangles");
+        still ? "triangles of the still meshes" : "triangles");
     const TransferLayout& layout = bake.identity().layout;
     if (mesh.layout.kind != layout.kind || mesh.layout.in_bands > layout.in_bands ||
         (mesh.layout.channels != 1 && mesh.layout.channels != layout.channels)) {
@@ -103,7 +103,7 @@ MeshError measure_part(const Asset& asset, size_t number, const BakeReader& bake
 }
 
 uint64_t measure_part_bytes(uint64_t num_vertices, uint64_t num_poses, uint64_t num_components,
-                                 uint64_t num_points, uint64_t num_threads) {
+                            uint64_t num_points, uint64_t num_threads) {
     // The components of a plane as floats; the directions that the decoder can follow are the
     // constant and these components.
     return (kPlanesMeasured * num_vertices + num_points) * num_poses * sizeof(float) +
@@ -115,8 +115,8 @@ AssetError measure_asset(const Asset& asset, const BakeReader& bake, const BandP
     const auto still_vertices = [](const Topology* topology) -> uint64_t {
         return topology == nullptr ? 0 : topology->num_vertices;
     };
-    expect_equal(bake, "vertices of scenery",
-                 still_vertices(bake.scenery() ? &bake.scenery()->topology : nullptr),
+    expect_equal(bake, "vertices of still meshes",
+                 still_vertices(bake.still_mesh() ? &bake.still_mesh()->topology : nullptr),
                  still_vertices(asset.still() ? &asset.still()->topology : nullptr));
     AssetError error{measure_part(asset, 0, bake, spectrum), {}};
     if (asset.still() != nullptr) error.still = measure_part(asset, 1, bake, spectrum);
@@ -130,9 +130,9 @@ std::vector<NamedError> named_errors(const AssetError& error) {
         {"transfer_error", transfer.error, true},
         {"transfer_missing_bands", transfer.missing_bands, true},
         {"transfer_total_error", transfer.total(), true},
-        {"transfer_deviation", transfer.deviation, true},
-        {"transfer_worst_vertex_deviation", transfer.worst_vertex_deviation, true},
-        {"transfer_worst_pose_deviation", transfer.worst_pose_deviation, true},
+        {"transfer_deviation", transfer.error_to_bake, true},
+        {"transfer_worst_vertex_deviation", transfer.worst_vertex_error_to_bake, true},
+        {"transfer_worst_pose_deviation", transfer.worst_pose_error_to_bake, true},
         {"position_rms", geometry.rms(), false},
         {"position_worst", geometry.worst(), false},
         {"position_relative_rms", geometry.relative_rms(), false},
@@ -141,14 +141,14 @@ std::vector<NamedError> named_errors(const AssetError& error) {
         {"e_rms", geometry.e_rms(), false}};
     if (!error.still) return errors;
     const TransferError& still = error.still->transfer;
-    errors.insert(errors.end(),
-                  {{"scenery_transfer_error", still.error, true},
-                   {"scenery_transfer_missing_bands", still.missing_bands, true},
-                   {"scenery_transfer_total_error", still.total(), true},
-                   {"scenery_transfer_deviation", still.deviation, true},
-                   {"scenery_transfer_worst_vertex_deviation", still.worst_vertex_deviation, true},
-                   {"scenery_position_rms", error.still->geometry.rms(), false},
-                   {"scenery_position_worst", error.still->geometry.worst(), false}});
+    errors.insert(errors.end(), {{"scenery_transfer_error", still.error, true},
+                                 {"scenery_transfer_missing_bands", still.missing_bands, true},
+                                 {"scenery_transfer_total_error", still.total(), true},
+                                 {"scenery_transfer_deviation", still.error_to_bake, true},
+                                 {"scenery_transfer_worst_vertex_deviation",
+                                  still.worst_vertex_error_to_bake, true},
+                                 {"scenery_position_rms", error.still->geometry.rms(), false},
+                                 {"scenery_position_worst", error.still->geometry.worst(), false}});
     return errors;
 }
 
@@ -156,7 +156,7 @@ std::string error_statement_json(const AssetError& error, const BandPower& spect
     nlohmann::ordered_json json;
     json["light_spectrum"] = spectrum.name;
     for (const NamedError& named : named_errors(error)) json[named.name] = named.value;
-    // File names may have bytes that are not UTF-8.
+    // Names of files may have bytes that are not UTF-8, which are replaced.
     return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 

@@ -1,4 +1,4 @@
-// A compressed animation, whatever its codec, against the bake it was made from.
+// Errors of a compressed animation, of any codec, to the bake that it was made from.
 #pragma once
 
 #include <filesystem>
@@ -14,60 +14,61 @@
 
 namespace paim {
 
-// Of one part. Transfer errors are relative to the part's own transfer, and the diagonal is its own.
+// Errors of one part. Transfer errors are relative to the transfer of this part; position errors
+// use the diagonal of this part.
 struct MeshError {
     TransferError transfer;
     GeometryError geometry;
 };
 
-// Of the part that moves, and of the one that stands still, if there is one.
+// Errors of the moving part, and of the still part if there is one.
 struct AssetError : MeshError {
     std::optional<MeshError> still;
 };
 
-// Decodes one part and measures it; a plane over all poses of bake, noise and asset is in memory at a
-// time. Bands that the asset does not have count as zero; a grey asset of a coloured bake counts in
-// every channel.
+// Decodes one part and measures its errors. It holds one plane over all poses of bake, noise and
+// asset at a time. Bands that the asset does not have are zero. Grey transfer is compared with
+// every channel of a coloured bake.
 // number  of the part, in the asset and in the bake
 // bake    verified (BakeReader::verify_all)
-// Errors: bad input if the part is not of this bake, saying what differs.
+// Errors: bad input if the part was not made from this bake; the message says what differs.
 MeshError measure_part(const Asset& asset, size_t number, const BakeReader& bake,
                        const BandPower& spectrum);
 
-// The same of all parts. Errors, in addition: one of the two has a part that the other does not.
+// Measures all parts. It is also an error if asset or bake has a part that the other does not have.
 AssetError measure_asset(const Asset& asset, const BakeReader& bake, const BandPower& spectrum);
 
-// Planes [V][P] of floats that measure_part() holds at once: of the bake, of its noise, and decoded, the
-// last twice more while it is decoded.
+// Planes [V][P] of floats that measure_part() holds at once: baked, noise, decoded, and two more
+// while it decodes.
 constexpr uint64_t kPlanesMeasured = 5;
 
 // Memory of measure_part() in addition to the asset.
 // num_components  of the transfer
-// num_points      of codecs whose points are not the vertices; 0 where they are
+// num_points      of codecs whose points are not the vertices; 0 for other codecs
 uint64_t measure_part_bytes(uint64_t num_vertices, uint64_t num_poses, uint64_t num_components,
                             uint64_t num_points, uint64_t num_threads);
 
-// One figure of an error, by the name that files and reports have for it (docs/metrics.md).
+// One number of an error, with its name in files and reports (docs/metrics.md).
 struct NamedError {
     std::string name;
     double value = 0.0;
-    bool of_light = false;  // depends on the light's spectrum
+    bool of_light = false;  // whether it depends on the light's band power
 };
 
-// All errors that a file states, in the order of reports. Those of the still part are listed on their
-// own: it has to meet a target by itself.
+// All errors that a file states, in the order of reports. Those of the still part are listed
+// separately, because it must meet a target by itself.
 std::vector<NamedError> named_errors(const AssetError& error);
 
 // The errors that a file states: the member `measured` of its provenance.
 struct ErrorStatement {
     std::string band_power;          // its name
-    std::vector<NamedError> errors;  // only what is stated, in the order of named_errors()
+    std::vector<NamedError> errors;  // those that the file states, in the order of named_errors()
 };
 
-// The member's JSON object.
+// The JSON object of the member `measured`.
 std::string error_statement_json(const AssetError& error, const BandPower& spectrum);
 
-// Errors: bad input, naming the file, if it states none or what it states makes no sense.
+// Errors: bad input, naming the file, if it states no errors, or invalid ones.
 ErrorStatement read_error_statement(const Asset& asset, const std::filesystem::path& file);
 
 }  // namespace paim

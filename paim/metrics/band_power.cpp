@@ -1,4 +1,4 @@
-// How much light there is in each band: what errors of the transfer are weighted with.
+// Band power of light, which weights errors of the transfer.
 // Based on: Dror, Willsky and Adelson 2004 (see the header)
 #include "paim/metrics/band_power.h"
 
@@ -16,7 +16,7 @@ namespace paim {
 
 namespace {
 
-// Which file a map that is no light came from is not known to the light.
+// Adds the path to errors of EnvironmentLight, which does not know it.
 EnvironmentLight read_light(const std::filesystem::path& path) {
     Image image = read_exr(path);
     try {
@@ -27,8 +27,7 @@ EnvironmentLight read_light(const std::filesystem::path& path) {
 }
 
 BandPower measured(const std::filesystem::path& path) {
-    const LightCoefficients light =
-        read_light(path).coefficients(static_cast<int>(sh::kMaxBands));
+    const LightCoefficients light = read_light(path).coefficients(static_cast<int>(sh::kMaxBands));
     BandPower spectrum{path.filename().string(), {}, 0.0};
     for (int l = 0; l < sh::kMaxBands; ++l) {
         double sum = 0.0;

@@ -1,5 +1,6 @@
-// How much light there is in each band: what errors of the transfer are weighted with.
-// Based on: Dror, Willsky and Adelson, Statistical Characterization of Real-World Illumination, 2004
+// Band power of light, which weights errors of the transfer.
+// Based on: Dror, Willsky and Adelson, Statistical Characterization of Real-World Illumination,
+//           2004
 #pragma once
 
 #include <cstdint>
@@ -9,28 +10,28 @@
 
 namespace paim {
 
-// Variance of a light's coefficient in each band, relative: only ratios between bands count.
+// Relative variance of the coefficients of a light in each band. Only ratios between bands count.
 struct BandPower {
     std::string name;
     std::vector<double> weights;  // of the first bands
-    // Bands after those have (l + 1)^-decay; 0: nothing.
+    // The power of band l after those is (l + 1)^-decay, or 0 if decay is 0.
     double decay = 0.0;
 
     double weight(uint32_t band) const;
 
-    // Every coefficient of a bake's bands alike, nothing beyond: unit random SH light, under which
-    // the RMS of radiance errors is the Frobenius norm of the transfer's.
+    // 1 in the bands of a bake, 0 beyond. Under random light with this band power, the RMS of
+    // radiance errors is the Frobenius norm of transfer errors.
     static BandPower flat(uint32_t bands);
 
-    // (l + 1)^-2: real light, on average (docs/metrics.md).
+    // (l + 1)^-2, about the average of real light (docs/metrics.md).
     static BandPower natural();
 };
 
 // bands  of the bake, 1 … sh::kMaxBands
-// text   "flat", "natural", or the path of a lat-long map (OpenEXR): its own mean square coefficient
-//        of each of sh::kMaxBands bands over the channels, 1 in band 0
-// Errors: usage if it is none of these; bad input, naming the file, if that cannot be read, is not
-// light (light/environment.h) or has none in band 0.
+// text   "flat", "natural", or the path of a lat-long map (OpenEXR): its own mean square
+//        coefficient of each of sh::kMaxBands bands over the channels, 1 in band 0
+// Errors: usage if the text is none of these; bad input, naming the file, if the map cannot be
+// read, is not valid light (light/environment.h), or has no power in band 0.
 BandPower parse_band_power(std::string_view text, uint32_t bands);
 
 }  // namespace paim

@@ -1,4 +1,5 @@
-// How far decoded positions are from the baked ones, in the measures of the mesh compression literature.
+// Errors of decoded positions to the baked ones, in the measures of the mesh compression
+// literature.
 // Based on: Karni and Gotsman 2004; Kavan, Sloan and O'Sullivan 2010 (see the header)
 #include "paim/metrics/geometry_error.h"
 

@@ -1,4 +1,5 @@
-// How far decoded positions are from the baked ones, in the measures of the mesh compression literature.
+// Errors of decoded positions to the baked ones, in the measures of the mesh compression
+// literature.
 // Based on: Karni and Gotsman, Compression of Soft-Body Animation Sequences, 2004; Kavan, Sloan and
 //           O'Sullivan, Fast and Efficient Skinning of Animated Meshes, 2010
 #pragma once
@@ -10,7 +11,8 @@
 
 namespace paim {
 
-// Sums over poses, each added once. All relative figures are infinite where something of no size is not met exactly.
+// Errors over all poses that are added, each once. Relative errors are infinite if their
+// denominator is 0 and the error is not.
 struct GeometryError {
     DistanceError distance;            // RMS and worst, scene units
     double centred_squared_sum = 0.0;  // Σ |p − mean of its pose|², of the reference
@@ -19,7 +21,7 @@ struct GeometryError {
 
     double rms() const { return distance.rms(); }  // scene units
     double worst() const { return distance.worst; }
-    double relative_rms() const;  // of the diagonal
+    double relative_rms() const;  // relative to the diagonal
     double relative_worst() const;
 
     // 100 √Σ|p − p'|² / √Σ|p − mean of its pose|², percent.

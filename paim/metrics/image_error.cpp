@@ -1,4 +1,4 @@
-// How far an image is from a reference.
+// Error of an image to a reference.
 #include "paim/metrics/image_error.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// How far an image is from a reference.
+// Error of an image to a reference.
 // Based on: Cardoso and Kry, Error Analysis of Precomputed Radiance Transfer for Deforming
 //           Geometry, 2012
 #pragma once
@@ -9,7 +9,7 @@
 
 namespace paim {
 
-// Sums over pixels and channels of linear radiance, so that several images make one figure.
+// Error of linear radiance over the pixels and channels of all images that are added.
 struct ImageError {
     double absolute_sum = 0.0;   // Σ |I − I_reference|
     double reference_sum = 0.0;  // Σ |I_reference|

@@ -1,4 +1,4 @@
-// How much transfer there is in bands that a bake does not have.
+// Estimates the energy of the transfer in bands that a bake does not have.
 #include "paim/metrics/missing_bands.h"
 
 #include <algorithm>
@@ -12,7 +12,8 @@ namespace {
 
 constexpr size_t kFirstOfTail = 3;
 
-// Where sums end: under natural light what follows is less than 10⁻⁶ of what 64 bands lack.
+// Number of bands that are summed. Under natural light the rest is less than 10⁻⁶ of the energy
+// beyond 64 bands.
 constexpr uint32_t kNumBandsSummed = 8192;
 
 double degree_squared(size_t l) {
@@ -32,7 +33,7 @@ double missing_band_amplitude(std::span<const double> energy) {
 
 double missing_band_energy(std::span<const double> energy, const BandPower& spectrum) {
     double sum = 0.0;
-    // Smallest first.
+    // The smallest terms are added first.
     for (uint32_t l = kNumBandsSummed; l-- > energy.size();) {
         sum += spectrum.weight(l) / degree_squared(l);
     }

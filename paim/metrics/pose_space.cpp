@@ -1,4 +1,4 @@
-// The part of the poses' space that a decoder can follow.
+// The span of a decoder over the poses.
 // Based on: Parlett, The Symmetric Eigenvalue Problem, 1980 (Gram and Schmidt, twice is enough)
 #include "paim/metrics/pose_space.h"
 
@@ -19,7 +19,7 @@ MatrixXd orthonormal_pose_space(std::span<const float> weights, uint32_t num_pos
     PAIM_CHECK_EQ(weights.size() % num_poses, 0u);
     const auto poses = static_cast<Index>(num_poses);
     const auto components = static_cast<Index>(weights.size()) / poses;
-    // What rounding of the weights to floats leaves of one that is a sum of others.
+    // Relative size of the rounding of a weight that is a sum of other ones, as floats.
     constexpr double kNothingNew = 1e-6;
     MatrixXd basis(poses, std::min(components + 1, poses));
     basis.col(0).setConstant(1.0 / std::sqrt(static_cast<double>(num_poses)));

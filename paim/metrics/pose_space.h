@@ -1,4 +1,4 @@
-// The part of the poses' space that a decoder can follow.
+// The span of a decoder over the poses: the sequences of values that it can produce.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,9 +8,9 @@
 
 namespace paim {
 
-// Orthonormal basis of all sequences over the poses that a decoder with these weights can make: the
-// constant (the mean) and then the weights one after another, each without what those before it
-// already reach; those that reach nothing new are left out.
+// Orthonormal basis of all sequences over the poses that a decoder with these weights can produce.
+// The first vector is constant (for the mean). Then each row of weights adds its part that is
+// orthogonal to the vectors before it, unless that part is zero up to rounding.
 // weights  [K][P], a row a component
 // returns  [P][K'], 1 <= K' <= min(K + 1, P)
 // Errors: bad input for weights that are not finite.

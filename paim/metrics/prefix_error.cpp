@@ -16,7 +16,7 @@ using Eigen::MatrixXd;
 
 namespace {
 
-// Values `first` … first + rows of the mean and of every component, in steps.
+// Values [first, first + rows) of the mean and of every component, in steps.
 void gather(const LowRank& matrix, size_t first, MatrixXd& values) {
     const auto fill = [&](const StoredValues& from, Index column) {
         from.for_each(first, static_cast<size_t>(values.rows()), [&](size_t j, float value) {
@@ -29,8 +29,7 @@ void gather(const LowRank& matrix, size_t first, MatrixXd& values) {
 
 // Products of the mean and the components with each other in one plane, in steps.
 // metrics  of runs of points; empty: each point counts for itself
-MatrixXd plane_gram(const LowRank& matrix, uint32_t plane,
-                    const std::vector<MatrixXd>& metrics) {
+MatrixXd plane_gram(const LowRank& matrix, uint32_t plane, const std::vector<MatrixXd>& metrics) {
     const Index num_columns = 1 + Index{matrix.num_components};
     MatrixXd gram = MatrixXd::Zero(num_columns, num_columns);
     const size_t plane_begin = size_t{plane} * matrix.num_points;
@@ -41,7 +40,7 @@ MatrixXd plane_gram(const LowRank& matrix, uint32_t plane,
         gram.noalias() += values.transpose() * (metrics[c] * values);
     }
     if (!metrics.empty()) return gram;
-    constexpr size_t kPointsAtOnce = 512;  // so that they stay in the cache
+    constexpr size_t kPointsAtOnce = 512;  // so that their values stay in the cache
     for (size_t n = 0; n < matrix.num_points; n += kPointsAtOnce) {
         const size_t count = std::min<size_t>(kPointsAtOnce, matrix.num_points - n);
         values.resize(static_cast<Index>(count), num_columns);
@@ -73,9 +72,8 @@ ComponentEnergy component_energy(const CodedMesh& mesh, Attribute attribute,
                                  const std::vector<double>& plane_weight) {
     const LowRank& matrix = mesh.attribute(attribute);
     PAIM_CHECK_EQ(plane_weight.size(), size_t{matrix.num_planes});
-    const std::vector<MatrixXd> metrics = attribute == Attribute::transfer
-                                              ? mesh.transfer->point_metrics()
-                                              : std::vector<MatrixXd>{};
+    const std::vector<MatrixXd> metrics =
+        attribute == Attribute::transfer ? mesh.transfer->point_metrics() : std::vector<MatrixXd>{};
     std::vector<MatrixXd> planes(matrix.num_planes);
     parallel_for(planes.size(), 1, [&](size_t j, size_t) {
         const auto plane = static_cast<uint32_t>(j);
@@ -86,7 +84,7 @@ ComponentEnergy component_energy(const CodedMesh& mesh, Attribute attribute,
     MatrixXd energy = MatrixXd::Zero(num_columns, num_columns);
     for (const MatrixXd& gram : planes) energy += gram;
 
-    // Times the products of their weights over poses, the mean's being 1.
+    // Multiplied by the products of weights over poses; the weight of the mean is 1.
     MatrixXd weights = MatrixXd::Ones(num_columns, Index{matrix.num_poses});
     for (Index k = 1; k < num_columns; ++k) {
         for (Index p = 0; p < weights.cols(); ++p) {
@@ -121,10 +119,10 @@ PrefixErrors prefix_errors(const CodedMesh& mesh, const std::optional<ErrorState
         weights[plane] = spectrum.weight(layout.input_band(plane));
     }
     const ComponentEnergy transfer = component_energy(mesh, Attribute::transfer, weights);
-    // The bake's norm: what was decoded of it and what was not are orthogonal.
-    const double deviation =
+    // The norm of the bake, if the decoded transfer and its error are orthogonal.
+    const double error_to_bake =
         transfer_error ? stated(whole, "transfer_deviation").value_or(0.0) : 0.0;
-    const double share = deviation < 1.0 ? 1.0 - deviation * deviation : 1.0;
+    const double share = error_to_bake < 1.0 ? 1.0 - error_to_bake * error_to_bake : 1.0;
     const ComponentEnergy geometry = component_energy(mesh, Attribute::geometry, {1.0, 1.0, 1.0});
     const double num_positions =
         static_cast<double>(mesh.topology.num_vertices) * static_cast<double>(mesh.num_poses());

@@ -1,4 +1,4 @@
-// What a file costs to keep.
+// Bit rates of files.
 #include "paim/metrics/rates.h"
 
 namespace paim {

@@ -1,11 +1,11 @@
-// What a file costs to keep.
+// Bit rates of files.
 #pragma once
 
 #include <cstdint>
 
 namespace paim {
 
-// Bits per vertex and pose ("bpvf") of so many bytes; 0 of no vertices or poses.
+// Bits per vertex and pose ("bpvf"); 0 without vertices or poses.
 double bits_per_vertex_per_pose(uint64_t num_bytes, uint64_t num_vertices, uint64_t num_poses);
 
 }  // namespace paim

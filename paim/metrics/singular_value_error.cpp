@@ -1,4 +1,4 @@
-// What dropping components costs, from the singular values alone.
+// The error of dropping components, from singular values alone.
 #include "paim/metrics/singular_value_error.h"
 
 #include <cmath>
@@ -9,8 +9,9 @@ namespace paim {
 
 namespace {
 
-// Σ s^power of the values that are not kept, smallest first, relative to the largest of all so that
-// nothing over- or underflows.
+// Σ s^power of the singular values that are not kept, relative to the sum of all. The smallest are
+// added first. Values are divided by the largest one, so that powers neither overflow nor
+// underflow.
 template <typename IsKept, typename Power>
 double dropped_sum(std::span<const double> singular_values, const IsKept& is_kept,
                    const Power& power) {

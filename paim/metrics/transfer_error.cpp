@@ -1,4 +1,4 @@
-// How far a decoded transfer is from the bake, and how far it is expected to be from the truth.
+// Errors of a decoded transfer to the bake, and expected errors to the truth.
 // Based on: Efron 2004 (see the header)
 #include "paim/metrics/transfer_error.h"
 
@@ -26,7 +26,7 @@ double ratio(double part, double whole) {
     return part > 0.0 ? std::numeric_limits<double>::infinity() : std::sqrt(part);
 }
 
-// The first of the largest; one that is not a number is larger than any.
+// Index of the largest value, the first of equal ones. NaN counts as larger than any number.
 template <typename Values>
 size_t find_worst(const Values& values) {
     size_t worst = 0;
@@ -37,9 +37,10 @@ size_t find_worst(const Values& values) {
     return worst;
 }
 
-// Classes by the odds g / (1 − g) of what of a row's movement is let through, in steps of √2 from
-// 2^-4 to 2^8: noise is let through by the same factors, which vary between vertices and components
-// by their odds of signal to noise (Wiener).
+// Class of a row by the share g of its movement that the decoder lets through. Classes are steps of
+// √2 of the odds g / (1 − g), from 2^-4 to 2^8. The decoder lets noise through by the same shares.
+// They are Wiener factors, whose odds are the ratio of signal to noise of a vertex and component.
+// decoded, baked  [K' - 1] coordinates of the row along the span without the constant
 Index passing_class(const VectorXd& decoded, const VectorXd& baked) {
     const double passing = decoded.dot(baked);
     const double stopped = baked.squaredNorm() - passing;
@@ -53,36 +54,36 @@ Index passing_class(const VectorXd& decoded, const VectorXd& baked) {
 }  // namespace
 
 TransferErrorMeter::TransferErrorMeter(const TransferLayout& layout, uint32_t num_vertices,
-                                       uint32_t num_poses, BandPower spectrum, MatrixXd kept)
+                                       uint32_t num_poses, BandPower spectrum, MatrixXd span)
     : layout_(layout),
       num_vertices_(static_cast<Index>(num_vertices)),
       num_poses_(static_cast<Index>(num_poses)),
       spectrum_(std::move(spectrum)),
-      kept_(std::move(kept)),
+      span_(std::move(span)),
       added_(layout.num_planes(), false),
       energy_(layout.in_bands),
-      vertex_deviation_(num_vertices, 0.0),
-      pose_deviation_(VectorXd::Zero(num_poses_)) {
+      vertex_error_to_bake_(num_vertices, 0.0),
+      pose_error_to_bake_(VectorXd::Zero(num_poses_)) {
     PAIM_CHECK_LE(1u, num_vertices);
     PAIM_CHECK_LE(1u, num_poses);
     PAIM_CHECK_LE(1u, layout.in_bands);
-    PAIM_CHECK_EQ(kept_.rows(), num_poses_);
-    PAIM_CHECK(kept_.cols() >= 1 && kept_.cols() <= num_poses_);
-    // To far less than any error that is measured.
+    PAIM_CHECK_EQ(span_.rows(), num_poses_);
+    PAIM_CHECK(span_.cols() >= 1 && span_.cols() <= num_poses_);
+    // Far below any error that is measured.
     constexpr double kRounding = 1e-9;
     const VectorXd constant = VectorXd::Constant(num_poses_, 1.0 / std::sqrt(num_poses));
-    const MatrixXd identity = MatrixXd::Identity(kept_.cols(), kept_.cols());
-    PAIM_CHECK_LT((kept_.col(0) - constant).cwiseAbs().maxCoeff(), kRounding);
-    PAIM_CHECK_LT((kept_.transpose() * kept_ - identity).cwiseAbs().maxCoeff(), kRounding);
-    factors_.assign(layout.in_bands, zero_factors());
+    const MatrixXd identity = MatrixXd::Identity(span_.cols(), span_.cols());
+    PAIM_CHECK_LT((span_.col(0) - constant).cwiseAbs().maxCoeff(), kRounding);
+    PAIM_CHECK_LT((span_.transpose() * span_ - identity).cwiseAbs().maxCoeff(), kRounding);
+    directions_.assign(layout.in_bands, zero_sums());
 }
 
-TransferErrorMeter::ScaledFactors TransferErrorMeter::zero_factors() const {
-    const MatrixXd zero = MatrixXd::Zero(kept_.cols() + 1, kNumClasses);
+TransferErrorMeter::DirectionSums TransferErrorMeter::zero_sums() const {
+    const MatrixXd zero = MatrixXd::Zero(span_.cols() + 1, kNumClasses);
     return {zero, zero, zero};
 }
 
-void TransferErrorMeter::ScaledFactors::add(const ScaledFactors& other) {
+void TransferErrorMeter::DirectionSums::add(const DirectionSums& other) {
     decoded_baked += other.decoded_baked;
     baked += other.baked;
     noise += other.noise;
@@ -92,34 +93,35 @@ TransferErrorMeter::RowSums TransferErrorMeter::measure_rows(Index first, Index 
                                                              double weight, const Plane& baked,
                                                              const Plane& noise,
                                                              const Plane& decoded) {
-    // A column a row of the data, so that both products read what is contiguous.
-    const MatrixXd y = baked.middleRows(first, count).transpose().cast<double>();
+    // [P][rows]: each row of the data is a column here, so that both products read contiguous
+    // values.
+    const MatrixXd x = baked.middleRows(first, count).transpose().cast<double>();
     const MatrixXd d = noise.middleRows(first, count).transpose().cast<double>();
-    const MatrixXd t = decoded.middleRows(first, count).transpose().cast<double>();
-    const MatrixXd y_factors = kept_.transpose() * y;
-    const MatrixXd d_factors = kept_.transpose() * d;
-    const MatrixXd t_factors = kept_.transpose() * t;
-    const Index kept = kept_.cols();
-    RowSums sums{{}, zero_factors(), (t - y).rowwise().squaredNorm()};
+    const MatrixXd x_hat = decoded.middleRows(first, count).transpose().cast<double>();
+    const MatrixXd x_along = span_.transpose() * x;
+    const MatrixXd d_along = span_.transpose() * d;
+    const MatrixXd x_hat_along = span_.transpose() * x_hat;
+    const Index size = span_.cols();
+    RowSums sums{{}, zero_sums(), (x_hat - x).rowwise().squaredNorm()};
     for (Index row = 0; row < count; ++row) {
-        const double row_baked = y.col(row).squaredNorm();
+        const double row_baked = x.col(row).squaredNorm();
         const double row_noise = d.col(row).squaredNorm();
-        const double row_deviation = (t.col(row) - y.col(row)).squaredNorm();
+        const double row_error = (x_hat.col(row) - x.col(row)).squaredNorm();
         sums.energy.baked += row_baked;
         sums.energy.noise += row_noise;
-        sums.energy.deviation += row_deviation;
-        vertex_deviation_[static_cast<size_t>(first + row)] += weight * row_deviation;
+        sums.energy.error_to_bake += row_error;
+        vertex_error_to_bake_[static_cast<size_t>(first + row)] += weight * row_error;
         const Index c =
-            passing_class(t_factors.col(row).tail(kept - 1), y_factors.col(row).tail(kept - 1));
-        const auto add = [&](const MatrixXd& a, const MatrixXd& a_factors, const MatrixXd& b,
-                             const MatrixXd& b_factors, MatrixXd& sums_of_class) {
-            const VectorXd products = a_factors.col(row).cwiseProduct(b_factors.col(row));
-            sums_of_class.col(c).head(kept) += products;
-            sums_of_class(kept, c) += a.col(row).dot(b.col(row)) - products.sum();
+            passing_class(x_hat_along.col(row).tail(size - 1), x_along.col(row).tail(size - 1));
+        const auto add = [&](const MatrixXd& a, const MatrixXd& a_along, const MatrixXd& b,
+                             const MatrixXd& b_along, MatrixXd& sums_of_class) {
+            const VectorXd products = a_along.col(row).cwiseProduct(b_along.col(row));
+            sums_of_class.col(c).head(size) += products;
+            sums_of_class(size, c) += a.col(row).dot(b.col(row)) - products.sum();
         };
-        add(t, t_factors, y, y_factors, sums.scores.decoded_baked);
-        add(y, y_factors, y, y_factors, sums.scores.baked);
-        add(d, d_factors, d, d_factors, sums.scores.noise);
+        add(x_hat, x_hat_along, x, x_along, sums.directions.decoded_baked);
+        add(x, x_along, x, x_along, sums.directions.baked);
+        add(d, d_along, d, d_along, sums.directions.noise);
     }
     return sums;
 }
@@ -147,17 +149,17 @@ void TransferErrorMeter::add(uint32_t plane, const Plane& baked, const Plane& no
         for (const RowSums& block : blocks) {
             energy_[band].baked += block.energy.baked;
             energy_[band].noise += block.energy.noise;
-            energy_[band].deviation += block.energy.deviation;
-            factors_[band].add(block.scores);
-            pose_deviation_ += weight * block.pose_deviation;
+            energy_[band].error_to_bake += block.energy.error_to_bake;
+            directions_[band].add(block.directions);
+            pose_error_to_bake_ += weight * block.pose_error_to_bake;
         }
     }
 }
 
-uint64_t TransferErrorMeter::scratch_bytes(uint64_t num_poses, uint64_t num_kept,
+uint64_t TransferErrorMeter::scratch_bytes(uint64_t num_poses, uint64_t span_size,
                                            uint64_t num_threads) {
-    // Of each block its three sums; of each thread the rows and their factors.
-    return (uint64_t{kBlocksAtOnce} * 3 * (num_kept + 1) * uint64_t{kNumClasses} +
+    // Three sums for each block; for each thread the rows and their coordinates along the span.
+    return (uint64_t{kBlocksAtOnce} * 3 * (span_size + 1) * uint64_t{kNumClasses} +
             num_threads * uint64_t{kRowsAtOnce} * 6 * num_poses) *
            sizeof(double);
 }
@@ -166,38 +168,40 @@ TransferError TransferErrorMeter::result() const {
     PAIM_CHECK(std::find(added_.begin(), added_.end(), false) == added_.end());
     TransferError result;
     result.bands = energy_;
-    double baked = 0.0, noise = 0.0, deviation = 0.0, expected = 0.0;
+    double baked = 0.0, noise = 0.0, error_to_bake = 0.0, expected = 0.0;
     std::vector<double> true_energy;
     for (uint32_t l = 0; l < layout_.in_bands; ++l) {
         TransferBandEnergy& band = result.bands[l];
-        const ScaledFactors& scores = factors_[l];
-        for (Index j = 0; j < scores.baked.size(); ++j) {
-            const double all = scores.baked(j);
-            const double share = all > 0.0 ? scores.decoded_baked(j) / all : 0.0;
-            // What is left beside the kept directions may be less than nothing by rounding.
-            band.passed += std::clamp(share, 0.0, 1.0) * std::max(0.0, scores.noise(j));
+        const DirectionSums& sums = directions_[l];
+        for (Index j = 0; j < sums.baked.size(); ++j) {
+            const double all = sums.baked(j);
+            const double share = all > 0.0 ? sums.decoded_baked(j) / all : 0.0;
+            // Sums along the complement of the span are differences; rounding can make them
+            // negative.
+            band.noise_covariance += std::clamp(share, 0.0, 1.0) * std::max(0.0, sums.noise(j));
         }
         const double weight = spectrum_.weight(l);
         baked += weight * band.baked;
         noise += weight * band.noise;
-        deviation += weight * band.deviation;
+        error_to_bake += weight * band.error_to_bake;
         expected += weight * band.expected();
         true_energy.push_back(std::max(0.0, band.baked - band.noise));
     }
-    result.deviation = ratio(deviation, baked);
+    result.error_to_bake = ratio(error_to_bake, baked);
     result.bake_noise = ratio(noise, baked);
     result.error = ratio(expected, baked);
 
     result.missing_bands = ratio(missing_band_energy(true_energy, spectrum_), baked);
 
-    const size_t vertex = find_worst(vertex_deviation_);
+    const size_t vertex = find_worst(vertex_error_to_bake_);
     result.worst_vertex = static_cast<uint32_t>(vertex);
-    result.worst_vertex_deviation =
-        ratio(vertex_deviation_[vertex], baked / static_cast<double>(num_vertices_));
-    const std::span<const double> poses(pose_deviation_.data(), static_cast<size_t>(num_poses_));
+    result.worst_vertex_error_to_bake =
+        ratio(vertex_error_to_bake_[vertex], baked / static_cast<double>(num_vertices_));
+    const std::span<const double> poses(pose_error_to_bake_.data(),
+                                        static_cast<size_t>(num_poses_));
     const size_t pose = find_worst(poses);
     result.worst_pose = static_cast<uint32_t>(pose);
-    result.worst_pose_deviation = ratio(poses[pose], baked / static_cast<double>(num_poses_));
+    result.worst_pose_error_to_bake = ratio(poses[pose], baked / static_cast<double>(num_poses_));
     return result;
 }
 

@@ -1,4 +1,4 @@
-// How far a decoded transfer is from the bake, and how far it is expected to be from the truth.
+// Errors of a decoded transfer to the bake, and expected errors to the truth.
 // Based on: Efron, The Estimation of Prediction Error: Covariance Penalties and Cross-Validation,
 //           2004 (docs/metrics.md)
 #pragma once
@@ -14,90 +14,99 @@
 
 namespace paim {
 
-// Sums of squares over all values of a band, not weighted.
-struct TransferBandEnergy {
-    double baked = 0.0;      // ‖y‖²
-    double noise = 0.0;      // ‖d‖², as much as the bake's error ‖n‖² is expected to have
-    double deviation = 0.0;  // ‖t̂ − y‖²
-    double passed = 0.0;     // tr cov(t̂, n): noise that the decoded transfer still has
+// The letters are those of docs/metrics.md: x is the baked transfer, x̂ the decoded, t the true
+// one, and d the stored noise. Each is a vector of all values, over vertices, poses, channels and
+// coefficients.
 
-    // E‖t̂ − t‖² = ‖t̂ − y‖² + 2 tr cov(t̂, n) − ‖n‖², at least 0.
+// Sums of squares over all values of a band, not weighted by the light.
+struct TransferBandEnergy {
+    double baked = 0.0;  // ‖x‖²
+    double noise = 0.0;  // ‖d‖², an estimate of the squared error of the bake, ‖x − t‖²
+    double error_to_bake = 0.0;     // ‖x̂ − x‖²
+    double noise_covariance = 0.0;  // tr cov(x̂, x − t): noise of the bake that x̂ still has
+
+    // E‖x̂ − t‖² = ‖x̂ − x‖² + 2 tr cov(x̂, x − t) − ‖x − t‖², at least 0; NaN stays NaN.
     double expected() const {
-        const double energy = deviation + 2.0 * passed - noise;
-        return energy < 0.0 ? 0.0 : energy;  // what is not a number stays that
+        const double energy = error_to_bake + 2.0 * noise_covariance - noise;
+        return energy < 0.0 ? 0.0 : energy;
     }
 };
 
-// Everything is relative to ‖y‖_w, the norm of the bake's transfer weighted by the light's spectrum.
+// All errors are relative to ‖x‖_β, the norm of the bake's transfer weighted by the light's band
+// power.
 struct TransferError {
-    double deviation = 0.0;      // from the bake: ‖t̂ − y‖_w / ‖y‖_w
-    double bake_noise = 0.0;     // of the bake from the truth: ‖d‖_w / ‖y‖_w
-    double error = 0.0;          // expected, from the truth, in the bake's bands
-    double missing_bands = 0.0;  // light of bands that the bake does not have, extrapolated
-    // Largest deviation of a vertex and of a pose, relative to the RMS over vertices (poses) of
-    // ‖y_v‖_w (‖y_p‖_w).
-    double worst_vertex_deviation = 0.0;
+    double error_to_bake = 0.0;  // ‖x̂ − x‖_β / ‖x‖_β
+    double bake_noise = 0.0;     // expected error of the bake to the truth: ‖d‖_β / ‖x‖_β
+    double error = 0.0;          // expected error to the truth in the bake's bands
+    double missing_bands = 0.0;  // light in bands that the bake does not have, extrapolated
+    // Largest error to the bake of one vertex (pose), relative to the RMS of ‖x‖_β over vertices
+    // (poses).
+    double worst_vertex_error_to_bake = 0.0;
     uint32_t worst_vertex = 0;
-    double worst_pose_deviation = 0.0;
+    double worst_pose_error_to_bake = 0.0;
     uint32_t worst_pose = 0;
     std::vector<TransferBandEnergy> bands;  // [bands]
 
     double total() const { return std::hypot(error, missing_bands); }
 };
 
-// One animation against its bake, fed a plane at a time (transfer/layout.h).
+// Measures one decoded animation against its bake, a plane (transfer/layout.h) at a time.
 class TransferErrorMeter {
   public:
     using Plane = Eigen::Ref<const Eigen::MatrixXf>;  // [V][P], a column a pose
 
     // layout  of the bake
-    // kept    [P][K'] what the decoder can follow, from orthonormal_pose_space(): orthonormal, the
-    //         constant first (checked)
+    // span    [P][K'] directions over the poses that the decoder can follow, from
+    //         orthonormal_pose_space(): orthonormal, the constant first (checked)
     TransferErrorMeter(const TransferLayout& layout, uint32_t num_vertices, uint32_t num_poses,
-                       BandPower spectrum, Eigen::MatrixXd kept);
+                       BandPower spectrum, Eigen::MatrixXd span);
 
-    // Every plane of the bake once (checked). Planes in the same order give the same bits, on any
-    // number of threads.
-    // noise    BakedPose::noise: one draw with the variance of the bake's error, uncorrelated with it
-    // decoded  zero where the bands are not kept
+    // Call it once for every plane of the bake (checked). Planes in the same order give the same
+    // bits on any number of threads.
+    // noise    BakedPose::noise: one draw with the variance of the bake's error, uncorrelated with
+    //          it
+    // decoded  zero in bands that the file does not have
     void add(uint32_t plane, const Plane& baked, const Plane& noise, const Plane& decoded);
 
-    // After all planes (checked).
+    // The errors; call it after all planes (checked).
     TransferError result() const;
 
-    // How much of the noise is let through is measured apart for rows of which about as much is.
+    // The share of the noise that the decoder lets through is measured in so many classes of rows.
+    // Rows of one class have about the same share.
     static constexpr Eigen::Index kNumClasses = 25;
 
-    // Memory of add() and of the sums over the rows of its blocks.
-    // num_kept  K'
-    static uint64_t scratch_bytes(uint64_t num_poses, uint64_t num_kept, uint64_t num_threads);
+    // Memory of add(), with the sums over the rows of its blocks.
+    // span_size  K'
+    static uint64_t scratch_bytes(uint64_t num_poses, uint64_t span_size, uint64_t num_threads);
 
   private:
-    // Sums over rows of products of scores along the kept directions and, last, of all that is left
-    // of the rows beside these, [K' + 1][kNumClasses].
-    struct ScaledFactors {
-        Eigen::MatrixXd decoded_baked, baked, noise;
-        void add(const ScaledFactors& other);
+    // Sums over rows, [K' + 1][kNumClasses] each: of products of two rows' coordinates along each
+    // direction q_k of the span, and in the last line along the complement of the span.
+    struct DirectionSums {
+        Eigen::MatrixXd decoded_baked;  // Σ (x̂ q_k)(x q_k)
+        Eigen::MatrixXd baked;          // Σ (x q_k)²
+        Eigen::MatrixXd noise;          // Σ (d q_k)²
+        void add(const DirectionSums& other);
     };
     struct RowSums {
         TransferBandEnergy energy;
-        ScaledFactors scores;
-        Eigen::VectorXd pose_deviation;  // [P]
+        DirectionSums directions;
+        Eigen::VectorXd pose_error_to_bake;  // [P] Σ (x̂ − x)², not weighted
     };
 
-    ScaledFactors zero_factors() const;
+    DirectionSums zero_sums() const;
     RowSums measure_rows(Eigen::Index first, Eigen::Index count, double weight, const Plane& baked,
                          const Plane& noise, const Plane& decoded);
 
     TransferLayout layout_;
     Eigen::Index num_vertices_, num_poses_;
     BandPower spectrum_;
-    Eigen::MatrixXd kept_;
-    std::vector<bool> added_;  // [planes]
-    std::vector<TransferBandEnergy> energy_;
-    std::vector<ScaledFactors> factors_;    // [bands]
-    std::vector<double> vertex_deviation_;  // [V] weighted
-    Eigen::VectorXd pose_deviation_;        // [P] weighted
+    Eigen::MatrixXd span_;                      // [P][K']
+    std::vector<bool> added_;                   // [planes]
+    std::vector<TransferBandEnergy> energy_;    // [bands]
+    std::vector<DirectionSums> directions_;     // [bands]
+    std::vector<double> vertex_error_to_bake_;  // [V] ‖x̂ − x‖²_β
+    Eigen::VectorXd pose_error_to_bake_;        // [P] ‖x̂ − x‖²_β
 };
 
 }  // namespace paim

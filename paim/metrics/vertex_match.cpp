@@ -1,4 +1,4 @@
-// Which vertices and planes of a file and of its bake belong together.
+// Matches vertices and planes of a file with those of its bake.
 #include "paim/metrics/vertex_match.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ CacheOrder vertex_order(VertexOrder order, const Topology& of_bake) {
     return as_baked;
 }
 
-// In the same order, but each may be turned.
+// Whether the triangles are the same in the same order. Corners of a triangle may be rotated.
 bool same_triangles(const Topology& a, const Topology& b) {
     const auto turned = [](Triangle t) {
         std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());

@@ -1,4 +1,4 @@
-// Which vertices and planes of a file and of its bake belong together.
+// Matches vertices and planes of a file with those of its bake.
 #pragma once
 
 #include <cstdint>
@@ -11,19 +11,20 @@
 
 namespace paim {
 
-// [V] the bake's vertex that each of the file's is.
-// what  is named in errors: "triangles", "triangles of the scenery"
-// Errors: bad input, naming the bake, if the triangles are others.
+// [V] The vertex of the bake for each vertex of the file.
+// what  names the triangles in errors: "triangles", "triangles of the still meshes"
+// Errors: bad input, naming the bake, if the triangles differ.
 std::vector<uint32_t> match_vertices(const Topology& of_file, VertexOrder order,
                                      const Topology& of_bake, const std::string& bake,
                                      const char* what);
 
-// Where a file has this plane of the bake's transfer: nowhere if its bands end before. A grey file has
-// one for all channels.
+// The plane of the file for this plane of the bake's transfer; nothing if the file does not have
+// its band. A grey file has the same plane for all channels.
 std::optional<uint32_t> plane_of_file(const TransferLayout& of_file, const TransferLayout& of_bake,
                                       uint32_t plane);
 
-// planes [num_planes][V] of the bake, in place in the order of the file.
+// Reorders planes of the bake in place, from the order of the bake to that of the file.
+// planes  [num_planes][V]
 void reorder_planes(std::span<float> planes, std::span<const uint32_t> old_vertex);
 
 }  // namespace paim

@@ -11,11 +11,11 @@
 
 namespace paim {
 
-// Renders one pose under several lights: its geometry is built and hit once.
+// Renders one pose under several lights. Rays are traced once for all of them.
 // positions  [V] scene units
-// camera     its eye finite, which frame_bounds() makes it for coordinates below about 2^120
+// camera     with a finite eye; that of frame_bounds() is finite for coordinates below about 2^120
 // radiance   [lights][V] linear RGB
-// returns    [lights] width × height images, black where the mesh is not
+// returns    [lights] images of width × height pixels, black where no mesh is
 std::vector<Image> render_images(const Topology& topology, std::span<const Vec3f> positions,
                                  std::span<const std::vector<Vec3f>> radiance, const Camera& camera,
                                  int width, int height);

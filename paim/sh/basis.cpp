@@ -1,4 +1,4 @@
-// One direction, in double: normalised Legendre recurrences times (x + iy)^m.
+// The basis of one direction, in double: normalised Legendre recurrences times (x + iy)^m.
 // Based on: Peter-Pike Sloan, Efficient Spherical Harmonic Evaluation, 2013
 #include "paim/sh/basis.h"
 
@@ -29,7 +29,8 @@ void evaluate(int bands, const Vec3d& direction, std::span<T> values) {
     PAIM_CHECK_LE(1, bands);
     PAIM_CHECK_LE(bands, kMaxBands);
     PAIM_CHECK_EQ(values.size(), static_cast<size_t>(num_coefficients(bands)));
-    // Off the sphere the polynomials in z drift apart by l²/2 times the error in length.
+    // If the direction is not unit, polynomials in z are wrong by l²/2 times the error of its
+    // length.
     const Vec3d unit = direction.normalized();
     const LegendreStep* steps = legendre_steps().data();
     double cosine = 1.0;  // Re (x + iy)^m = sin^m θ cos mφ

@@ -1,7 +1,8 @@
-// Associated Legendre functions by their textbook recurrence, unnormalised, then the normalisation
-// as a product of factorials and the azimuth by cos and sin: nothing shared with basis.cpp. Long
-// double holds the 125!! ≈ 1e104 of 64 bands and leaves three digits spare over double. Based on:
-// Robin Green, Spherical Harmonic Lighting: The Gritty Details, 2003 (without the phase (−1)^m)
+// The basis from unnormalised associated Legendre functions by their textbook recurrence, a
+// normalisation by factorials, and cos and sin of the azimuth. It shares nothing with basis.cpp.
+// Long double holds the 125!! ≈ 1e104 of 64 bands, and has three digits more than double.
+// Based on: Robin Green, Spherical Harmonic Lighting: The Gritty Details, 2003 (without the phase
+//           (−1)^m)
 #include "paim/sh/basis_reference.h"
 
 #include <cmath>

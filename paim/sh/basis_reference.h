@@ -1,6 +1,7 @@
-// The basis straight from its definition, slowly, in long double: what the fast paths are tested
-// against. Based on: Robin Green, Spherical Harmonic Lighting: The Gritty Details, 2003 (without
-// the phase (−1)^m)
+// The basis straight from its definition, slowly, in long double. The fast evaluations are tested
+// against it.
+// Based on: Robin Green, Spherical Harmonic Lighting: The Gritty Details, 2003 (without the phase
+//           (−1)^m)
 #pragma once
 
 #include "paim/base/vector.h"

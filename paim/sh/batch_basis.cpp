@@ -1,5 +1,6 @@
-// Sixteen directions at once: the recurrences of basis.cpp over arrays of lanes, in loops that
-// compilers turn into vector code on every machine. In float to 16 bands, in double above.
+// The basis of sixteen directions at once: the recurrences of basis.cpp over arrays of lanes, in
+// loops that compilers vectorise on every machine. Up to 16 bands are computed in float, more in
+// double.
 // Based on: Peter-Pike Sloan, Efficient Spherical Harmonic Evaluation, 2013
 #include <cmath>
 #include <cstring>
@@ -12,18 +13,17 @@ namespace paim::sh {
 
 namespace {
 
-// Above, floats lose too much: next to a pole one rounding of z, or of a step of the recurrence,
-// changes y_l0 by up to l(l+1)/2 roundings, 2^-24 · 2016 = 1.2e-4 at 64 bands, where x and y still
-// say exactly how far the pole is. In double, with z made to fit x and y again, what is left is the
-// rounding of the result.
+// With more bands floats lose too much: near a pole one rounding of z, or of a step of the
+// recurrence, changes y_l0 by up to l(l+1)/2 roundings, 2^-24 · 2016 = 1.2e-4 at 64 bands, although
+// x and y still give the exact distance to the pole. In double, with z computed from x and y, only
+// the rounding of the result is left.
 constexpr int kMaxFloatBands = 16;
 
-// A vector register on every machine we know (SSE2, NEON); GCC and Clang do arithmetic on it
-// directly.
+// A vector register of SSE2 and NEON. GCC and Clang do arithmetic on this type directly.
 using Floats = float __attribute__((vector_size(16)));
 using Doubles = double __attribute__((vector_size(16)));
 
-// One value of every direction.
+// One value for each of the directions.
 template <typename Register>
 struct Batch {
     using Scalar = std::remove_reference_t<decltype(Register{}[0])>;
@@ -57,7 +57,7 @@ Directions<Floats> load_floats(const float* x, const float* y, const float* z) {
     return {load<Floats>(x), load<Floats>(y), load<Floats>(z)};
 }
 
-// Back on the sphere, which the rounding to float left; zero stays zero.
+// Scales directions to unit length, which rounding to float changed. Zero stays zero.
 Directions<Doubles> load_doubles(const float* x, const float* y, const float* z) {
     double unit[3][BatchBasis::kBatch];
     for (int j = 0; j < BatchBasis::kBatch; ++j) {
@@ -96,7 +96,7 @@ void run(int bands, const typename Batch<Register>::Scalar* step,
             const Batch<Register> a = constant<Register>(*step++);
             const Batch<Register> b = constant<Register>(*step++);
             for (int r = 0; r < kNumRegisters; ++r) {
-                // a·z first: it does not wait for the last step.
+                // a·z comes first because it does not depend on the previous step.
                 const Register next = a.v[r] * z.v[r] * legendre.v[r] - b.v[r] * before.v[r];
                 before.v[r] = legendre.v[r];
                 legendre.v[r] = next;
@@ -105,7 +105,7 @@ void run(int bands, const typename Batch<Register>::Scalar* step,
     }
 }
 
-// Products of two batches, as floats.
+// Stores products of two batches as floats.
 struct Store {
     float* values;
 
@@ -126,7 +126,7 @@ struct Store {
     }
 };
 
-// Sums of the products of two batches; lane j takes directions j, j + 4, j + 8 and j + 12.
+// Adds products of two batches to sums; lane j adds directions j, j + 4, j + 8 and j + 12.
 struct Add {
     float* sums;
     static_assert(BatchBasis::kSumLanes == Batch<Floats>::kNumLanes);
@@ -150,7 +150,7 @@ struct Add {
     }
 };
 
-// For each m: the diagonal q_mm, then a and b of each l = m+1 … bands−1.
+// Recurrence coefficients: for each m the value q_mm, then a and b of l = m+1 … bands−1.
 template <typename Scalar>
 std::vector<Scalar> recurrence(int bands) {
     std::vector<Scalar> values;

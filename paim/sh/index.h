@@ -4,7 +4,7 @@
 
 namespace paim::sh {
 
-// The most bands that any function here takes; the basis is tested to this.
+// The largest number of bands that any function takes. Tests of the basis go up to it.
 constexpr int kMaxBands = 64;
 
 constexpr int num_coefficients(int bands) {

@@ -9,8 +9,8 @@
 namespace paim::sh {
 
 // With q_lm(z) = y_lm / Re (x + iy)^m, which already holds the normalisation:
-// q_lm = a z q_{l-1,m} − b q_{l-2,m} for l > m, where q_{m-1,m} = 0. Values stay far inside float's
-// range to 64 bands (the largest, near the poles, is about 1e13).
+// q_lm = a z q_{l-1,m} − b q_{l-2,m} for l > m, where q_{m-1,m} = 0. Up to 64 bands values stay far
+// inside float's range (the largest, near the poles, is about 1e13).
 struct LegendreStep {
     double a;
     double b;
@@ -18,7 +18,7 @@ struct LegendreStep {
 
 constexpr int kNumLegendreSteps = kMaxBands * (kMaxBands + 1) / 2;
 
-// 0 <= m <= l; zero for l = m, where the diagonal starts.
+// The step to q_lm, 0 <= m <= l. Both coefficients are 0 for l = m, which diagonal_ratio() gives.
 inline LegendreStep legendre_step(int l, int m) {
     if (l == m) return {0.0, 0.0};
     const double l2 = static_cast<double>(l) * l;

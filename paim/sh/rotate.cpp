@@ -1,9 +1,9 @@
-// Band l's matrix from band l−1's and the rotation itself, in the papers' names (R, P, u, v, w, U,
-// V, W). Based on: Ivanic and Ruedenberg, Rotation Matrices for Real Spherical Harmonics, J. Phys.
-// Chem. 100,
-//           1996, and the errata of 102, 1998. Both misprint V for m < 0: the factors 1 − δ and
-//           sqrt(1 + δ) of δ = δ_{m,−1} belong to the terms as written below, which the tests
-//           prove.
+// The matrix of band l is computed from that of band l−1 and the rotation. Names are those of the
+// papers (R, P, u, v, w, U, V, W).
+// Based on: Ivanic and Ruedenberg, Rotation Matrices for Real Spherical Harmonics, J. Phys. Chem.
+//           100, 1996, and the errata of 102, 1998. Both misprint V for m < 0. The factors 1 − δ
+//           and sqrt(1 + δ) with δ = δ_{m,−1} belong to the terms as written below; tests confirm
+//           it.
 #include "paim/sh/rotate.h"
 
 #include <Eigen/Geometry>
@@ -18,7 +18,7 @@ namespace paim::sh {
 
 namespace {
 
-// Entries by order, −l … l, as the papers write them.
+// A block whose rows and columns have the indices −l … l, as in the papers.
 class Block {
   public:
     explicit Block(const Eigen::MatrixXd& matrix)
@@ -62,7 +62,7 @@ Eigen::MatrixXd next_block(int l, const Block& R, const Block& previous) {
             const double w =
                 m == 0 ? 0.0
                        : -0.5 * std::sqrt((l - k - 1) * static_cast<double>(l - k) / denominator);
-            // Zero factors stand before entries that do not exist in band l−1.
+            // Entries that do not exist in band l−1 have the factor 0.
             double sum = v * V(l, m, n, R, previous);
             if (u != 0.0) sum += u * P(0, l, m, n, R, previous);
             if (w != 0.0) sum += w * W(l, m, n, R, previous);
@@ -96,7 +96,7 @@ Rotation::Rotation(int bands, const Eigen::Matrix3d& rotation) {
     const Eigen::Matrix3d gram = rotation.transpose() * rotation;
     PAIM_CHECK_LE((gram - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff(), 1e-6);
     PAIM_CHECK_LE(std::abs(rotation.determinant() - 1.0), 1e-6);
-    // What is off by 1e-6 here would be off by l times that in band l.
+    // An error of 1e-6 in the rotation would be l times as large in band l.
     const Eigen::Matrix3d exact = Eigen::Quaterniond(rotation).normalized().toRotationMatrix();
 
     blocks_.reserve(static_cast<size_t>(bands));

@@ -1,7 +1,6 @@
 // Rotation of coefficients: f'(ω) = f(R⁻¹ω).
 // Based on: Ivanic and Ruedenberg, Rotation Matrices for Real Spherical Harmonics, J. Phys. Chem.
-// 100,
-//           1996, with the errata of 102, 1998 (and V for m < 0 corrected once more, see
+//           100, 1996, with the errata of 102, 1998 (and another correction of V for m < 0, see
 //           rotate.cpp)
 #pragma once
 

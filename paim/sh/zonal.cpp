@@ -1,4 +1,4 @@
-// Zonal functions: turning them, and the coefficients of a cone.
+// Rotates zonal functions, and computes the coefficients of a cone.
 #include "paim/sh/zonal.h"
 
 #include <cmath>

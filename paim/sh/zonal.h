@@ -1,4 +1,4 @@
-// Coefficients of functions that are symmetric round an axis.
+// Coefficients of zonal functions, which are symmetric about an axis.
 #pragma once
 
 #include <span>
@@ -8,13 +8,15 @@
 
 namespace paim::sh {
 
-// Turns zonal coefficients (about +z, one a band, m = 0) to another axis:
+// Rotates zonal coefficients (about +z, one a band, m = 0) to another axis:
 // c_lm = sqrt(4π / (2l+1)) · zonal_l · y_lm(axis).
 // returns [bands²] for bands = zonal.size(); axis unit
 std::vector<double> zonal_to_axis(std::span<const double> zonal, const Vec3d& axis);
 
 // Zonal coefficients of the function that is 1 within half_angle_rad of +z and 0 elsewhere, in
-// closed form. returns [bands]; 0 <= half_angle_rad <= π
+// closed form.
+// half_angle_rad  0 … π
+// returns         [bands]
 std::vector<double> cone_zonal(int bands, double half_angle_rad);
 
 }  // namespace paim::sh

@@ -8,7 +8,7 @@ namespace paim {
 
 namespace {
 
-// Right, up, backward of a camera that lies in this direction from its target.
+// The axes right, up, backward of a camera in this direction from its target.
 Eigen::Matrix3f axes_of(const Vec3f& direction, const Vec3f& up) {
     const Vec3f backward = direction.stableNormalized();
     const Vec3f right = up.cross(backward).normalized();

@@ -20,12 +20,13 @@ struct Camera {
     Vec3f ray_direction(float u, float v, float aspect) const;
 };
 
-// Where the tools look from if they are not told.
+// The azimuth of the camera unless an option sets it.
 constexpr float kDefaultAzimuth_rad = 0.5f;
 constexpr float kDefaultElevation_rad = 0.3f;
 
-// A camera that just sees all of the bounds, from slightly above; azimuth_rad about +Y (0 looks
-// along −Z, from +Z), elevation_rad above the horizon.
+// A camera that just sees all of the bounds.
+// azimuth_rad    about +Y; 0 looks from +Z along −Z
+// elevation_rad  above the horizon
 Camera frame_bounds(const Bounds& bounds, float aspect, float azimuth_rad = kDefaultAzimuth_rad,
                     float elevation_rad = kDefaultElevation_rad);
 

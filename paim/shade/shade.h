@@ -12,10 +12,11 @@
 
 namespace paim {
 
-// radiance(v) = albedo(v) · Σ_i t_i(v) L_i, per channel. Bands beyond the light's or the transfer's
-// are taken as zero.
+// radiance(v) = albedo(v) · Σ_i t_i(v) L_i, per channel. Bands that the light or the
+// transfer does not have are zero.
 // transfer  [layout.num_planes()][V], of one outgoing band (checked)
-// radiance  [V] linear RGB; may be slightly negative where the light rings
+// radiance  [V] linear RGB; may be slightly negative where the spherical harmonics of the light
+//           ring
 void shade(const TransferLayout& layout, std::span<const float> transfer, const Albedo& albedo,
            const LightCoefficients& light, std::vector<Vec3f>& radiance);
 

@@ -1,4 +1,4 @@
-// Embree 3 or 4, whichever the system has, behind one set of names.
+// The same names for Embree 3 and 4, whichever the system has.
 #pragma once
 
 #if PAIM_EMBREE_VERSION >= 4
@@ -9,8 +9,8 @@
 
 namespace paim::embree {
 
-// The default way to trace a ray, or sixteen of which `valid` takes part (-1) or not (0). May be
-// shared by the rays of one thread.
+// Traces a ray, or sixteen, with default settings. `valid` says which of sixteen are traced (-1) or
+// not (0). All rays of one thread may share a context.
 class Context {
   public:
 #if PAIM_EMBREE_VERSION >= 4

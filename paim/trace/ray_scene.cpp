@@ -23,7 +23,7 @@ namespace paim {
 
 namespace {
 
-// Remembers the first error that Embree reports, until somebody asks.
+// An Embree device. It keeps the first error that Embree reports, for throw_if_failed().
 class Device {
   public:
     Device() : device_(rtcNewDevice(nullptr)) {
@@ -83,7 +83,8 @@ RTCRay make_ray(const Vec3f& origin, const Vec3f& direction) {
     return ray;
 }
 
-// What Embree's coordinates are multiplied by: it loses hits beyond about 1e±18.
+// Factor of the coordinates that are given to Embree, which misses hits if they are beyond about
+// 1e±18.
 float embree_scale(std::span<const Vec3f> positions, std::span<const Vec3f> more_positions) {
     float largest = 0.0f;
     for (const auto points : {positions, more_positions}) {
@@ -92,8 +93,8 @@ float embree_scale(std::span<const Vec3f> positions, std::span<const Vec3f> more
     return unit_scale(static_cast<double>(largest));
 }
 
-// Triangles without area as points, which no ray hits. Of those that are lines, rounding may leave
-// enough for a ray to hit.
+// Replaces triangles without area by points, which no ray hits. Otherwise rounding could let a ray
+// hit a triangle that is a line.
 std::vector<Triangle> without_needles(const Topology& topology, std::span<const Vec3f> positions) {
     std::vector<Triangle> triangles = topology.triangles;
     for (Triangle& t : triangles) {
@@ -109,7 +110,7 @@ std::vector<Triangle> without_needles(const Topology& topology, std::span<const 
 struct RayScene::Impl {
     Device device;
     RTCScene scene = nullptr;
-    float scale = 1.0f;                   // of what Embree sees
+    float scale = 1.0f;                   // of the coordinates given to Embree
     uint32_t first_triangle[2] = {0, 0};  // of each mesh
 
     void attach(unsigned int id, const Topology& topology, std::span<const Vec3f> positions) {
@@ -136,16 +137,16 @@ RayScene::RayScene(const Topology& topology, std::span<const Vec3f> positions)
     : RayScene(topology, positions, {}, {}) {}
 
 RayScene::RayScene(const Topology& topology, std::span<const Vec3f> positions,
-                   const Topology& scenery, std::span<const Vec3f> scenery_positions)
+                   const Topology& still_mesh, std::span<const Vec3f> still_positions)
     : impl_(std::make_unique<Impl>()) {
     PAIM_CHECK_EQ(positions.size(), topology.num_vertices);
-    PAIM_CHECK_EQ(scenery_positions.size(), scenery.num_vertices);
+    PAIM_CHECK_EQ(still_positions.size(), still_mesh.num_vertices);
     impl_->scene = rtcNewScene(impl_->device.handle());
     rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(impl_->scene, RTC_BUILD_QUALITY_HIGH);
-    impl_->scale = embree_scale(positions, scenery_positions);
+    impl_->scale = embree_scale(positions, still_positions);
     impl_->attach(0, topology, positions);
-    impl_->attach(1, scenery, scenery_positions);
+    impl_->attach(1, still_mesh, still_positions);
     impl_->first_triangle[1] = static_cast<uint32_t>(topology.triangles.size());
     rtcCommitScene(impl_->scene);
     impl_->device.throw_if_failed();
@@ -157,7 +158,7 @@ namespace {
 
 constexpr uint32_t kPacket = 16;
 
-// Sets up what all rays from one start share.
+// Sets the members that all rays from one origin share.
 void set_origin(const Vec3f& start, RTCRay16& rays) {
     std::fill_n(rays.org_x, kPacket, start.x());
     std::fill_n(rays.org_y, kPacket, start.y());
@@ -165,7 +166,7 @@ void set_origin(const Vec3f& start, RTCRay16& rays) {
     std::fill_n(rays.mask, kPacket, 0xffffffffu);
 }
 
-// Sets up num_rays of a packet; the others are not valid.
+// Sets the directions of num_rays rays of a packet; the others are not valid.
 void set_directions(const float* x, const float* y, const float* z, uint32_t num_rays,
                     RTCRay16& rays, int* valid) {
     for (uint32_t j = 0; j < kPacket; ++j) valid[j] = j < num_rays ? -1 : 0;
@@ -189,7 +190,7 @@ uint32_t RayScene::occluded(const Vec3f& origin, const float* x, const float* y,
         set_directions(x + first, y + first, z + first, num_rays, rays, valid);
         context.occluded(valid, impl_->scene, rays);
         for (uint32_t j = 0; j < num_rays; ++j) {
-            const bool hit = rays.tfar[j] < 0.0f;  // Embree's mark of a occluded ray
+            const bool hit = rays.tfar[j] < 0.0f;  // Embree's mark of an occluded ray
             occluded[first + j] = hit ? 1.0f : 0.0f;
             num_occluded += hit ? 1 : 0;
         }

@@ -1,4 +1,4 @@
-// Rays against the triangles of one pose. The one room that knows Embree.
+// Intersects rays with the triangles of one pose. Only paim/trace uses Embree.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace paim {
 
-// In a hit: nothing.
+// The triangle of a ray without a hit.
 constexpr uint32_t kNoTriangle = std::numeric_limits<uint32_t>::max();
 
 struct Hit {
@@ -22,18 +22,18 @@ struct Hit {
 };
 
 // An acceleration structure over one pose. Built on construction; all queries are thread-safe. Both
-// sides of a triangle are hit, triangles without area (mesh/normals.h) never. Answers do not depend
-// on the number of threads: traversal is Embree's conservative ("robust") one, so that it is the
-// triangle tests alone that decide.
+// sides of a triangle can be hit; triangles without area (mesh/normals.h) cannot. Results do not
+// depend on the number of threads: traversal is Embree's conservative ("robust") one, so that only
+// the triangle tests decide about hits.
 class RayScene {
   public:
-    // positions [V] finite. Throws Error(unsupported) if Embree cannot be started, or what it
-    // reports.
+    // positions  [V] finite
+    // Errors (unsupported): Embree cannot be started, or reports an error.
     RayScene(const Topology& topology, std::span<const Vec3f> positions);
 
-    // The same with a second mesh. Its triangles are counted on from the first one's.
-    RayScene(const Topology& topology, std::span<const Vec3f> positions, const Topology& scenery,
-             std::span<const Vec3f> scenery_positions);
+    // The same with a second mesh. Its triangles are numbered after those of the first.
+    RayScene(const Topology& topology, std::span<const Vec3f> positions, const Topology& still_mesh,
+             std::span<const Vec3f> still_positions);
     ~RayScene();
     RayScene(const RayScene&) = delete;
     RayScene& operator=(const RayScene&) = delete;
@@ -41,12 +41,13 @@ class RayScene {
     // Whether anything lies in each direction from the origin, at any distance > 0.
     // x, y, z  [count] unit directions
     // occluded  [count] 1 or 0
-    // note     sixteen at a time: fastest if neighbouring directions follow one another
-    // returns  how many are occluded
+    // returns  number of occluded directions
+    // note     sixteen rays are traced together, which is fastest if their directions are similar
     uint32_t occluded(const Vec3f& origin, const float* x, const float* y, const float* z,
                       uint32_t count, float* occluded) const;
 
-    // The nearest hit in each of these directions; its triangle is kNoTriangle where there is none.
+    // The nearest hit in each of the directions. The triangle of a ray without a hit is
+    // kNoTriangle.
     // hits  [count]
     void intersect(const Vec3f& origin, const float* x, const float* y, const float* z,
                    uint32_t count, Hit* hits) const;

@@ -1,4 +1,4 @@
-// What the transfer of one vertex consists of. Nobody else assumes "bands² floats".
+// The values that the transfer of one vertex consists of. Only this file computes bands².
 #pragma once
 
 #include <algorithm>
@@ -14,8 +14,8 @@ enum class TransferKind : uint32_t {
 };
 
 // Transfer maps in_bands² coefficients of incident light to out_bands² coefficients of outgoing
-// radiance, in one or three channels. Diffuse transfer has one outgoing band: radiance is the same in
-// every direction. Values are stored plane by plane, each contiguous over the vertices:
+// radiance, in one or three channels. Diffuse transfer has one outgoing band: radiance is the same
+// in every direction. Values are stored plane by plane, each contiguous over the vertices:
 //   plane = (channel · out_bands² + o) · in_bands² + i,
 // so row r = plane · V + v of a data matrix belongs to vertex v.
 struct TransferLayout {
@@ -24,7 +24,7 @@ struct TransferLayout {
     uint32_t channels = 1;   // 1 (grey) or 3
     uint32_t out_bands = 1;  // of outgoing radiance; 1: diffuse
 
-    // Coefficients of light that one outgoing coefficient of one channel is a sum over.
+    // Coefficients of light that one outgoing coefficient of one channel depends on.
     uint32_t num_coefficients() const { return squared(in_bands); }
     uint32_t num_outgoing() const { return squared(out_bands); }
     uint32_t num_planes() const { return channels * num_outgoing() * num_coefficients(); }
@@ -38,7 +38,7 @@ struct TransferLayout {
         return band(plane / num_coefficients() % num_outgoing());
     }
 
-    // The same with at most so many bands of light, and at least one.
+    // The same layout with at most `most` bands of light, and at least one.
     TransferLayout with_bands(uint32_t most) const {
         TransferLayout layout = *this;
         layout.in_bands = std::min(std::max(most, 1u), in_bands);
@@ -56,7 +56,8 @@ struct TransferLayout {
     }
 };
 
-// Where `whole` has the planes of `part`, the same layout with fewer bands: in the order of the part.
+// The numbers in `whole` of the planes of `part`, which is the same layout with fewer bands, in the
+// order of `part`.
 inline void planes_of(const TransferLayout& whole, const TransferLayout& part,
                       std::vector<uint32_t>& planes) {
     planes.clear();

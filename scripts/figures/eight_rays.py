@@ -1,5 +1,5 @@
 # One vertex with eight rays, in numbers: both halves, their estimates, mean and half-difference.
-# A vertex on the ground beside a long wall; docs/algorithms/transfer.md explains the figure.
+# A vertex on the ground next to a long wall; docs/algorithms/transfer.md explains the figure.
 #   eight_rays.py DATA SVG      DATA holds wall.bake, made by scripts/figures/make
 # The directions are computed again here. The script stops unless the bake's transfer and noise are
 # those of its own rays.

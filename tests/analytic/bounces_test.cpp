@@ -96,7 +96,7 @@ TEST(Bounces, BowlGetsHalfOfWhatIsMissingEachTime) {
         const double tolerance = (bounces + 1) * std::pow(0.5, bounces) * 0.008;
         EXPECT_NEAR(mean, expected, tolerance) << bounces;
         // Single vertices have the noise of 1024 rays, and on the rim that of seeing flat triangles
-        // edge-on, which blocks up to 0.05 less; all of it halves with each bounce.
+        // edge-on, which blocks up to 0.05 less; each bounce divides all of it by two.
         EXPECT_LT(worst, (bounces + 1) * std::pow(0.5, bounces) * 0.06) << bounces;
     }
 }
@@ -171,19 +171,19 @@ TEST(Bounces, PlatesBleedTheirColour) {
     EXPECT_LT(worst, 0.008);
 }
 
-TEST(Bounces, SceneryGivesItsOwnLight) {
+TEST(Bounces, StillMeshGivesItsOwnLight) {
     const Plates plates;
     const PoseSet lower = plates.plate(false, false);
     for (const bool turned : {false, true}) {
-        StaticMesh scenery;
-        scenery.add(plates.plate(true, turned));
+        StillMesh still_mesh;
+        still_mesh.add(plates.plate(true, turned));
         for (const uint32_t bounces : {1u, 3u}) {
-            TransferBaker baker(make_options(1, 4096, bounces), lower.albedo(), scenery);
+            TransferBaker baker(make_options(1, 4096, bounces), lower.albedo(), still_mesh);
             EXPECT_EQ(baker.layout().channels, 3u);
-            const BakedPose alone = baker.bake_scenery();
+            const BakedPose alone = baker.bake_still_mesh();
             EXPECT_EQ(alone.transfer.size(), 3 * plates.num_lower);
             const BakedPose baked = baker.bake(lower.topology(), lower.load_pose(0), 0);
-            // The scenery is lit as if the poses were not there: by all of its sky, and nothing
+            // The still mesh is lit as if the poses were not there: by all of its sky, and nothing
             // bounces between itself. Its back gives nothing.
             for (size_t v = 0; v < plates.num_lower; ++v) {
                 const Vec3f& x = plates.pose.positions[v];
@@ -216,7 +216,7 @@ TEST(Bounces, NoiseEstimateIsTheErrorAgainstManyRays) {
         noise += static_cast<double>(few.noise[r]) * static_cast<double>(few.noise[r]);
     }
     RecordProperty("ratio", std::to_string(std::sqrt(noise / error)));
-    // 9000 differences of halves, which bounced light ties to one another a little; the reference
+    // 9000 differences between the halves, a little correlated by bounced light; the reference
     // adds 1 % in quadrature.
     EXPECT_NEAR(std::sqrt(noise / error), 1.0, 0.1);
 }

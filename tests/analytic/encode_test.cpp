@@ -226,7 +226,7 @@ TEST_F(Encode, MeasuresAndStatesTheErrorsIfAsked) {
         EXPECT_EQ(stated.errors[j].value, expected[j].value) << expected[j].name;
         EXPECT_EQ(returned[j].value, expected[j].value) << expected[j].name;
     }
-    EXPECT_GT(again.transfer.deviation, 0.0);  // components were dropped
+    EXPECT_GT(again.transfer.error_to_bake, 0.0);  // components were dropped
 }
 
 }  // namespace

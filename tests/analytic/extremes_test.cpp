@@ -120,7 +120,7 @@ struct Distance {
 };
 
 Distance distance(const Estimate& a, const Estimate& b) {
-    // Local coordinates are rounded anew, to 2^-24 of the size; normals change by that over the
+    // Local coordinates are rounded again, to 2^-24 of the size; normals change by that over the
     // length of an edge, 1/30 of the size: 2e-6, and coefficients of five bands by four times as
     // much at most.
     constexpr double kRounding = 1e-5;

@@ -254,7 +254,7 @@ TEST(OddMesh, NonManifoldEdgesShadowAsTheyShould) {
     EXPECT_EQ(report_topology(mesh.topology).non_manifold_edges, 2u);
     const BakedPose baked = bake(mesh.pose_set(), 1 << 14);
     // Point (1, 0) of the ground, at distance 1 from the middle of a wall of half width 1 and
-    // height 2: form factor of a perpendicular rectangle (Howell, B-3), both halves:
+    // height 2: form factor of a perpendicular rectangle (Howell, B-3), twice:
     //   F = 2 · 1/(2π) (atan(1/Y) − Y/√(X²+Y²) atan(1/√(X²+Y²))),
     //   X = height / b, Y = distance / b, b = 1.
     const double x = 2.0, y = 1.0, r = std::hypot(x, y);

@@ -65,7 +65,7 @@ TEST_F(Geometry, NothingIsSaidOfCleanMeshes) {
     }
 }
 
-TEST_F(Geometry, OddSceneryIsCountedByFile) {
+TEST_F(Geometry, OddStillMeshesAreCountedByFile) {
     const std::string sphere = make_poses("sphere", 2, 50);
     const std::string whole = make_poses("box", 1, 50) + "/box_0000.obj";
     // A sheet of two triangles: one is there twice; one without area, one on another, a stray

@@ -65,7 +65,7 @@ TEST_F(Memory, TooManyPosesAreRefusedBeforeAnyWork) {
         compress({"encode", path("long.bake"), "-o", path("x.paim"), "--memory", "200M"}));
 }
 
-// Three files of 4000 · 60 · 28 floats, 81 MB, and six planes of 4000 · 60 beside them, 6 MB.
+// Three files of 4000 · 60 · 28 floats, 81 MB, and six more planes of 4000 · 60, 6 MB.
 TEST_F(Memory, ThatMeasuringTakesIsAskedForBeforeAnythingIsWritten) {
     bench::SyntheticBake{4000, 60, 5}.write(directory_ / "x.bake");
     const auto command = [&](const std::string& memory) -> Arguments {

@@ -1,4 +1,5 @@
-// Bakes that are shared, interrupted and gone on with: the same bytes, whoever baked what when.
+// A bake that several processes share, or that is interrupted and resumed, has the same bytes as one made
+// in a single run.
 #include <map>
 
 #include "tests/cli/tool_test.h"

@@ -1,4 +1,4 @@
-// What a sequence stands on and among, through the tools: floors, scenery and light that bounces.
+// Floors, still meshes and bouncing light, through the tools.
 #include <fmt/format.h>
 
 #include "paim/format/bake/bake_directory.h"
@@ -57,7 +57,7 @@ TEST_F(Scenes, FarFromTheWorldsOriginAllCountFromOnePlace) {
     EXPECT_NEAR(origin, 1e6, 1.0);
     const BakedPose pose = reader.read_pose(0);
     EXPECT_EQ(pose.positions[0], static_cast<float>(1e6 - origin));
-    EXPECT_EQ(reader.scenery()->pose.positions[0], static_cast<float>(1000000.125 - origin));
+    EXPECT_EQ(reader.still_mesh()->pose.positions[0], static_cast<float>(1000000.125 - origin));
 }
 
 TEST_F(Scenes, TheFloorsHeightSaysWhereItIsCountedFrom) {
@@ -86,7 +86,7 @@ TEST_F(Scenes, AlbedoIsThatOfThePosesAlone) {
     const BakeReader reader(path("x.bake"));
     EXPECT_EQ(reader.albedo().values.front(), Vec3f::Constant(0.25f));
     EXPECT_EQ(reader.albedo().values.back(), Vec3f::Constant(0.8f));
-    EXPECT_EQ(reader.scenery()->albedo.at(0), Vec3f::Constant(0.8f));
+    EXPECT_EQ(reader.still_mesh()->albedo.at(0), Vec3f::Constant(0.8f));
 }
 
 TEST_F(Scenes, FloorOptionsNeedAFloorAndSenseOfScale) {
@@ -111,7 +111,7 @@ TEST_F(Scenes, BouncesAreNamedAndColourCostsThreeChannels) {
     EXPECT_EQ(json["bounces"], 2);
     json = parse_object(bake("red.bake", red, "plates"));
     EXPECT_EQ(json["channels"], 3);
-    // A floor or scenery of a colour is enough.
+    // A floor or still mesh with a colour is enough.
     json = parse_object(
         bake("floor.bake",
              {"--bounces", "1", "--floor", "--floor-vertices", "50", "--floor-albedo", "0,0,1"},
@@ -171,7 +171,7 @@ TEST_F(Scenes, StaticFilesAreWithinATargetToo) {
     const ToolResult said =
         compress({"encode", path("x.bake"), "-o", path("x.paim"), "--max-error", "10%"});
     expect_success(said);
-    EXPECT_TRUE(contains(said.out, "scenery: transfer ")) << said.out;
+    EXPECT_TRUE(contains(said.out, "still meshes: transfer ")) << said.out;
     const Asset asset = read_paim(path("x.paim"));
     ASSERT_NE(asset.still(), nullptr);
     EXPECT_FALSE(asset.still()->transfer->matrix.holds_floats());
@@ -213,8 +213,8 @@ TEST_F(Scenes, StaticFilesAreStoredOnceAndNamed) {
     const BakeReader reader(path("x.bake"));
     ASSERT_NE(asset.still(), nullptr);
     ASSERT_EQ(asset.still()->topology.num_vertices, 59u);
-    EXPECT_EQ(asset.still()->positions.mean_floats(), reader.scenery()->pose.positions);
-    const auto& baked = reader.scenery()->pose.transfer;  // of two bands, the first is kept
+    EXPECT_EQ(asset.still()->positions.mean_floats(), reader.still_mesh()->pose.positions);
+    const auto& baked = reader.still_mesh()->pose.transfer;  // of two bands, the first is kept
     EXPECT_EQ(asset.still()->transfer->matrix.mean_floats(),
               std::vector<float>(baked.begin(), baked.begin() + 59));
     for (const std::string file : {"x.bake", "x.paim"}) {
@@ -227,7 +227,7 @@ TEST_F(Scenes, StaticFilesAreStoredOnceAndNamed) {
     write("x.bake/notes.txt", "mine");
     EXPECT_EQ(parse_object(info({path("x.bake"), "--json"}))["size_bytes"], size_bytes);
 
-    // All of the file shows all of the bake, what stands still too; one band less is another picture.
+    // The whole file shows the whole bake, with the still mesh; one band less is another picture.
     json = parse_object(analyze({path("x.bake"), "-o", path("report"), "--size", "32",
                                  "--components", "1", "--bands", "1", "--poses", "1", "--json"}));
     EXPECT_LT(json["bands"][0]["visual_error"]["sky"], 1e-5);

@@ -1,5 +1,5 @@
-// From an error to a file: every file is within the error that was asked for, measured anew by another
-// tool; what cannot be met is refused with what can.
+// From an error to a file: every file is within the error that was asked for, measured again by another
+// tool. An error that cannot be met is refused with a message that names the best possible one.
 #include <cmath>
 
 #include "tests/cli/tool_test.h"

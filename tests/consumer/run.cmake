@@ -1,7 +1,8 @@
 # Installs the build into empty prefixes, builds the programs of tests/consumer against them and runs
-# these on every codec, precision and prefix that the installed tools write.
-#   cmake -DBUILD_DIR= -DSOURCE_DIR= -DWORK_DIR= -DBIN_DIR= -DGENERATOR= -DMAKE_PROGRAM=
-#         -DCXX_COMPILER= -DCXX_FLAGS= -DBUILD_TYPE= -P run.cmake
+# these on every codec, precision and prefix that the installed tools write. The same programs also run
+# against a shared runtime that is built without the tools' libraries.
+#   cmake -DBUILD_DIR= -DPAIM_SOURCE_DIR= -DSOURCE_DIR= -DWORK_DIR= -DBIN_DIR= -DGENERATOR= -DMAKE_PROGRAM=
+#         -DCXX_COMPILER= -DCXX_COMPILER_LAUNCHER= -DNM= -DCXX_FLAGS= -DBUILD_TYPE= -P run.cmake
 cmake_minimum_required(VERSION 3.22)
 
 # Runs a command and leaves what it says in `output`; a failure ends the test and shows it.
@@ -70,20 +71,30 @@ if(LDD AND NOT CXX_FLAGS MATCHES "sanitize")
     endif()
 endif()
 
+include(${CMAKE_CURRENT_LIST_DIR}/runtime_only.cmake)
+
 # Everything.
 set(prefix ${WORK_DIR}/all)
 run(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${prefix})
 build_against_install(${SOURCE_DIR}/tools ${WORK_DIR}/build_tools)
 set(tools ${prefix}/${BIN_DIR})
 
-# Plays a file with both programs, which have to agree; leaves what they print in `output`.
+# C++ and C, with the static runtime and with the shared one.
+set(programs
+    ${WORK_DIR}/build_runtime/paim_play_cpp ${WORK_DIR}/build_runtime/paim_play_c
+    ${WORK_DIR}/build_shared/paim_play_cpp ${WORK_DIR}/build_shared/paim_play_c)
+
+# Plays a file with all programs, which have to agree; leaves what they print in `output`.
 function(play file)
-    run(${WORK_DIR}/build_runtime/paim_play_cpp ${ARGN} ${file})
-    set(from_cpp "${output}")
-    run(${WORK_DIR}/build_runtime/paim_play_c ${ARGN} ${file})
-    if(NOT output STREQUAL from_cpp)
-        message(FATAL_ERROR "${file}: C++ shows\n${from_cpp}\nC shows\n${output}")
-    endif()
+    unset(expected)
+    foreach(program IN LISTS programs)
+        run(${program} ${ARGN} ${file})
+        if(NOT DEFINED expected)
+            set(expected "${output}")
+        elseif(NOT output STREQUAL expected)
+            message(FATAL_ERROR "${file}: the first program shows\n${expected}\n${program} shows\n${output}")
+        endif()
+    endforeach()
     set(output "${output}" PARENT_SCOPE)
 endfunction()
 
@@ -101,8 +112,8 @@ function(play_prefixes file)
     string(JSON size GET "${json}" prefixes 0 size_bytes)
     math(EXPR size "${size} - 1")
     execute_process(COMMAND head -c ${size} ${file} OUTPUT_FILE ${WORK_DIR}/prefix.paim)
-    foreach(program paim_play_cpp paim_play_c)
-        execute_process(COMMAND ${WORK_DIR}/build_runtime/${program} --prefix ${WORK_DIR}/prefix.paim
+    foreach(program IN LISTS programs)
+        execute_process(COMMAND ${program} --prefix ${WORK_DIR}/prefix.paim
             RESULT_VARIABLE result ERROR_VARIABLE message)
         if(NOT result EQUAL 2 OR NOT message MATCHES "cut short")
             message(FATAL_ERROR "${program}: expected exit code 2 and 'cut short', got ${result}: ${message}")
@@ -123,7 +134,7 @@ if(position EQUAL -1)
     message(FATAL_ERROR "expected radiance 0.5 0.25 0.75 at every vertex, got:\n${output}")
 endif()
 
-# Every codec and precision, with and without something that stands still, whole and as prefixes.
+# Every codec and precision, with and without a still mesh, whole and as prefixes.
 run(${tools}/paim-poses octopus -o ${WORK_DIR}/octopus --poses 4 --vertices 1000)
 file(GLOB still ${WORK_DIR}/poses/*.obj)
 list(GET still 0 still)
@@ -154,8 +165,8 @@ run(${WORK_DIR}/build_tools/paim_bake ${WORK_DIR}/memory.bake ${WORK_DIR}/memory
 play(${WORK_DIR}/memory.paim)
 
 # A file that is no .paim must end in Paim's error, thrown across the library's border.
-foreach(program paim_play_cpp paim_play_c)
-    execute_process(COMMAND ${WORK_DIR}/build_runtime/${program} ${CMAKE_CURRENT_LIST_FILE}
+foreach(program IN LISTS programs)
+    execute_process(COMMAND ${program} ${CMAKE_CURRENT_LIST_FILE}
         RESULT_VARIABLE result ERROR_VARIABLE message)
     if(NOT result EQUAL 2 OR NOT message MATCHES "run.cmake")
         message(FATAL_ERROR "expected exit code 2 and the file's name, got ${result}: ${message}")

@@ -1,8 +1,8 @@
 // The bytes of the file format, version by version. A version's files stay readable for ever, and
 // what is written today is exactly the newest golden file.
 //
-// PAIM_UPDATE_GOLDEN=1 writes the newest file anew; a change of format adds one and leaves the old
-// alone.
+// PAIM_UPDATE_GOLDEN=1 writes the newest file again; a change of format adds a file and leaves the old
+// ones alone.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -35,7 +35,7 @@ TEST(Golden, WritesTheNewestFileByteForByte) {
     EXPECT_EQ(read_file(directory / "x.paim", 1 << 20), read_file(kNewest, 1 << 20));
 }
 
-// What stands still came later, as sections that earlier readers pass over.
+// Still parts came later, as sections that earlier readers pass over.
 const std::filesystem::path kStill =
     std::filesystem::path(PAIM_GOLDEN_DIR) / "example_v1_scenery.paim";
 
@@ -121,7 +121,7 @@ TEST(Golden, WritesIntegersByteForByteButForTheirFrames) {
         if (section.codec == SectionCodec::indices) continue;  // meshoptimizer's
         EXPECT_EQ(contents_of(written, ours), contents_of(golden, section)) << name;
     }
-    // Two means and three components each, two coefficients of vertices and their clusters, scenery.
+    // Two means and three components each, two coefficients of vertices and their clusters, a still mesh.
     EXPECT_GE(num_planes, 10u);
 }
 

@@ -129,7 +129,7 @@ std::vector<Variant> make_variants() {
         add("i8 under a mean of i16", i16, {i8});
         add("floats, then integers", i16, {f32, i16, i8});
         add("clusters of floats", f32, {}, 7, 5);
-        add("clusters of halves, i8 coefficients", f16, {}, 7, 8, {i8});
+        add("clusters of half floats, i8 coefficients", f16, {}, 7, 8, {i8});
         add("clusters of i16, i16 coefficients", i16, {}, 7, 6, {i16});
         add("clusters of i16 and i8, i8 coefficients", i16, {i16, i8}, 7, 3, {i8});
         add("clusters, i16 coefficients, then i8", i8, {}, 5, 10, {i16, i16, i16, i16, i16, i8});

@@ -32,15 +32,15 @@ TEST(PrefixRenderer, DrawsAnotherAssetAsIfItWereTheFirst) {
     options.num_poses = 4;
     const Asset other = make_test_asset(options);
     const Image environment = make_sky();
-    SceneRenderer growing(other, environment, {});
-    Image last = draw(growing, other);
+    SceneRenderer renderer(other, environment, {});
+    Image last = draw(renderer, other);
     for (const Asset* asset : {&coarse, &whole, &other, &coarse}) {
-        growing.set_asset(*asset, {});
-        const Image image = draw(growing, *asset);
+        renderer.set_asset(*asset, {});
+        const Image image = draw(renderer, *asset);
         EXPECT_NE(image.pixels, last.pixels);
         SceneRenderer fresh(*asset, environment, {});
         EXPECT_EQ(image.pixels, draw(fresh, *asset).pixels);
-        EXPECT_EQ(growing.texture_bytes(), fresh.texture_bytes());
+        EXPECT_EQ(renderer.texture_bytes(), fresh.texture_bytes());
         last = image;
     }
 }

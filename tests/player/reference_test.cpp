@@ -92,7 +92,7 @@ class Reference : public Pictures {
         const PoseSet octopus = poses::make_octopus(4000, 6);
         const BakeOptions options{5, 64, 1};
         Surroundings surroundings;
-        surroundings.scenery.add(poses::make_pose_set(*poses::make_box_sequence(200), 1));
+        surroundings.still_mesh.add(poses::make_pose_set(*poses::make_box_sequence(200), 1));
         bake_sequence(
             octopus, options, "faces", directory_ / "x.bake", 0, 5, [](uint32_t) {}, surroundings);
         encode(BakeReader(directory_ / "x.bake"), {}, directory_ / "x.paim");

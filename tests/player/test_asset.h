@@ -30,11 +30,11 @@ struct TestAssetOptions {
 // differ little and pixels at triangle edges do not decide a comparison.
 Asset make_test_asset(const TestAssetOptions& options);
 
-// The mean pose of a mesh of codec svd, which stands still: in floats, moved along x by an offset in
+// A still part, the mean pose of a mesh of codec svd: in floats, moved along x by an offset in
 // scene units.
 CodedMesh stand_still(const CodedMesh& mesh, float offset);
 
-// Multiplies all positions, of the part that stands still as well, by 2^exponent.
+// Multiplies all positions, also those of the still part, by 2^exponent.
 void scale_asset(Asset& asset, int exponent);
 
 // Random coefficients whose constant part outweighs the rest, so that radiance is mostly positive.

@@ -33,8 +33,8 @@ struct ClusteringOptions {
     float coherence = 0.0f;
     uint64_t memory_bytes = 1'000'000'000;
 
-    // Dimensions that points are projected to: twice what subspaces fill, for only what is beside
-    // them tells one from another.
+    // Dimensions that points are projected to: twice the dimension of a cluster's subspace, because
+    // points of different clusters differ in what lies outside the subspaces.
     uint32_t num_dimensions() const { return std::max(projection, 2 * assumed_components); }
 };
 

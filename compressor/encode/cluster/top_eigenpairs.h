@@ -1,6 +1,6 @@
 // The largest eigenvalues of a Gram matrix, with their eigenvectors.
 // Based on: Rutishauser, Simultaneous Iteration Method for Symmetric Matrices, 1970; Halko,
-//           Martinsson and Tropp 2011 (the random start, and what is kept beside what is wanted)
+//           Martinsson and Tropp 2011 (the random start, and more directions than are wanted)
 #pragma once
 
 #include <Eigen/Core>

@@ -9,8 +9,8 @@
 namespace paim {
 
 std::optional<CodedMesh> still_part(const BakeReader& bake, uint32_t bands) {
-    if (!bake.scenery()) return std::nullopt;
-    const BakedScenery& baked = *bake.scenery();
+    if (!bake.still_mesh()) return std::nullopt;
+    const BakedStillMesh& baked = *bake.still_mesh();
     const TransferLayout& layout = bake.identity().layout;
     PAIM_CHECK_LE(bands, layout.in_bands);
     CodedMesh mesh;

@@ -9,19 +9,20 @@
 namespace paim {
 
 uint64_t measuring_memory_bytes(uint64_t file_bytes, uint64_t num_vertices, uint64_t num_poses,
-                                uint64_t scenery_bytes) {
+                                uint64_t still_mesh_bytes) {
     // Half floats become floats in memory, and the bytes that are read are in memory together with
     // the values that are made of them. One plane more than is measured is room for the doubles of
-    // its rows. The scenery is there as baked, in the order of the file, and decoded.
+    // its rows. The still mesh is there as baked, in the order of the file, and decoded.
     const uint64_t plane_bytes = sizeof(float) * num_vertices * num_poses;
     return std::max(3 * file_bytes, kProgramBytes + 2 * file_bytes) +
-           (kPlanesMeasured + 1) * plane_bytes + 3 * scenery_bytes;
+           (kPlanesMeasured + 1) * plane_bytes + 3 * still_mesh_bytes;
 }
 
 void check_measuring_memory(uint64_t file_bytes, uint64_t num_vertices, uint64_t num_poses,
-                            uint64_t scenery_bytes, uint64_t limit_bytes, const std::string& what) {
+                            uint64_t still_mesh_bytes, uint64_t limit_bytes,
+                            const std::string& what) {
     const uint64_t needed =
-        measuring_memory_bytes(file_bytes, num_vertices, num_poses, scenery_bytes);
+        measuring_memory_bytes(file_bytes, num_vertices, num_poses, still_mesh_bytes);
     if (needed <= limit_bytes) return;
     throw_unsupported("{}: {} are needed to measure it, but --memory allows {}", what,
                       memory_text(needed), memory_text(limit_bytes - 1));
@@ -45,8 +46,8 @@ void check_measuring_memory(const EncodeSize& bake, const TransferLayout& layout
     const uint64_t value = options.precision == Precision::f16 ? 2 : 4;
     const uint64_t of_vertex = 3 * (4 + value * counted(options.geometry, 0)) +
                                kept.num_planes() * (4 + value * counted(options.transfer, most));
-    check_measuring_memory(bake.num_vertices * of_vertex + bake.scenery_bytes / 2,
-                           bake.num_vertices, bake.num_poses, bake.scenery_bytes,
+    check_measuring_memory(bake.num_vertices * of_vertex + bake.still_mesh_bytes / 2,
+                           bake.num_vertices, bake.num_poses, bake.still_mesh_bytes,
                            options.memory_bytes, what);
 }
 

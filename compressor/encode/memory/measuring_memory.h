@@ -10,13 +10,14 @@
 namespace paim {
 
 // Peak memory of the process while it measures a file of floats of this size.
-// scenery_bytes  of the scenery in the bake
+// still_mesh_bytes  of the still mesh in the bake
 uint64_t measuring_memory_bytes(uint64_t file_bytes, uint64_t num_vertices, uint64_t num_poses,
-                                uint64_t scenery_bytes);
+                                uint64_t still_mesh_bytes);
 
 // Error (unsupported), naming `what` and the memory that is needed, if limit_bytes are too few.
 void check_measuring_memory(uint64_t file_bytes, uint64_t num_vertices, uint64_t num_poses,
-                            uint64_t scenery_bytes, uint64_t limit_bytes, const std::string& what);
+                            uint64_t still_mesh_bytes, uint64_t limit_bytes,
+                            const std::string& what);
 
 // The same for a bake that does not exist yet. Components count if they are asked for by number or
 // all; the number that `auto` will take and the rank of the geometry are not known, and count as 0.

@@ -20,8 +20,8 @@ std::string memory_text(uint64_t bytes) {
                                    : fmt::format("{} MB", bytes / 1'000'000 + 1);
 }
 
-uint64_t scenery_bytes(const Topology& topology, const Albedo& albedo,
-                       const TransferLayout& layout) {
+uint64_t still_mesh_bytes(const Topology& topology, const Albedo& albedo,
+                          const TransferLayout& layout) {
     return baked_pose_bytes(topology.num_vertices, layout) +
            topology.triangles.size() * sizeof(Triangle) + albedo.values.size() * sizeof(Vec3f);
 }
@@ -35,9 +35,9 @@ EncodeSize bake_size(const BakeReader& bake) {
     size.num_threads = static_cast<uint64_t>(max_parallelism());
     size.num_vertices = bake.identity().num_vertices;
     size.bands = layout.in_bands;
-    if (bake.scenery()) {
-        size.scenery_bytes =
-            scenery_bytes(bake.scenery()->topology, bake.scenery()->albedo, layout);
+    if (bake.still_mesh()) {
+        size.still_mesh_bytes =
+            still_mesh_bytes(bake.still_mesh()->topology, bake.still_mesh()->albedo, layout);
     }
     return size;
 }
@@ -63,9 +63,9 @@ uint64_t mesh_bytes(uint64_t num_triangles, uint64_t num_colours) {
 uint64_t encode_memory_bytes(const EncodeSize& size, uint32_t num_in_flight) {
     // P and K are below 2^20 and threads below 2^10, so that nothing here overflows.
     const uint64_t poses = size.num_poses, components = size.num_components;
-    // The bake and the model hold the mesh and the scenery; each part keeps its V and its weights.
+    // The bake and the model hold the mesh and the still mesh; each part keeps its V and its weights.
     const uint64_t held =
-        2 * mesh_bytes(size.num_triangles, size.num_colours) + 2 * size.scenery_bytes +
+        2 * mesh_bytes(size.num_triangles, size.num_colours) + 2 * size.still_mesh_bytes +
         kPoseNameBytes * poses +
         2 * (principal_components_bytes(poses) + poses * components * sizeof(float)) +
         component_noise_bytes(size.num_vertices, size.bands) +

@@ -22,12 +22,12 @@ struct EncodeSize {
     uint64_t num_threads = 1;
     uint64_t num_vertices = 0;
     uint64_t bands = 1;
-    uint64_t scenery_bytes = 0;  // scenery_bytes() of the bake
+    uint64_t still_mesh_bytes = 0;  // still_mesh_bytes() of the bake
 };
 
-// Memory of the scenery of a bake: its baked pose, triangles and colours.
-uint64_t scenery_bytes(const Topology& topology, const Albedo& albedo,
-                       const TransferLayout& layout);
+// Memory of the still mesh of a bake: its baked pose, triangles and colours.
+uint64_t still_mesh_bytes(const Topology& topology, const Albedo& albedo,
+                          const TransferLayout& layout);
 
 // Memory of triangles and colours.
 uint64_t mesh_bytes(uint64_t num_triangles, uint64_t num_colours);

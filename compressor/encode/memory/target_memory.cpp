@@ -65,8 +65,8 @@ struct Need {
     uint64_t mesh() const {
         constexpr uint64_t kPredicting = PlanePredictor::kBytesAVertex + sizeof(uint32_t);
         return 4 * mesh_bytes(size.streamed.num_triangles, size.streamed.num_colours) +
-               vertices() * (2 * kPredicting + sizeof(uint64_t)) + 4 * size.streamed.scenery_bytes +
-               kPoseNameBytes * poses();
+               vertices() * (2 * kPredicting + sizeof(uint64_t)) +
+               4 * size.streamed.still_mesh_bytes + kPoseNameBytes * poses();
     }
 
     // Integers of both parts, twice: the best model and the one that is tried. One column is

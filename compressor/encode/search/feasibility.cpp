@@ -41,7 +41,8 @@ void check_part(const EncodeProblem& problem, const TransferError& best, const c
 void check_feasible(const EncodeProblem& problem, double transfer_error) {
     check_part(problem, problem.best_achievable.transfer, "", transfer_error);
     if (!problem.best_achievable.still) return;
-    check_part(problem, problem.best_achievable.still->transfer, "of the scenery ", transfer_error);
+    check_part(problem, problem.best_achievable.still->transfer, "in the still meshes ",
+               transfer_error);
 }
 
 }  // namespace paim

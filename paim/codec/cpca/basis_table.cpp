@@ -31,7 +31,7 @@ float sum_plain(const BasisSum& combination, size_t v, size_t plane) {
     return value;
 }
 
-// out[i · stride + v] = sums[v][i] for the first num_planes of W planes
+// out[i · stride + v] = sums[v][i] for the first num_planes of W planes.
 template <int W>
 void store_planes(const float* sums, size_t count, size_t num_planes, size_t stride, float* out) {
     size_t v = 0;
@@ -55,7 +55,7 @@ void store_planes(const float* sums, size_t count, size_t num_planes, size_t str
     }
 }
 
-// sums[v − first] = planes [plane, plane + W) of at most kVertices vertices, as far as there are any.
+// sums[v − first] = planes [plane, plane + W) of at most kVertices vertices; there may be fewer.
 template <int W>
 void sum_tile(const BasisSum& combination, size_t first, size_t count, size_t plane,
               void (*add_rows)(const RowBlock&, float*), const VectorKernels& use, float* sums) {

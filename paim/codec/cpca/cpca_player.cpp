@@ -1,4 +1,4 @@
-// Pose, then light, then vertices.
+// Lights clustered transfer: rebuilds the bases of a pose, lights them, then sums them to vertices.
 // Based on: Sloan, Hall, Hart and Snyder, Clustered Principal Components for Precomputed Radiance
 //           Transfer, 2003
 #include "paim/codec/cpca/cpca_player.h"
@@ -14,16 +14,16 @@ namespace paim {
 
 namespace {
 
-constexpr size_t kBlock = 512;  // rows whose planes and sums stay in the first cache
+constexpr size_t kBlock = 512;  // rows whose planes and sums stay in the first-level cache
 using Plane = std::array<float, kBlock>;
 
-// Rows of the bases of one pose, in steps: rebuilt where they are wanted, or kept from before.
+// Rows of the bases of one pose, in steps: rebuilt when needed, or kept from an earlier frame.
 struct PoseRows {
     const LowRank& matrix;
     std::span<const float> weights;  // of the components in use
     std::span<const float> kept;     // [planes][rows], or empty
 
-    // Rows [first, first + count) of a plane; `scratch` holds them if they have to be rebuilt.
+    // Rows [first, first + count) of a plane. They are in `scratch` if they had to be rebuilt.
     const float* rows(uint32_t plane, size_t first, size_t count, Plane& scratch) const {
         const size_t start = size_t{plane} * matrix.num_points + first;
         if (!kept.empty()) return kept.data() + start;
@@ -36,7 +36,7 @@ struct PoseRows {
     }
 };
 
-// What some rows show under a light, plane by plane.
+// Sums the radiance of some rows under a light, plane by plane.
 struct LitRows {
     const PoseRows& pose;
     uint32_t num_channels;
@@ -79,9 +79,9 @@ void CpcaPlayer::decode(double time, const DecodeLimits& limits, TransferLayout&
             std::min(limits.cluster_components, transfer_.clusters.num_components), transfer);
 }
 
-// The pose comes first. With K components over time and C coefficients, a row of grey transfer then
-// costs (K + 3) C multiply-adds, of coloured transfer 3 (K + 1) C; with the light first, both cost
-// 3 (K + 1) C + 3 K. A light that turns while the pose stays costs 3 C.
+// Rebuilds the pose before it applies the light. With K components over time and C coefficients, a
+// row of grey transfer then costs (K + 3) C multiply-adds, and of coloured transfer 3 (K + 1) C.
+// With the light first, both would cost 3 (K + 1) C + 3 K. A new light for the same pose costs 3 C.
 void CpcaPlayer::basis_radiance(double time, const DecodeLimits& limits,
                                 const LightCoefficients& light,
                                 std::vector<Vec3f>& basis_radiance) {
@@ -143,7 +143,7 @@ void shade_clusters(const VertexClusters& clusters, std::span<const Vec3f> basis
     radiance.resize(clusters.cluster.size());
     constexpr size_t kVerticesATask = 4096;
     parallel_for(radiance.size(), kVerticesATask, [&](size_t begin, size_t end) {
-        constexpr size_t kVerticesATime = 128;  // their sums stay in the first cache
+        constexpr size_t kVerticesATime = 128;  // their sums stay in the first-level cache
         std::array<float, kVerticesATime * BasisTable::kNarrow> sums;
         for (size_t first = begin; first < end; first += kVerticesATime) {
             const size_t count = std::min(kVerticesATime, end - first);

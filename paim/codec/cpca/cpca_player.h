@@ -1,5 +1,6 @@
-// Light before weights: clustered transfer meets the light in the bases that vertices share, so
-// that a vertex costs a few multiply-adds a channel however many coefficients its transfer has.
+// Lights clustered transfer: the light is applied to the bases that vertices share, so that the
+// cost of a vertex is a few multiply-adds a channel, whatever the number of coefficients of its
+// transfer.
 // Based on: Sloan, Hall, Hart and Snyder, Clustered Principal Components for Precomputed Radiance
 //           Transfer, 2003
 #pragma once
@@ -25,11 +26,11 @@ class CpcaPlayer : public TransferPlayer {
     void light(double time, const DecodeLimits& limits, const LightCoefficients& light,
                const Albedo& albedo, std::vector<Vec3f>& radiance) override;
 
-    // What the rows of all bases show under a light:
+    // The radiance of the rows of all bases under a light:
     //   basis_radiance[r] = scales[r] · Σ_i row_r,i(time) L_i
-    // per channel, of every row r of every cluster; zero for components of clusters beyond the limits.
-    // Bands beyond the light's are taken as zero. From the second call with the same time and limits
-    // on, only the light is applied.
+    // per channel, of every row r of every cluster; zero for components of clusters beyond the
+    // limits. Bands that the light does not have are zero. After the first call, calls with the
+    // same time and limits only apply the light.
     // time            in poses, as decode() takes it
     // basis_radiance  [clusters · (1 + components)] linear RGB
     void basis_radiance(double time, const DecodeLimits& limits, const LightCoefficients& light,
@@ -42,7 +43,8 @@ class CpcaPlayer : public TransferPlayer {
     std::vector<float> values_;  // [planes][rows]
     BasisTable table_;
     std::vector<float> weights_;
-    // The pose that was lit last; its rows, [planes][rows] in steps, once it was lit twice.
+    // The time of the pose that was lit last. Its rows are kept from the second time that it is
+    // lit.
     std::optional<double> time_;
     DecodeLimits limits_;
     std::vector<float> pose_rows_;
@@ -50,7 +52,8 @@ class CpcaPlayer : public TransferPlayer {
 };
 
 // radiance(v) = albedo(v) · (b(c, 0) + Σ_j coefficients[j][v] · b(c, 1 + j)), c being the vertex's
-// cluster and b(c, i) the radiance of row i of its basis: what decoding and shading give, to rounding.
+// cluster and b(c, i) the radiance of row i of its basis. It equals decoding and shading up to
+// rounding.
 // basis_radiance  [rows], of CpcaPlayer::basis_radiance()
 // num_components  of clusters, in use
 // radiance        [V] linear RGB

@@ -1,4 +1,4 @@
-// Codec cpca: what it stores, what that costs, and how vertices are rebuilt from bases.
+// Codec cpca: its sections, its cost, and the rebuilding of vertices from bases.
 // Based on: Sloan, Hall, Hart and Snyder 2003 (see the header)
 #include "paim/codec/cpca/cpca_transfer.h"
 
@@ -13,8 +13,8 @@ namespace paim {
 
 namespace {
 
-// The largest magnitude of coefficients, at least 1, as rows are scaled before they meet coefficients. Of
-// integers it is that of their type, which needs no look at them.
+// The largest magnitude of coefficients, at least 1, because scaled rows are values, too. For
+// integers it is the largest of their type, without looking at the values.
 double largest_coefficient(const StoredValues& values) {
     if (!values.holds_floats()) {
         return largest_integer(values.holds_i8() ? Precision::i8 : Precision::i16);
@@ -51,7 +51,7 @@ FrameCost CpcaTransfer::cost(const TransferLayout& layout, const DecodeLimits& l
         return cpca_cost(used, clusters.num_clusters, num_components, over_time, coloured_light);
     };
     FrameCost cost = of(std::min(limits.cluster_components, clusters.num_components));
-    // Whole bases are lit, however much of them vertices use.
+    // All components of the bases are lit, even if vertices use only some of them.
     cost.cpu_per_frame = of(clusters.num_components).cpu_per_frame;
     return cost;
 }
@@ -67,7 +67,7 @@ uint64_t CpcaTransfer::vertex_bytes(uint32_t num_components) const {
 }
 
 double CpcaTransfer::vertex_gain() const {
-    std::vector<double> largest{1.0};  // by row of a basis; the mean's is always 1
+    std::vector<double> largest{1.0};  // [1 + components] of a basis; that of the mean is always 1
     for (const StoredValues& values : clusters.coefficients) {
         largest.push_back(largest_coefficient(values));
     }
@@ -83,7 +83,8 @@ double CpcaTransfer::vertex_gain() const {
     return gain;
 }
 
-// Σ_v a_v a_vᵀ over the vertices of a cluster, a_v the factors by which vertex v multiplies its rows.
+// Σ_v a_v a_vᵀ over the vertices of a cluster, a_v the factors by which vertex v multiplies its
+// rows.
 std::vector<Eigen::MatrixXd> CpcaTransfer::point_metrics() const {
     const uint32_t num_rows = clusters.rows_per_cluster();
     std::vector<Eigen::MatrixXd> metrics(clusters.num_clusters,

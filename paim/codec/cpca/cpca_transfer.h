@@ -46,10 +46,10 @@ class CpcaTransfer : public TransferModel {
     uint32_t num_stored_vertices_ = 0;  // of a file that is being read
 };
 
-// Light first. Each cluster's mean and K components are multiplied by the light once a frame; a
-// vertex has K + 1 multiply-adds a channel left, light included.
-// num_time_components  of which the clusters' bases are weighted sums in every pose; 0: kept as they
-//                      are
+// Cost of a frame. The mean and the K components of each cluster are multiplied by the light once a
+// frame. Then a vertex costs K + 1 multiply-adds a channel, light included.
+// num_time_components  whose weighted sums are the clusters' bases of a pose; 0: the bases are the
+//                      same in all poses
 FrameCost cpca_cost(const TransferLayout& layout, uint32_t num_clusters, uint32_t num_components,
                     uint32_t num_time_components, bool coloured_light);
 

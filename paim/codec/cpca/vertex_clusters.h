@@ -1,4 +1,4 @@
-// Which cluster a vertex belongs to, and what it is made of there.
+// The cluster of each vertex, and its coefficients in the basis of the cluster.
 // Based on: Sloan, Hall, Hart and Snyder, Clustered Principal Components for Precomputed Radiance
 //           Transfer, 2003
 #pragma once
@@ -13,7 +13,7 @@ namespace paim {
 constexpr uint32_t kMaxClusters = 32767;
 constexpr uint32_t kMaxClusterComponents = 255;  // of one cluster
 
-// Every vertex is a mean and a few components of its cluster:
+// The transfer of vertex v is a mean and a few components of its cluster:
 //   t(v) = scales[c][0] · row(c, 0) + Σ_j coefficients[j][v] · scales[c][1 + j] · row(c, 1 + j),
 // c being its cluster and row(c, i) row c · rows_per_cluster() + i of the bases.
 struct VertexClusters {

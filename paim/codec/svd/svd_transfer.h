@@ -1,4 +1,4 @@
-// Codec svd: every vertex has components of its own, and the decoder is M + U·W, plane by plane.
+// Codec svd: each vertex has its own components, and decoding is M + U·W, plane by plane.
 // Based on: Cardoso and Kry, Error Analysis of Precomputed Radiance Transfer for Deforming
 //           Geometry, 2012
 #pragma once
@@ -26,8 +26,8 @@ class SvdTransfer : public TransferModel {
     uint32_t start(uint32_t num_vertices) override { return num_vertices; }
 };
 
-// Weights first, then light. A vertex rebuilds all its coefficients, (K + 1) multiply-adds each, and
-// only then meets the light.
+// Cost of a frame. A vertex rebuilds all its coefficients, (K + 1) multiply-adds each, and
+// multiplies them by the light.
 FrameCost svd_cost(const TransferLayout& layout, uint32_t num_components, bool coloured_light);
 
 }  // namespace paim

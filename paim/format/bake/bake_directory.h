@@ -16,36 +16,35 @@
 
 namespace paim {
 
-// Everything that decides the bytes of a bake. Two bakes with the same identity may share a
-// directory.
+// Everything that decides the bytes of a bake. Bakes with the same identity may share a directory.
 struct BakeIdentity {
-    uint32_t baker = 0;  // version of the baker, raised whenever the bytes it makes change
+    uint32_t baker = 0;  // version of the baker, raised whenever its results change
     TransferLayout layout;
-    uint32_t rays = 0;  // per vertex; with a transfer_error, the most
+    uint32_t rays = 0;  // per vertex; with a transfer_error, the largest number
     uint64_t seed = 0;
-    double transfer_error = 0.0;  // what every vertex was baked to, 0: a fixed count of rays
+    double transfer_error = 0.0;  // noise target of every vertex; 0: a fixed count of rays
     std::string sampler;          // "cosine", "uniform" or "uniform-sobol"
     std::string streams;          // "per-pose", "shared" or "mixed"
     std::string normals;          // "faces" or "file"
-    uint32_t bounces = 0;         // of light between vertices
-    std::string floor;            // what ground was put under the poses; empty if none
+    uint32_t bounces = 0;         // number of times that light bounces
+    std::string floor;            // description of the ground under the poses; empty if none
     uint32_t num_vertices = 0;
     uint32_t num_triangles = 0;
     uint64_t mesh_xxh3 = 0;        // of triangles and albedo
-    Vec3d origin = Vec3d::Zero();  // what positions are counted from, scene units
+    Vec3d origin = Vec3d::Zero();  // origin of positions, scene units
     struct Source {
         std::string name;
         uint64_t xxh3 = 0;
         bool operator==(const Source&) const = default;
     };
-    std::vector<Source> poses;    // [P]
-    std::vector<Source> scenery;  // what stands still among them, checksums of all that was read
+    std::vector<Source> poses;         // [P]
+    std::vector<Source> still_meshes;  // checksums of all bytes that were read for them
 
     uint32_t num_poses() const { return static_cast<uint32_t>(poses.size()); }
     bool operator==(const BakeIdentity&) const = default;
 };
 
-// Checksum of what all poses share.
+// Checksum of the triangles and the albedo, which all poses share.
 uint64_t mesh_checksum(const Topology& topology, const Albedo& albedo);
 
 // One baked pose. Planes as in transfer/layout.h.
@@ -53,8 +52,8 @@ struct BakedPose {
     std::vector<float> positions;  // [3][V] scene units
     std::vector<float> normals;    // [3][V]
     std::vector<float> transfer;   // [planes][V]
-    // [planes][V] half the difference of the two estimates whose mean is the transfer. It is one draw
-    // with the mean (0) and the variance of the transfer's error, and uncorrelated with it
+    // [planes][V] half the difference of the two estimates whose mean is the transfer. It is one
+    // draw with the mean (0) and the variance of the transfer's error, and uncorrelated with it
     // (docs/algorithms/transfer.md). Files hold it as f16.
     std::vector<float> noise;
     PoseStatistics statistics;
@@ -65,48 +64,48 @@ inline uint64_t baked_pose_bytes(uint64_t num_vertices, const TransferLayout& la
     return (6 + 2 * uint64_t{layout.num_planes()}) * num_vertices * sizeof(float);
 }
 
-// The number of the scenery where poses have theirs: in random streams and in metadata.
-constexpr uint32_t kSceneryPose = std::numeric_limits<uint32_t>::max();
+// The pose number of the still meshes in random streams and in metadata.
+constexpr uint32_t kStillMeshPose = std::numeric_limits<uint32_t>::max();
 
-// What stands still among the poses, baked once, without them.
-struct BakedScenery {
+// The still meshes among the poses as one mesh, baked once, without the poses.
+struct BakedStillMesh {
     Topology topology;
     Albedo albedo;
     BakedPose pose;
 };
 
-// What the bake of pose p found out about itself. Errors (bad input) name the file: damaged, or of
-// another pose or bake than the one with this checksum (bake_manifest.h) and number of bands.
+// Reads the statistics of pose p. Errors (bad input) name the file: damaged, of another pose, or of
+// another bake than that with this checksum (bake_manifest.h) and number of bands.
 PoseStatistics read_bake_statistics(const std::filesystem::path& directory,
                                     uint64_t identity_checksum, uint32_t p, uint32_t bands);
 
-// The scenery of a bake. Errors (bad input) name the file: missing, damaged, of another bake, or
-// shapes, indices or numbers that make no sense.
-BakedScenery read_bake_scenery(const std::filesystem::path& directory, uint64_t identity_checksum,
-                               const TransferLayout& layout);
+// Reads the still meshes of a bake. Errors (bad input) name the file: missing, damaged, of another
+// bake, or with invalid shapes, indices or numbers.
+BakedStillMesh read_bake_still_mesh(const std::filesystem::path& directory,
+                                    uint64_t identity_checksum, const TransferLayout& layout);
 
-// Writes a bake, possibly one that was begun before.
+// Writes a bake, or resumes one.
 class BakeWriter {
   public:
-    // Creates the directory, or goes on with the one that is there. Errors: bad input if it holds a
-    // bake of another identity (the first difference is named) or other files; output failed.
+    // Creates the directory, or resumes the bake in it. Errors: bad input if it holds a bake of
+    // another identity (the first difference is named) or other files; output failed.
     BakeWriter(std::filesystem::path directory, const BakeIdentity& identity,
                const Topology& topology, const Albedo& albedo);
 
-    // Whether pose p is there, whole and of this identity.
+    // Whether the bake has the whole pose p, of this identity.
     bool has_pose(uint32_t p) const;
 
-    // What the bake of a pose that is there found out about itself.
+    // The statistics of a pose that has been baked.
     PoseStatistics read_statistics(uint32_t p) const {
         return read_bake_statistics(directory_, identity_checksum_, p, identity_.layout.in_bands);
     }
 
-    // All or nothing; may be called from several threads.
+    // Writes the file of a pose completely or not at all. May be called from several threads.
     void write_pose(uint32_t p, const BakedPose& pose) const;
 
-    // The same for the scenery of a bake whose identity names some.
-    bool has_scenery() const;
-    void write_scenery(const BakedScenery& scenery) const;
+    // The same for the still meshes of a bake whose identity names some.
+    bool has_still_mesh() const;
+    void write_still_mesh(const BakedStillMesh& still_mesh) const;
 
   private:
     std::filesystem::path directory_;
@@ -126,8 +125,8 @@ class BakeReader {
     const Albedo& albedo() const { return albedo_; }
     uint32_t num_poses() const { return identity_.num_poses(); }
 
-    // Nothing if the bake has none.
-    const std::optional<BakedScenery>& scenery() const { return scenery_; }
+    // The still meshes; nothing if the bake has none.
+    const std::optional<BakedStillMesh>& still_mesh() const { return still_mesh_; }
 
     // Reads every byte of pose p and checks it. May be called from several threads.
     BakedPose read_pose(uint32_t p) const;
@@ -135,13 +134,13 @@ class BakeReader {
         return read_bake_statistics(directory_, identity_checksum_, p, identity_.layout.in_bands);
     }
 
-    // Of all files that belong to it.
+    // Size of all files of the bake.
     uint64_t size_bytes() const;
 
-    // Of all poses together.
+    // Statistics of all poses together.
     PoseStatistics total_statistics() const;
 
-    // Checks the checksums of all poses, once, before rows are streamed.
+    // Checks the checksums of all poses. Call it once before rows are read.
     void verify_all() const;
 
     // Rows [first, first + count) of positions (3 · V rows), transfer or noise (planes · V rows) of
@@ -156,10 +155,10 @@ class BakeReader {
     uint64_t identity_checksum_;
     Topology topology_;
     Albedo albedo_;
-    std::optional<BakedScenery> scenery_;
+    std::optional<BakedStillMesh> still_mesh_;
 };
 
 std::filesystem::path bake_pose_file(const std::filesystem::path& directory, uint32_t p);
-std::filesystem::path bake_scenery_file(const std::filesystem::path& directory);
+std::filesystem::path bake_still_mesh_file(const std::filesystem::path& directory);
 
 }  // namespace paim

@@ -22,7 +22,7 @@ constexpr uint32_t kManifestVersion = 2;
 constexpr uint32_t kMaxCount = std::numeric_limits<int32_t>::max();
 constexpr uint64_t kMaxSizeBytes = 64 << 20;
 
-// 64-bit numbers travel as 16 hexadecimal digits, since JSON readers may round them.
+// 64-bit numbers are 16 hexadecimal digits, because JSON readers may round numbers.
 std::string hex(uint64_t value) {
     return fmt::format("{:016x}", value);
 }
@@ -40,7 +40,7 @@ std::string shown(const Vec3d& point) {
     return fmt::format("({}, {}, {})", point.x(), point.y(), point.z());
 }
 
-// Of two lists of the same length.
+// The first difference of two lists of the same length, in words; empty if there is none.
 std::string first_difference(const char* what, const std::vector<BakeIdentity::Source>& there,
                              const std::vector<BakeIdentity::Source>& wanted) {
     for (size_t j = 0; j < wanted.size(); ++j) {
@@ -78,14 +78,14 @@ std::string manifest_text(const BakeIdentity& identity) {
     json["num_vertices"] = identity.num_vertices;
     json["num_triangles"] = identity.num_triangles;
     json["mesh_xxh3"] = hex(identity.mesh_xxh3);
-    // JSON numbers are written with all the digits that bring the same double back.
+    // JSON numbers are written with enough digits to read the same double.
     if (const Vec3d& o = identity.origin; !o.isZero(0.0)) json["origin"] = {o.x(), o.y(), o.z()};
     ordered_json poses = ordered_json::array();
     for (const auto& pose : identity.poses) {
         poses.push_back({{"name", pose.name}, {"xxh3", hex(pose.xxh3)}});
     }
     json["poses"] = std::move(poses);
-    for (const auto& source : identity.scenery) {
+    for (const auto& source : identity.still_meshes) {
         json["static"].push_back({{"name", source.name}, {"xxh3", hex(source.xxh3)}});
     }
     return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
@@ -136,12 +136,13 @@ BakeIdentity read_manifest(const std::filesystem::path& path) {
                                     parse_hex(source.text("xxh3"), file, "xxh3")};
     };
     for (const nlohmann::json& entry : *poses) identity.poses.push_back(source_of(entry));
-    const auto scenery = metadata.root().find("static");
-    if (scenery == metadata.root().end()) return identity;
-    if (!scenery->is_array() || scenery->empty()) {
+    const auto still_meshes = metadata.root().find("static");
+    if (still_meshes == metadata.root().end()) return identity;
+    if (!still_meshes->is_array() || still_meshes->empty()) {
         throw_bad_input("{}: 'static': expected a list of at least one file", file);
     }
-    for (const nlohmann::json& entry : *scenery) identity.scenery.push_back(source_of(entry));
+    for (const nlohmann::json& entry : *still_meshes)
+        identity.still_meshes.push_back(source_of(entry));
     return identity;
 }
 
@@ -165,13 +166,13 @@ std::string first_difference(const BakeIdentity& there, const BakeIdentity& want
           differ("triangles", there.num_triangles, wanted.num_triangles),
           differ("poses", there.num_poses(), wanted.num_poses()),
           differ("origin", shown(there.origin), shown(wanted.origin)),
-          differ("static files", there.scenery.size(), wanted.scenery.size()),
+          differ("static files", there.still_meshes.size(), wanted.still_meshes.size()),
           differ("checksum of faces and albedo", hex(there.mesh_xxh3), hex(wanted.mesh_xxh3))}) {
         if (!difference.empty()) return difference;
     }
     const std::string difference = first_difference("pose", there.poses, wanted.poses);
     if (!difference.empty()) return difference;
-    return first_difference("static file", there.scenery, wanted.scenery);
+    return first_difference("static file", there.still_meshes, wanted.still_meshes);
 }
 
 uint64_t identity_checksum(const BakeIdentity& identity) {

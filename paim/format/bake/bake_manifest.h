@@ -8,8 +8,8 @@
 
 namespace paim {
 
-// The text as a manifest gives it back: bytes that are not UTF-8 (file names may have them)
-// replaced.
+// The text after it was written to a manifest and read from it: bytes that are not UTF-8, which
+// file names may have, are replaced.
 std::string as_manifest_text(const std::string& text);
 
 std::string manifest_text(const BakeIdentity& identity);
@@ -17,11 +17,11 @@ std::string manifest_text(const BakeIdentity& identity);
 // Errors (bad input, unsupported) name the file and the member.
 BakeIdentity read_manifest(const std::filesystem::path& path);
 
-// The first difference between a bake that is there and one that is asked for, in words; empty if
+// The first difference between the existing bake and the wanted one, in words; empty if there is
 // none.
 std::string first_difference(const BakeIdentity& there, const BakeIdentity& wanted);
 
-// The checksum by which a pose file knows the bake it belongs to.
+// The checksum that pose files have of the identity of their bake.
 uint64_t identity_checksum(const BakeIdentity& identity);
 
 }  // namespace paim

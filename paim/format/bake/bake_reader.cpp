@@ -22,7 +22,7 @@ const Section& require_planes(const ContainerReader& reader, Tag tag, uint32_t n
     const Section& section = reader.require(tag, type);
     const auto& shape = section.spec.shape;
     if (shape[0] != 1 || shape[1] != num_planes || shape[2] != num_vertices) {
-        throw_bad_input("{}: section {}: {} x {} x {} values, expected {} x {}", reader.path(),
+        throw_bad_input("{}: section {}: {} x {} x {} values, expected {} x {}", reader.name(),
                         tag.str(), shape[0], shape[1], shape[2], num_planes, num_vertices);
     }
     return section;
@@ -31,10 +31,10 @@ const Section& require_planes(const ContainerReader& reader, Tag tag, uint32_t n
 PoseStatistics read_statistics_of(const ContainerReader& reader, uint64_t identity_checksum,
                                   uint32_t p, uint32_t bands) {
     const Metadata metadata(reader.read_text(reader.require(section::kMetadata, ScalarType::u8)),
-                            reader.path());
+                            reader.name());
     const std::string bake = fmt::format("{:016x}", identity_checksum);
     if (metadata.text("bake") != bake) {
-        throw_bad_input("{}: belongs to bake {}, expected {}", reader.path(), metadata.text("bake"),
+        throw_bad_input("{}: belongs to bake {}, expected {}", reader.name(), metadata.text("bake"),
                         bake);
     }
     metadata.integer("pose", p, p);
@@ -57,7 +57,7 @@ PoseStatistics read_statistics_of(const ContainerReader& reader, uint64_t identi
     return statistics;
 }
 
-// What read_pose() checks, without the whole section in memory.
+// The checks of read_pose(), without the whole section in memory.
 void verify_planes(const ContainerReader& reader, const Section& section) {
     reader.verify(section);
     constexpr uint64_t kPiece = 1 << 18;  // 1 MB
@@ -73,7 +73,7 @@ void verify_planes(const ContainerReader& reader, const Section& section) {
 }  // namespace
 
 BakeReader::BakeReader(std::filesystem::path directory) : directory_(std::move(directory)) {
-    // "x.bake/" is x.bake, also where its name is asked for.
+    // The path "x.bake/" has no filename; "x.bake" has one.
     if (!directory_.has_filename()) directory_ = directory_.parent_path();
     if (!std::filesystem::is_directory(directory_)) {
         throw_bad_input("{}: expected a .bake directory, got {}", directory_.string(),
@@ -89,10 +89,10 @@ BakeReader::BakeReader(std::filesystem::path directory) : directory_(std::move(d
     topology_ = read_triangles(mesh, identity_.num_vertices);
     albedo_ = read_albedo(mesh, identity_.num_vertices);
     if (mesh_checksum(topology_, albedo_) != identity_.mesh_xxh3) {
-        throw_bad_input("{}: not the mesh that the manifest names", mesh.path());
+        throw_bad_input("{}: not the mesh that the manifest names", mesh.name());
     }
-    if (!identity_.scenery.empty()) {
-        scenery_ = read_bake_scenery(directory_, identity_checksum_, identity_.layout);
+    if (!identity_.still_meshes.empty()) {
+        still_mesh_ = read_bake_still_mesh(directory_, identity_checksum_, identity_.layout);
     }
     uint32_t num_missing = 0;
     uint32_t first_missing = 0;
@@ -105,7 +105,7 @@ BakeReader::BakeReader(std::filesystem::path directory) : directory_(std::move(d
         throw_bad_input("{}: {} of {} poses are missing, the first is {}; bake them first",
                         directory_.string(), num_missing, num_poses(), first_missing);
     }
-    // The manifest's count of vertices is believed only once a file holds that many.
+    // Before memory is taken for the manifest's number of vertices, a pose must have as many.
     const ContainerReader pose(bake_pose_file(directory_, 0), section::kKindPose);
     read_statistics_of(pose, identity_checksum_, 0, identity_.layout.in_bands);
     require_planes(pose, section::kPositions, 3, identity_.num_vertices);
@@ -115,7 +115,7 @@ BakeReader::BakeReader(std::filesystem::path directory) : directory_(std::move(d
 uint64_t BakeReader::size_bytes() const {
     uint64_t total = std::filesystem::file_size(directory_ / "manifest.json") +
                      std::filesystem::file_size(directory_ / "mesh.bin");
-    if (scenery_) total += std::filesystem::file_size(bake_scenery_file(directory_));
+    if (still_mesh_) total += std::filesystem::file_size(bake_still_mesh_file(directory_));
     for (uint32_t p = 0; p < num_poses(); ++p) {
         total += std::filesystem::file_size(bake_pose_file(directory_, p));
     }
@@ -142,22 +142,22 @@ PoseStatistics read_bake_statistics(const std::filesystem::path& directory,
     return read_statistics_of(reader, identity_checksum, p, bands);
 }
 
-BakedScenery read_bake_scenery(const std::filesystem::path& directory, uint64_t identity_checksum,
-                               const TransferLayout& layout) {
-    const ContainerReader reader(bake_scenery_file(directory), section::kKindMesh);
-    BakedScenery scenery;
-    scenery.pose.statistics =
-        read_statistics_of(reader, identity_checksum, kSceneryPose, layout.in_bands);
+BakedStillMesh read_bake_still_mesh(const std::filesystem::path& directory,
+                                    uint64_t identity_checksum, const TransferLayout& layout) {
+    const ContainerReader reader(bake_still_mesh_file(directory), section::kKindMesh);
+    BakedStillMesh still_mesh;
+    still_mesh.pose.statistics =
+        read_statistics_of(reader, identity_checksum, kStillMeshPose, layout.in_bands);
     const uint32_t num_vertices = count_vertices(reader, section::kPositions);
-    scenery.pose.positions = read_planes(reader, section::kPositions, 3, num_vertices);
-    scenery.pose.normals = read_planes(reader, section::kNormals, 3, num_vertices);
-    scenery.pose.transfer =
+    still_mesh.pose.positions = read_planes(reader, section::kPositions, 3, num_vertices);
+    still_mesh.pose.normals = read_planes(reader, section::kNormals, 3, num_vertices);
+    still_mesh.pose.transfer =
         read_planes(reader, section::kTransfer, layout.num_planes(), num_vertices);
-    scenery.pose.noise =
+    still_mesh.pose.noise =
         read_planes(reader, section::kNoise, layout.num_planes(), num_vertices, ScalarType::f16);
-    scenery.topology = read_triangles(reader, num_vertices);
-    scenery.albedo = read_albedo(reader, num_vertices);
-    return scenery;
+    still_mesh.topology = read_triangles(reader, num_vertices);
+    still_mesh.albedo = read_albedo(reader, num_vertices);
+    return still_mesh;
 }
 
 PoseStatistics BakeReader::total_statistics() const {

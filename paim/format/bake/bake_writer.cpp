@@ -36,9 +36,9 @@ std::string pose_metadata(uint64_t bake, uint32_t p, const PoseStatistics& stati
     return json.dump(2) + "\n";
 }
 
-// Whether nothing is here but what comes before the manifest: this bake is being begun by another
-// process just now, or was killed while it began.
-bool holds_only_a_beginning(const std::filesystem::path& directory) {
+// Whether the directory has only files that are written up to the manifest: another process is
+// starting the bake now, or was killed while it did.
+bool is_only_started(const std::filesystem::path& directory) {
     for (const auto& entry : std::filesystem::directory_iterator(directory)) {
         const std::string name = entry.path().filename().string();
         if (name != "mesh.bin" && name != "manifest.json" && !is_temporary_name(name)) return false;
@@ -59,7 +59,7 @@ std::vector<SectionPlan> pose_specs(const std::string& metadata, uint32_t num_ve
         SectionSpec{section::kNoise, ScalarType::f16, 0, {1, num_planes, num_vertices}}};
 }
 
-// Fills the sections of pose_specs(), which come first.
+// Fills the sections of pose_specs(), which are the first ones.
 void append_pose(ContainerWriter& writer, const std::string& metadata, const BakedPose& pose) {
     writer.append(0, metadata.data(), metadata.size());
     writer.append(1, std::span(pose.positions));
@@ -87,7 +87,7 @@ uint64_t mesh_checksum(const Topology& topology, const Albedo& albedo) {
     return hash.digest();
 }
 
-std::filesystem::path bake_scenery_file(const std::filesystem::path& directory) {
+std::filesystem::path bake_still_mesh_file(const std::filesystem::path& directory) {
     return directory / "scenery.bin";
 }
 
@@ -99,7 +99,7 @@ BakeWriter::BakeWriter(std::filesystem::path directory, const BakeIdentity& iden
                        const Topology& topology, const Albedo& albedo)
     : directory_(std::move(directory)), identity_(identity) {
     for (auto& source : identity_.poses) source.name = as_manifest_text(source.name);
-    for (auto& source : identity_.scenery) source.name = as_manifest_text(source.name);
+    for (auto& source : identity_.still_meshes) source.name = as_manifest_text(source.name);
     identity_checksum_ = identity_checksum(identity_);
     const std::filesystem::path manifest = directory_ / "manifest.json";
     if (std::filesystem::exists(manifest)) {
@@ -108,12 +108,12 @@ BakeWriter::BakeWriter(std::filesystem::path directory, const BakeIdentity& iden
             throw_bad_input("{}: holds another bake ({}); choose another output or remove it",
                             directory_.string(), difference);
         }
-    } else if (std::filesystem::is_directory(directory_) && !holds_only_a_beginning(directory_)) {
+    } else if (std::filesystem::is_directory(directory_) && !is_only_started(directory_)) {
         throw_bad_input("{}: is not empty and not a bake (no manifest.json)", directory_.string());
     }
     ensure_directory(directory_);
     remove_abandoned_files(directory_);
-    // The manifest comes last: where it is, the mesh is.
+    // The manifest is written last, so that a directory with a manifest has a mesh.
     write_mesh(directory_ / "mesh.bin", topology, albedo);
     write_file(manifest, manifest_text(identity_));
 }
@@ -130,10 +130,10 @@ bool BakeWriter::has_pose(uint32_t p) const {
     }
 }
 
-bool BakeWriter::has_scenery() const {
-    if (!std::filesystem::exists(bake_scenery_file(directory_))) return false;
+bool BakeWriter::has_still_mesh() const {
+    if (!std::filesystem::exists(bake_still_mesh_file(directory_))) return false;
     try {
-        read_bake_scenery(directory_, identity_checksum_, identity_.layout);
+        read_bake_still_mesh(directory_, identity_checksum_, identity_.layout);
         return true;
     } catch (const Error&) {
         return false;
@@ -151,19 +151,19 @@ void BakeWriter::write_pose(uint32_t p, const BakedPose& pose) const {
     writer.commit();
 }
 
-void BakeWriter::write_scenery(const BakedScenery& scenery) const {
-    const uint32_t num_vertices = scenery.topology.num_vertices;
+void BakeWriter::write_still_mesh(const BakedStillMesh& still_mesh) const {
+    const uint32_t num_vertices = still_mesh.topology.num_vertices;
     const uint32_t num_planes = identity_.layout.num_planes();
-    PAIM_CHECK_EQ(scenery.pose.transfer.size(), size_t{num_planes} * num_vertices);
-    PAIM_CHECK_EQ(scenery.pose.noise.size(), scenery.pose.transfer.size());
+    PAIM_CHECK_EQ(still_mesh.pose.transfer.size(), size_t{num_planes} * num_vertices);
+    PAIM_CHECK_EQ(still_mesh.pose.noise.size(), still_mesh.pose.transfer.size());
     const std::string metadata =
-        pose_metadata(identity_checksum_, kSceneryPose, scenery.pose.statistics);
+        pose_metadata(identity_checksum_, kStillMeshPose, still_mesh.pose.statistics);
     std::vector<SectionPlan> specs = pose_specs(metadata, num_vertices, num_planes);
-    specs.push_back(triangles_spec(scenery.topology));
-    specs.push_back(albedo_spec(scenery.albedo));
-    ContainerWriter writer(bake_scenery_file(directory_), section::kKindMesh, specs);
-    append_pose(writer, metadata, scenery.pose);
-    append_mesh(writer, 5, 6, scenery.topology, scenery.albedo);
+    specs.push_back(triangles_spec(still_mesh.topology));
+    specs.push_back(albedo_spec(still_mesh.albedo));
+    ContainerWriter writer(bake_still_mesh_file(directory_), section::kKindMesh, specs);
+    append_pose(writer, metadata, still_mesh.pose);
+    append_mesh(writer, 5, 6, still_mesh.topology, still_mesh.albedo);
     writer.commit();
 }
 

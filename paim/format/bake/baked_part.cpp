@@ -18,7 +18,7 @@ void copy_rows(std::span<const float> rows, uint64_t first, uint64_t count, floa
 }  // namespace
 
 BakedPart::BakedPart(const BakeReader& bake, size_t number)
-    : bake_(bake), still_(number == 0 ? nullptr : &bake.scenery().value()) {
+    : bake_(bake), still_(number == 0 ? nullptr : &bake.still_mesh().value()) {
     PAIM_CHECK_LT(number, num_baked_parts(bake));
 }
 

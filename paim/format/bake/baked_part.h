@@ -1,4 +1,4 @@
-// One part of a bake: what moves, or what stands still around it. Both are read alike.
+// One part of a bake, moving or still, with one interface for both.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,8 @@ namespace paim {
 
 class BakedPart {
   public:
-    // Keeps a reference to the bake. number  0: what moves; 1: what stands still (checked: there is one)
+    // Keeps a reference to the bake.
+    // number  0: the moving part; 1: the still part, which must exist (checked)
     BakedPart(const BakeReader& bake, size_t number);
 
     const Topology& topology() const;
@@ -26,12 +27,12 @@ class BakedPart {
 
   private:
     const BakeReader& bake_;
-    const BakedScenery* still_;  // or nullptr
+    const BakedStillMesh* still_;  // nullptr: the moving part
 };
 
-// 1, or 2 with something that stands still.
+// 1, or 2 with still meshes.
 inline size_t num_baked_parts(const BakeReader& bake) {
-    return bake.scenery() ? 2 : 1;
+    return bake.still_mesh() ? 2 : 1;
 }
 
 }  // namespace paim

@@ -1,4 +1,4 @@
-// What a bake found out about itself.
+// Statistics of a bake.
 #include "paim/format/bake/pose_statistics.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Bytes of files, on POSIX calls so that failures keep their reason, and of memory.
+// Bytes of files and of memory. Files are read by POSIX calls, so that errors keep their reason.
 #include "paim/format/container/byte_source.h"
 
 #include <fcntl.h>
@@ -16,7 +16,7 @@ namespace paim {
 ByteSource::~ByteSource() = default;
 
 FileSource::FileSource(const std::filesystem::path& path)
-    // Not blocking, so that a pipe is refused below instead of waited for; files do not care.
+    // Non-blocking, so that a pipe is refused below instead of waited for. Regular files ignore it.
     : path_(path), descriptor_(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {
     if (descriptor_ < 0)
         throw_bad_input("{}: cannot open: {}", path.string(), std::strerror(errno));

@@ -1,4 +1,4 @@
-// Where the bytes of a Paim file come from: a file, memory, or anything else that a program has.
+// Sources of the bytes of a Paim file: a file, memory, or a class of the program.
 #pragma once
 
 #include <cstddef>
@@ -6,27 +6,26 @@
 #include <filesystem>
 #include <span>
 
-#include "paim/base/export.h"
-
 namespace paim {
 
-// Bytes that are read in any order, by several threads at once.
-class PAIM_EXPORT ByteSource {
+// Bytes that several threads may read at once, in any order.
+class ByteSource {
   public:
     virtual ~ByteSource();
 
-    // How many bytes there are now. A source that grows has more later, never fewer.
+    // The number of bytes that can be read now. It may grow later, but never shrinks.
     virtual uint64_t size_bytes() const = 0;
 
-    // Fills `out` with the bytes from `offset` on. Returns how many there were: out.size(), or fewer
-    // where the source ends. Error (bad input) if bytes that are there cannot be read.
+    // Fills `out` with the bytes from `offset` on. Returns the number of bytes read: out.size(), or
+    // fewer if the source ends. Error (bad input) if bytes below size_bytes() cannot be read.
     virtual size_t read(uint64_t offset, std::span<uint8_t> out) const = 0;
 };
 
-// A file, whole or still growing: its size is that of the moment.
-class PAIM_EXPORT FileSource : public ByteSource {
+// A file. It may still be growing: size_bytes() is its present size.
+class FileSource : public ByteSource {
   public:
-    // Opens it. Errors (bad input) name the path: it cannot be opened, or is no regular file.
+    // Opens the file. Errors (bad input) name the path: it cannot be opened, or is not a regular
+    // file.
     explicit FileSource(const std::filesystem::path& path);
     ~FileSource() override;
     FileSource(const FileSource&) = delete;
@@ -43,7 +42,7 @@ class PAIM_EXPORT FileSource : public ByteSource {
 };
 
 // Bytes in memory, which outlive the source and do not change.
-class PAIM_EXPORT MemorySource : public ByteSource {
+class MemorySource : public ByteSource {
   public:
     explicit MemorySource(std::span<const uint8_t> bytes) : bytes_(bytes) {}
 

@@ -26,7 +26,7 @@ struct Tag {
 
 enum class ScalarType : uint8_t { u8 = 0, u32 = 1, f16 = 2, f32 = 3, f64 = 4, i8 = 5, i16 = 6 };
 
-// Bytes of one value; 0 for a number that is no ScalarType.
+// Size of one value; 0 for a number that is not a ScalarType.
 constexpr uint64_t scalar_size_bytes(ScalarType type) {
     switch (type) {
         case ScalarType::u8:
@@ -47,21 +47,21 @@ constexpr uint64_t scalar_size_bytes(ScalarType type) {
 
 std::string_view scalar_name(ScalarType type);
 
-// How the values of a section became the bytes that are stored.
+// How the values of a section are stored.
 enum class SectionCodec : uint8_t {
-    none = 0,  // they are the same
+    none = 0,  // as they are
     zstd = 1,  // one Zstandard frame
     indices =
         2,  // triangles: meshoptimizer's index codec, then as zstd (format/pack/index_encoder.h)
     planes = 3,  // integers: predicted and packed, then as zstd (format/pack/plane_encoder.h)
 };
 
-// What a section holds: an array of up to three dimensions, the last one contiguous. Unused
+// The contents of a section: an array of up to three dimensions, the last one contiguous. Unused
 // dimensions come first and are 1.
 struct SectionSpec {
     Tag tag;
     ScalarType type = ScalarType::u8;
-    uint32_t index = 0;  // tells sections of the same tag apart, e.g. the component
+    uint32_t index = 0;  // number of the section among those with its tag, such as the component
     std::array<uint32_t, 3> shape{1, 1, 0};
 
     uint64_t num_values() const { return uint64_t{shape[0]} * shape[1] * shape[2]; }
@@ -69,7 +69,7 @@ struct SectionSpec {
     bool operator==(const SectionSpec&) const = default;
 };
 
-// Where it lies in a file.
+// A section and its place in a file.
 struct Section {
     SectionSpec spec;
     uint64_t offset = 0;
@@ -78,12 +78,12 @@ struct Section {
     SectionCodec codec = SectionCodec::none;
 };
 
-// The values of all sections of a file take at most this many bytes and the file's size times the
-// expansion below; anything else claims more than it can hold.
+// The values of all sections of a file take at most this many bytes plus the file's size times the
+// expansion below. A file that claims more is refused.
 constexpr uint64_t kMaxFreeBytes = uint64_t{1} << 26;
 constexpr uint64_t kMaxExpansion = 1024;
 
-// So many for a file of this size.
+// The limit for a file of this size.
 constexpr uint64_t most_bytes_of_values(uint64_t file_size_bytes) {
     constexpr uint64_t kMax = std::numeric_limits<uint64_t>::max() - kMaxFreeBytes;
     const uint64_t expanded =

@@ -38,7 +38,7 @@ std::string_view scalar_name(ScalarType type) {
 
 namespace {
 
-// Bytes that sections take or claim together, which may not be more than so many.
+// Sums the bytes that sections take or claim, up to a limit.
 class ByteBudget {
   public:
     explicit ByteBudget(uint64_t most) : most_(most), left_(most) {}
@@ -53,7 +53,7 @@ class ByteBudget {
     uint64_t most_, left_;
 };
 
-// a · b, or the largest number if that overflows.
+// a · b, or the largest number if the product overflows.
 uint64_t saturating_product(uint64_t a, uint64_t b) {
     uint64_t product = 0;
     return __builtin_mul_overflow(a, b, &product) ? std::numeric_limits<uint64_t>::max() : product;
@@ -150,8 +150,8 @@ ContainerReader::ContainerReader(std::shared_ptr<const ByteSource> source, std::
 
 void ContainerReader::check_table(const std::vector<TableEntry>& table, uint64_t whole_size_bytes) {
     const uint64_t table_end = sizeof(Header) + table.size() * sizeof(TableEntry);
-    // Sections that share bytes would let a small file claim any amount of memory, and so would a
-    // header that claims any size: only what is there counts.
+    // Sections that share bytes would let a small file claim any amount of memory, and so would the
+    // size in the header. So the limit is the number of bytes that the source has.
     ByteBudget stored(file_size_bytes_ - table_end);
     ByteBudget values(most_bytes_of_values(file_size_bytes_));
     sections_.reserve(table.size());

@@ -1,6 +1,6 @@
-// Reads a section container from a file, memory or any other source of bytes. Whatever the bytes, the
-// answer is right or a clear error: every size is checked against the source's before anything is
-// allocated.
+// Reads a section container from a file, memory or any other source of bytes. Damaged bytes give an
+// error that says what is wrong: every size is checked against that of the source before memory is
+// taken.
 #pragma once
 
 #include <filesystem>
@@ -13,30 +13,30 @@
 
 namespace paim {
 
-// How much of a file there is.
+// Whether the source has a whole file.
 enum class Extent {
     whole,   // a file that is cut short is an error
-    prefix,  // at least header and table; holds() tells which sections are there
+    prefix,  // header and table at least; holds() tells which sections are complete
 };
 
 class ContainerReader {
   public:
-    // Checks header and table of what the source has now. `name` stands for it in messages.
+    // Reads and checks header and table. `name` stands for the source in messages.
     // Errors (bad input; unsupported for a newer version or an unknown codec) begin with the name
     // and say what was expected and what was got.
     ContainerReader(std::shared_ptr<const ByteSource> source, std::string name, Tag kind,
                     Extent extent = Extent::whole);
 
-    // The same of a file, by its path.
+    // The same for a file.
     ContainerReader(const std::filesystem::path& path, Tag kind, Extent extent = Extent::whole);
 
     const std::vector<Section>& sections() const { return sections_; }
-    // Of the bytes that were there when the reader was made.
+    // The size of the source when the reader was made.
     uint64_t file_size_bytes() const { return file_size_bytes_; }
-    // What messages call the source: the path of a file.
-    const std::string& path() const { return name_; }
+    // The source in messages: the path of a file, or the name given for bytes in memory.
+    const std::string& name() const { return name_; }
 
-    // Whether all bytes of the section are there; reading one that is not is an error.
+    // Whether the source has all bytes of the section. Reading an incomplete section is an error.
     bool holds(const Section& section) const {
         return section.offset + section.stored_size_bytes <= file_size_bytes_;
     }
@@ -44,10 +44,10 @@ class ContainerReader {
     // The section with this tag and index, or nullptr.
     const Section* find(Tag tag, uint32_t index = 0) const;
 
-    // The same, of this type; an error if there is none.
+    // The same; an error (bad input) if there is no such section, or it has another type.
     const Section& require(Tag tag, ScalarType type, uint32_t index = 0) const;
 
-    // The stored bytes of a section, its checksum verified, for whoever knows its codec.
+    // The stored bytes of a section, its checksum verified, for code that decodes them itself.
     std::vector<uint8_t> read_stored(const Section& section) const;
 
     // All values of the section, its checksum verified. Errors: bad input if it holds another type,
@@ -58,11 +58,11 @@ class ContainerReader {
     std::vector<double> read_f64(const Section& section) const;
     std::string read_text(const Section& section) const;
 
-    // Values [first, first + count) of an f32 or f16 section without codec, unverified: for
-    // streaming after verify().
+    // Values [first, first + count) of an f32 or f16 section without codec. The checksum is not
+    // checked; call verify() once before.
     void read_range(const Section& section, uint64_t first, uint64_t count, float* out) const;
 
-    // Reads the section through and checks its checksum.
+    // Reads all bytes of the section and checks its checksum.
     void verify(const Section& section) const;
     void verify_all() const;
 

@@ -73,7 +73,7 @@ void ContainerWriter::commit() {
     header.header_xxh3 = xxh3(&header, sizeof(header) - sizeof(header.header_xxh3));
     file_.write_at(sizeof(header), table.data(), table.size() * sizeof(TableEntry));
     file_.write_at(0, &header, sizeof(header));
-    file_.resize(file_size_bytes_);  // an empty last section has no bytes of its own
+    file_.resize(file_size_bytes_);  // the file has its full size even if the last section is empty
     file_.commit();
 }
 

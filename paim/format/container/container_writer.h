@@ -1,4 +1,4 @@
-// Writes a section container, section by section or several side by side, all or nothing.
+// Writes a section container completely or not at all. Sections may be filled in any order.
 #pragma once
 
 #include <filesystem>
@@ -11,20 +11,20 @@
 
 namespace paim {
 
-// What a section will hold, and how many bytes of it are stored.
+// The contents of a section, and the number of its stored bytes.
 struct SectionPlan {
     SectionSpec spec;
     SectionCodec codec;
     uint64_t stored_size_bytes;
 
-    // Values stored as they are.
+    // A section whose values are stored as they are.
     SectionPlan(const SectionSpec& as_it_is)
         : spec(as_it_is), codec(SectionCodec::none), stored_size_bytes(as_it_is.size_bytes()) {}
     SectionPlan(const SectionSpec& values, SectionCodec how, uint64_t size_bytes)
         : spec(values), codec(how), stored_size_bytes(size_bytes) {}
 };
 
-// Size of the file that holds these sections, in bytes.
+// Size of the file with these sections.
 uint64_t container_size_bytes(std::span<const SectionPlan> plans);
 
 class ContainerWriter {
@@ -33,7 +33,7 @@ class ContainerWriter {
     ContainerWriter(const std::filesystem::path& path, Tag kind,
                     const std::vector<SectionPlan>& plans);
 
-    // Appends stored bytes to section number `section` of the plans. Sections may be filled side by side.
+    // Appends stored bytes to section number `section` of the plans.
     void append(size_t section, const void* data, size_t size_bytes);
 
     template <typename T>
@@ -41,7 +41,7 @@ class ContainerWriter {
         append(section, values.data(), values.size_bytes());
     }
 
-    // Every section must be full by now (checked).
+    // Finishes the file. Every section must be full (checked).
     void commit();
 
   private:

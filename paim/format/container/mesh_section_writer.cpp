@@ -1,4 +1,4 @@
-// Triangles and albedo as sections, the same in .paim and .bake.
+// Writes triangles and albedo as sections of .paim and .bake files.
 #include "paim/format/container/mesh_section_writer.h"
 
 namespace paim {

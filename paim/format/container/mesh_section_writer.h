@@ -1,4 +1,4 @@
-// Triangles and albedo as sections, the same in .paim and .bake.
+// Writes triangles and albedo as sections of .paim and .bake files.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Triangles and albedo from sections.
+// Reads triangles, albedo and planes from sections.
 #include "paim/format/container/mesh_sections.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace paim {
 Topology read_triangles(const ContainerReader& reader, uint32_t num_vertices, Tag tag) {
     const Section& section = reader.require(tag, ScalarType::u32);
     if (section.spec.shape[0] != 1 || section.spec.shape[2] != 3) {
-        throw_bad_input("{}: triangles: expected 3 indices each, got {}", reader.path(),
+        throw_bad_input("{}: triangles: expected 3 indices each, got {}", reader.name(),
                         section.spec.shape[2]);
     }
     Topology topology{num_vertices, std::vector<Triangle>(section.spec.shape[1])};
@@ -31,7 +31,7 @@ Topology read_triangles(const ContainerReader& reader, uint32_t num_vertices, Ta
     for (size_t i = 0; i < topology.triangles.size(); ++i) {
         for (const uint32_t v : topology.triangles[i]) {
             if (v >= num_vertices) {
-                throw_bad_input("{}: triangle {}: vertex {}, expected 0 to {}", reader.path(), i, v,
+                throw_bad_input("{}: triangle {}: vertex {}, expected 0 to {}", reader.name(), i, v,
                                 int64_t{num_vertices} - 1);
             }
         }
@@ -43,7 +43,7 @@ Albedo read_albedo(const ContainerReader& reader, uint32_t num_vertices, Tag tag
     const Section& section = reader.require(tag, ScalarType::f32);
     const auto& shape = section.spec.shape;
     if (shape[0] != 1 || (shape[1] != 1 && shape[1] != num_vertices) || shape[2] != 3) {
-        throw_bad_input("{}: albedo: {} x {} x {} values, expected 1 or {} colours", reader.path(),
+        throw_bad_input("{}: albedo: {} x {} x {} values, expected 1 or {} colours", reader.name(),
                         shape[0], shape[1], shape[2], num_vertices);
     }
     const std::vector<float> values = reader.read_f32(section);
@@ -61,7 +61,7 @@ std::vector<float> read_planes(const ContainerReader& reader, Tag tag, uint32_t 
     const Section& section = reader.require(tag, type);
     const auto& shape = section.spec.shape;
     if (shape[0] != 1 || shape[1] != num_planes || shape[2] != num_vertices) {
-        throw_bad_input("{}: section {}: {} x {} x {} values, expected {} x {}", reader.path(),
+        throw_bad_input("{}: section {}: {} x {} x {} values, expected {} x {}", reader.name(),
                         tag.str(), shape[0], shape[1], shape[2], num_planes, num_vertices);
     }
     std::vector<float> values = reader.read_f32(section);
@@ -72,12 +72,12 @@ std::vector<float> read_planes(const ContainerReader& reader, Tag tag, uint32_t 
 uint32_t count_vertices(const ContainerReader& reader, Tag tag) {
     const Section* section = reader.find(tag);
     if (section == nullptr) {
-        throw_bad_input("{}: section {} 0 is missing", reader.path(), tag.str());
+        throw_bad_input("{}: section {} 0 is missing", reader.name(), tag.str());
     }
     const uint32_t count = section->spec.shape[2];
     constexpr uint32_t kMax = std::numeric_limits<int32_t>::max();
     if (count < 1 || count > kMax) {
-        throw_bad_input("{}: section {}: {} vertices, expected 1 to {}", reader.path(), tag.str(),
+        throw_bad_input("{}: section {}: {} vertices, expected 1 to {}", reader.name(), tag.str(),
                         count, kMax);
     }
     return count;
@@ -88,7 +88,7 @@ void check_finite(const ContainerReader& reader, Tag tag, std::span<const float>
     const auto bad =
         std::find_if(values.begin(), values.end(), [](float x) { return !std::isfinite(x); });
     if (bad != values.end()) {
-        throw_bad_input("{}: section {}: value {} is {}, expected a finite number", reader.path(),
+        throw_bad_input("{}: section {}: value {} is {}, expected a finite number", reader.name(),
                         tag.str(), first + static_cast<uint64_t>(bad - values.begin()), *bad);
     }
 }

@@ -1,4 +1,4 @@
-// Triangles, albedo and planes from sections, the same in .paim and .bake.
+// Reads triangles, albedo and planes from sections of .paim and .bake files.
 #pragma once
 
 #include <span>
@@ -16,17 +16,17 @@ Topology read_triangles(const ContainerReader& reader, uint32_t num_vertices,
 Albedo read_albedo(const ContainerReader& reader, uint32_t num_vertices,
                    Tag tag = section::kAlbedo);
 
-// All values of an f32 (or f16) section of num_planes × num_vertices finite numbers; anything else
-// is an error (bad input).
+// Reads an f32 (or f16) section of num_planes × num_vertices finite numbers. Error (bad input) if
+// the section is anything else.
 std::vector<float> read_planes(const ContainerReader& reader, Tag tag, uint32_t num_planes,
                                uint32_t num_vertices, ScalarType type = ScalarType::f32);
 
-// The vertices that a section of positions, [3][V], has: 1 to 2³¹ − 1, anything else is an error
-// (bad input).
+// Number of vertices of a section of positions, [3][V]. Error (bad input) if it is not in 1 … 2³¹ −
+// 1.
 uint32_t count_vertices(const ContainerReader& reader, Tag tag);
 
-// Error (bad input) naming the file, the section and the place of the first value that is not
-// finite; the values are those from `first` on.
+// Error (bad input) if a value is not finite. It names the file, the section and the number of the
+// first such value, counted from `first`.
 void check_finite(const ContainerReader& reader, Tag tag, std::span<const float> values,
                   uint64_t first = 0);
 

@@ -1,4 +1,4 @@
-// Checked access to the JSON that Paim files carry.
+// Checked access to the JSON metadata of Paim files.
 #include "paim/format/container/metadata.h"
 
 #include <cmath>
@@ -28,7 +28,7 @@ Metadata::Metadata(std::string_view text, std::string file) : file_(std::move(fi
         throw_bad_input("{}: {} bytes of metadata, expected at most {}", file_, text.size(),
                         kMaxSizeBytes);
     }
-    // Parsing is iterative, but writing and copying what was parsed are not.
+    // Parsing is iterative, but writing and copying the result are recursive, so depth is limited.
     bool too_deep = false;
     const auto check_depth = [&](int depth, json::parse_event_t, json&) {
         too_deep = too_deep || depth > kMaxDepth;
@@ -109,7 +109,7 @@ Vec3d Metadata::point(const char* key) const {
     Vec3d result = Vec3d::Zero();
     const auto found = json_.find(key);
     if (found == json_.end()) return result;
-    // Float's range, and half a step of an origin at its end (mesh/origin.h).
+    // The range of float, and half a step of an origin (mesh/origin.h) at the end of that range.
     constexpr double kMax = 4e38;
     bool good = found->is_array() && found->size() == 3;
     for (size_t i = 0; good && i < 3; ++i) {

@@ -1,4 +1,4 @@
-// Checked access to the JSON that Paim files carry.
+// Checked access to the JSON metadata of Paim files.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -18,7 +18,7 @@ class Metadata {
     // Parses the text: an object of at most 64 MiB, nested at most 16 deep.
     Metadata(std::string_view text, std::string file);
 
-    // An object within one that was parsed.
+    // An object within a parsed one.
     static Metadata part(const nlohmann::json& part, const std::string& file);
 
     uint32_t integer(const char* key, uint32_t lowest, uint32_t highest) const;

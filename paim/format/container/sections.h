@@ -19,21 +19,20 @@ constexpr Tag kComponent[2] = {Tag("GCMP"),
                                Tag("TCMP")};             // f32, f16, i16 or i8 [planes][N], index k
 constexpr Tag kWeights[2] = {Tag("GWGT"), Tag("TWGT")};  // f32 or i16 [K][P]
 constexpr Tag kSingularValues[2] = {Tag("GSPC"), Tag("TSPC")};  // f64 or f32 [n]
-// Only where values, or weights, are integers.
+// Only if values (weights) are integers.
 constexpr Tag kSteps[2] = {Tag("GSTP"), Tag("TSTP")};        // f32 [planes]
 constexpr Tag kWeightSteps[2] = {Tag("GWST"), Tag("TWST")};  // f32 [K]
 
-
-// .paim: the part that stands still, all four or none.
+// .paim: the still part; all four or none.
 constexpr Tag kStillTriangles("STRI");  // u32 [F][3]
 constexpr Tag kStillPositions("SPOS");  // f32, i16 or i8 [3][S]
 constexpr Tag kStillAlbedo("SALB");     // f32 [1 or S][3]
 constexpr Tag kStillTransfer("STRN");   // f32, i16 or i8 [planes][S]
-// Of integers, f32 [planes].
+// Only if values are integers: f32 [planes].
 constexpr Tag kStillPositionSteps("SPST");
 constexpr Tag kStillTransferSteps("STST");
 
-// .bake poses and scenery.
+// .bake poses and still meshes.
 constexpr Tag kPositions("POSN");  // f32 [3][V]
 constexpr Tag kNormals("NRML");    // f32 [3][V]
 constexpr Tag kTransfer("TRNF");   // f32 [planes][V]

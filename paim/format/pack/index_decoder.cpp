@@ -1,4 +1,4 @@
-// Triangles from bytes: meshoptimizer's index codec under Zstandard.
+// Decodes triangles: Zstandard, then meshoptimizer's index codec.
 #include "paim/format/pack/index_decoder.h"
 
 #include <meshoptimizer.h>
@@ -10,7 +10,7 @@
 namespace paim {
 
 bool decode_triangles(std::span<const uint8_t> bytes, std::span<Triangle> out) {
-    // The codec takes at most so many bytes a triangle, and some that do not depend on their number.
+    // The index codec needs at most 16 bytes a triangle, and a constant number of bytes.
     const uint64_t most = uint64_t{16} * out.size() + 64;
     const auto size = zstd_content_size(bytes);
     if (!size || *size > most) return false;

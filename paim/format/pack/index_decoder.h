@@ -1,4 +1,4 @@
-// Triangles from bytes: meshoptimizer's index codec under Zstandard.
+// Decodes triangles: Zstandard, then meshoptimizer's index codec.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace paim {
 
-// Fills `out`; false for bytes that are not an encoding of that many triangles. What comes back may
-// name vertices that do not exist.
+// Fills `out`. Returns false for bytes that are not an encoding of that many triangles. Indices are
+// not checked: they may be of vertices that do not exist.
 bool decode_triangles(std::span<const uint8_t> bytes, std::span<Triangle> out);
 
 }  // namespace paim

@@ -1,4 +1,4 @@
-// Triangles as bytes: meshoptimizer's index codec under Zstandard.
+// Encodes triangles: meshoptimizer's index codec, then Zstandard.
 #include "paim/format/pack/index_encoder.h"
 
 #include <meshoptimizer.h>

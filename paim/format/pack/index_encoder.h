@@ -1,4 +1,4 @@
-// Triangles as bytes: meshoptimizer's index codec under Zstandard.
+// Encodes triangles: meshoptimizer's index codec, then Zstandard.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,9 @@
 
 namespace paim {
 
-// Small where triangles share edges with those just before them (mesh/cache_order.h). Triangles keep
-// their order but may be turned: (a, b, c) may come back as (b, c, a).
+// The result is small if triangles share edges with those just before them (mesh/cache_order.h).
+// Decoded triangles have the same order, but their corners may be rotated: (a, b, c) may become (b,
+// c, a).
 std::vector<uint8_t> encode_triangles(const Topology& topology);
 
 }  // namespace paim

@@ -1,4 +1,4 @@
-// What a packed plane is made of: a header, symbols and escapes.
+// The format of a packed plane: a header, symbols and escapes.
 // Based on: Nystad, Lassen, Pomianowski, Ellis and Olson, Adaptive Scalable Texture Compression,
 //           2012 (its bounded integer sequence encoding, BISE: symbols of base 3 or 5 share bytes);
 //           Zukowski, Héman, Nes and Boncz, Super-Scalar RAM-CPU Cache Compression, 2006 (PFOR:
@@ -6,8 +6,8 @@
 //
 // Most residuals are zero or nearly zero. Each becomes a symbol of a small alphabet, and as many
 // symbols are packed into a byte as fit. A residual outside the alphabet becomes the nearest symbol
-// and an escape: how many values to pass over, and what to add there. Huffman codes of such bytes
-// come near the entropy of the values, without any search for repetitions.
+// and an escape, which says how many values to pass over, and what to add to the next one. Huffman
+// codes of such bytes come near the entropy of the values, without a search for repetitions.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ namespace paim {
 constexpr uint8_t kByteSymbols = 127;
 constexpr std::array<uint8_t, 5> kMagnitudes{0, 1, 2, 7, kByteSymbols};
 
-// Of a plane in a file.
+// Header of a plane in a file.
 struct PlaneHeader {
     Prediction prediction = Prediction::none;
     bool wide = false;      // whether escapes have high bytes
@@ -36,17 +36,17 @@ struct PlaneHeader {
 constexpr uint32_t zigzag(int32_t value) {
     return (static_cast<uint32_t>(value) << 1) ^ static_cast<uint32_t>(value >> 31);
 }
-// A negative number comes back as its two's complement.
+// The inverse of zigzag(). Negative numbers are returned as their two's complement.
 constexpr uint32_t undo_zigzag(uint32_t code) {
     return (code >> 1) ^ (0 - (code & 1));
 }
 
-// How many values a symbol of the magnitude can have.
+// Number of values that a symbol of the magnitude can have.
 constexpr uint32_t base_of(uint32_t magnitude) {
     return 2 * magnitude + 1;
 }
 
-// How many symbols fit into a byte.
+// Number of symbols that fit into a byte.
 constexpr uint32_t symbols_per_byte(uint32_t magnitude) {
     uint32_t symbols = 0;
     for (uint32_t range = base_of(magnitude); range <= 256; range *= base_of(magnitude)) ++symbols;
@@ -61,7 +61,7 @@ constexpr size_t symbol_bytes(uint8_t magnitude, size_t count) {
     return (count + symbols - 1) / symbols;
 }
 
-// Bytes of a header in a file.
+// Size of a header in a file.
 constexpr size_t kPlaneHeaderBytes = 6;
 
 }  // namespace paim

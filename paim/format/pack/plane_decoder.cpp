@@ -1,4 +1,4 @@
-// Planes of small integers from bytes. What a frame holds: plane_encoder.cpp.
+// Decodes planes of small integers. plane_encoder.cpp describes the contents of a frame.
 #include "paim/format/pack/plane_decoder.h"
 
 #include <algorithm>
@@ -13,10 +13,10 @@ namespace paim {
 
 namespace {
 
-// The most bytes that a value can take: one of symbols, three of its escape.
+// Largest number of bytes of a value: one for its symbol and three for its escape.
 constexpr uint64_t kMaxBytesPerValue = 4;
 
-// False if it is not the header of a plane.
+// Reads a header. Returns false if it is not valid.
 bool parse_header(const uint8_t* bytes, size_t num_points, bool has_mesh, PlaneHeader& header) {
     header.prediction = static_cast<Prediction>(bytes[0] & 3u);
     header.wide = (bytes[0] & 4u) != 0;
@@ -30,7 +30,7 @@ bool parse_header(const uint8_t* bytes, size_t num_points, bool has_mesh, PlaneH
            header.num_escapes <= num_points;
 }
 
-// Splits the contents of a section's frame into planes; false if they are not planes.
+// Splits the contents of a section's frame into planes. Returns false if they are not valid.
 template <typename Integer>
 bool parse(std::span<const uint8_t> contents, const StoredPlanes<Integer>& section, bool has_mesh,
            std::vector<PlaneSource<Integer>>& planes) {

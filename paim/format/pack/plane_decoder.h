@@ -1,4 +1,4 @@
-// Planes of small integers from bytes: Zstandard, then unpacked, then predicted from neighbours.
+// Decodes planes of small integers: Zstandard, then unpacking, then prediction from neighbours.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace paim {
 
-// Planes in a file, and where they go.
+// Planes of a section of a file, and memory for their values.
 template <typename Integer>
 struct StoredPlanes {
     std::span<const uint8_t> bytes;  // the stored section; may be anything
@@ -18,9 +18,9 @@ struct StoredPlanes {
     std::span<Integer> out;          // [planes][N]
 };
 
-// Fills every `out`. False for bytes that are not such planes, and for values outside the symmetric
-// range of the integers. Planes are reconstructed side by side; kPlanesAtOnce of them is fastest.
-// Memory grows with the sizes of `out` alone.
+// Fills every `out`. Returns false for bytes that are not such planes, and for values outside the
+// symmetric range of the integers. Several planes are reconstructed at once; kPlanesAtOnce of them
+// are fastest. The memory taken depends on the sizes of `out` alone, not on the bytes.
 template <typename Integer>
 bool decode_planes(std::span<const StoredPlanes<Integer>> sections, const PlanePredictor& predictor,
                    Workspace& workspace);
@@ -28,7 +28,7 @@ bool decode_planes(std::span<const StoredPlanes<Integer>> sections, const PlaneP
 template <typename Integer>
 constexpr size_t kPlanesAtOnce = 64 / sizeof(Integer);
 
-// One section.
+// The same for one section.
 template <typename Integer>
 bool decode_planes(std::span<const uint8_t> bytes, size_t num_planes,
                    const PlanePredictor& predictor, std::span<Integer> out) {

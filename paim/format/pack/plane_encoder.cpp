@@ -1,7 +1,7 @@
-// Planes of small integers as bytes.
+// Encodes planes of small integers.
 //
-// The contents of the Zstandard frame are: the headers of all planes; the packed symbols of all planes,
-// grouped by magnitude; the gaps of all escapes, their low bytes and their high bytes.
+// The contents of the Zstandard frame are: the headers of all planes; the packed symbols of all
+// planes, grouped by magnitude; the gaps of all escapes, their low bytes and their high bytes.
 #include "paim/format/pack/plane_encoder.h"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ Counts count_bytes(std::span<const uint8_t> bytes) {
     return counts;
 }
 
-// About how many bits a memoryless entropy coder makes of bytes with these counts, with its table.
+// Estimated bits of a memoryless entropy coder for bytes with these counts, with its table.
 double cost_bits(const Counts& counts) {
     constexpr double kTableBits = 5.0;  // for each byte value that occurs
     double total = 0.0, bits = 0.0;
@@ -50,8 +50,8 @@ double cost_bits(const PackedPlane& plane) {
            cost_bits(count_bytes(plane.lows)) + cost_bits(count_bytes(plane.highs));
 }
 
-// About how many bits residuals take, however they are packed. Zigzag numbers up to 31 count as
-// themselves. Larger ones are grouped by their first three bits, and their other bits are plain.
+// Estimated bits of residuals, for any packing. Zigzag numbers up to 31 are symbols of their own.
+// Larger ones are grouped by their first three bits; their other bits are not compressed.
 template <typename Integer>
 double entropy_bits(std::span<const Integer> residuals) {
     constexpr uint32_t kSmall = 32;
@@ -90,7 +90,8 @@ PackedPlane best_plane(std::span<const Integer> values, const PlanePredictor& pr
     least = std::numeric_limits<double>::infinity();
     for (const uint8_t magnitude : kMagnitudes) {
         PackedPlane plane = pack(prediction, magnitude, std::span<const Integer>(residuals));
-        // Decoding time has a price, so that fewer bytes and escapes win between equals.
+        // A price in bits for decoding time, so that of two equal packings that with fewer bytes
+        // and escapes is chosen.
         constexpr double kBitsPerByte = 0.2, kBitsPerEscape = 0.4;
         const double bits = cost_bits(plane) +
                             kBitsPerByte * static_cast<double>(plane.symbols.size()) +
@@ -104,7 +105,7 @@ PackedPlane best_plane(std::span<const Integer> values, const PlanePredictor& pr
     return best;
 }
 
-// Bytes, and the places where their statistics change so much that a new table pays.
+// Bytes of a frame, and the offsets where their statistics change so much that a new table pays.
 class Contents {
   public:
     void append(std::span<const uint8_t> some) {
@@ -113,7 +114,7 @@ class Contents {
         Counts both = counts;
         for (size_t j = 0; j < both.size(); ++j) both[j] += counts_[j];
         const double bits = cost_bits(counts), bits_of_both = cost_bits(both);
-        // Starting a block takes as much decoding time as about 25 bytes.
+        // Price of a block: starting one takes as much decoding time as about 25 bytes.
         constexpr double kBlockBits = 8.0 * 25.0;
         if (bits_ + bits + kBlockBits < bits_of_both) {
             block_ends.push_back(bytes.size());

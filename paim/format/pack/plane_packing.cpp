@@ -1,4 +1,4 @@
-// Residuals of a plane as symbols and escapes.
+// Packs residuals of a plane as symbols and escapes.
 #include "paim/format/pack/plane_packing.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Residuals of a plane as symbols and escapes (packed_plane.h).
+// Packs residuals of a plane as symbols and escapes (packed_plane.h).
 #pragma once
 
 #include <cstdint>
@@ -12,9 +12,10 @@ namespace paim {
 struct PackedPlane {
     PlaneHeader header;
     std::vector<uint8_t> symbols;  // [symbol_bytes()]
-    // [num_escapes] each. gaps: how many values lie between an escape and the one before it. lows,
-    // highs: the bytes of what the escape adds, in zigzag; highs is empty unless the header says
-    // wide. Where more than 255 values lie between, escapes that add 0 fill the distance.
+    // [num_escapes] each. gaps: the number of values between an escape and the one before it;
+    // longer distances than 255 are bridged by escapes that add 0. lows, highs: the low and the
+    // high byte of the number that the escape adds, in zigzag; highs is empty unless the header
+    // says wide.
     std::vector<uint8_t> gaps, lows, highs;
 };
 

@@ -10,8 +10,8 @@ namespace {
 using Parents = PlanePredictor::Parents;
 using Parallelograms = PlanePredictor::Parallelograms;
 
-// Into the four latest so far, which descend, without branches: whether a parent is a new one, and
-// where it belongs, is as good as random.
+// Inserts a row into the four latest ones, in descending order. It has no branches, because whether
+// and where a row belongs there is practically random.
 void add_parent(Parents& parents, uint32_t row) {
     for (uint32_t& place : parents) {
         row = row == place ? 0 : row;
@@ -21,7 +21,7 @@ void add_parent(Parents& parents, uint32_t row) {
     }
 }
 
-// Of one to three parents, see Parents.
+// Repeats one to three parents, as described at Parents.
 void repeat(Parents& parents) {
     if (parents[1] == 0) parents[1] = parents[0];
     if (parents[2] == 0) {
@@ -31,7 +31,7 @@ void repeat(Parents& parents) {
     if (parents[3] == 0) parents[3] = parents[0];
 }
 
-// How many there are once they are repeated.
+// Number of different parents, after repeat().
 size_t num_distinct(const Parents& parents) {
     if (parents[0] == parents[1]) return parents[0] == 0 ? 0 : 1;
     if (parents[0] == parents[2]) return 2;
@@ -42,7 +42,8 @@ bool contains(const Parents& parents, uint32_t row) {
     return (parents[0] == row) | (parents[1] == row) | (parents[2] == row) | (parents[3] == row);
 }
 
-// parents  [V] of all vertices, of which those of vertex v and of vertices before it are read
+// The parallelograms of vertex v.
+// parents  [V] of all vertices; those of v and of vertices before it are read
 Parallelograms find_parallelograms(std::span<const Parents> parents, size_t v) {
     const Parents& mine = parents[v];
     Parallelograms found{{mine[0], 0, 0}, {mine[1], 0, 0}};
@@ -52,7 +53,7 @@ Parallelograms find_parallelograms(std::span<const Parents> parents, size_t v) {
         const Parents& of_a = parents[mine[i] - 1];
         for (size_t j = i + 1; j < num_mine; ++j) {
             if (!contains(of_a, mine[j])) continue;
-            // The latest parent of a that b touches too. Nobody (0) is no parent.
+            // The latest parent of a that is also a neighbour of b. Row 0 is no parent.
             const Parents& of_b = parents[mine[j] - 1];
             for (const uint32_t c : of_a) {
                 const bool opposite = c > mine[j] ? contains(parents[c - 1], mine[j])

@@ -1,10 +1,11 @@
-// Planes from packed residuals: many planes at once.
+// Reconstructs planes from packed residuals, many planes at once.
 //
-// A value depends on earlier values of its plane, so a single plane is a chain of additions that wait
-// for one another. Here a row holds the values of many planes at one vertex, and rows are predicted
-// from rows. Symbols are unpacked and transposed into rows, escapes are added to the rows, and rows
-// are transposed back into planes, in tiles that stay in the first-level cache. Rows hold values with
-// the highest bit flipped: unsigned means of two are an instruction of the vector units.
+// A value depends on earlier values of its plane, so a single plane is a chain of additions that
+// wait for one another. Here a row holds the values of many planes at one vertex, and rows are
+// predicted from rows. Symbols are unpacked and transposed into rows, escapes are added to the
+// rows, and rows are transposed back into planes, in tiles that stay in the first-level cache.
+// Values in rows have their highest bit flipped, because vector units have an instruction for means
+// of two unsigned numbers.
 #include "paim/format/pack/plane_reconstruct.h"
 
 #if defined(__SSE2__)
@@ -54,8 +55,8 @@ __attribute__((always_inline)) inline Vector mean_of_two(const Vector& a, const 
 }
 #endif
 
-// ⌊(a + b + c + d + 2) / 4⌋: the mean of two means rounds up once too often where both the means and
-// the values of one of them differ by an odd number.
+// ⌊(a + b + c + d + 2) / 4⌋. The mean of two means is too large by one where both the difference of
+// the means and the difference of the values of one of them are odd.
 template <typename Vector>
 __attribute__((always_inline)) inline Vector mean_of_four(const Vector& a, const Vector& b,
                                                           const Vector& c, const Vector& d) {
@@ -63,7 +64,7 @@ __attribute__((always_inline)) inline Vector mean_of_four(const Vector& a, const
     return mean_of_two(ab, cd) - (((a ^ b) | (c ^ d)) & (ab ^ cd) & 1);
 }
 
-// a0 b0 a1 b1 … of their lower or their higher halves.
+// Interleaves the lower or the higher halves of both registers: a0 b0 a1 b1 …
 #if defined(__SSE2__)
 __attribute__((always_inline)) inline Bytes interleave_low(const Bytes& a, const Bytes& b) {
     return Bytes(_mm_unpacklo_epi8(__m128i(a), __m128i(b)));
@@ -97,7 +98,7 @@ __attribute__((always_inline)) inline Vector interleave_high(const Vector& a, co
 }
 #endif
 
-// Rows become columns, one bit of the row's number at a time. As many vectors as each has lanes.
+// Transposes as many vectors as each has lanes, by one bit of the row number at a time.
 template <typename Vector, size_t kSize>
 __attribute__((always_inline)) inline void transpose(Vector (&m)[kSize]) {
     Vector from[kSize];
@@ -113,7 +114,7 @@ __attribute__((always_inline)) inline void transpose(Vector (&m)[kSize]) {
     }
 }
 
-// A plane without prediction: its values are its residuals.
+// Reconstructs a plane without prediction, whose values are its residuals.
 template <typename Integer>
 bool copy_plane(const PlaneSource<Integer>& plane, size_t num_points) {
     using Lane = typename Lanes<Integer>::Lane;
@@ -216,7 +217,7 @@ class Reconstruction {
     }
 
     // Predicts rows from rows: the first kMeans vectors by means, the last kSlopes by
-    // parallelograms. A vector that belongs to both has a prediction for each lane.
+    // parallelograms. A vector that belongs to both is predicted by one or the other in each lane.
     template <size_t kMeans, size_t kSlopes>
     __attribute__((noinline)) void add(size_t first, size_t count) {
         static_assert(kMeans + kSlopes == kVectors || kMeans + kSlopes == kVectors + 1);
@@ -259,7 +260,7 @@ class Reconstruction {
         }
     }
 
-    // Calls the add() for this number of vectors of means.
+    // Calls the add() with the number of vectors of means as template argument.
     template <size_t kMeans = 0>
     void add_some(size_t first, size_t count) {
         if constexpr (kMeans < kVectors) {
@@ -310,7 +311,7 @@ class Reconstruction {
         any_lowest_ |= any_lowest;
     }
 
-    // block[i] = plane i of a vector of the rows, at as many points from n on.
+    // block[i] = plane i of vector `vector` of the rows, at the kLanes points from n on.
     __attribute__((always_inline)) void load_columns(size_t n, size_t vector,
                                                      Vector (&block)[kLanes]) const {
 #pragma GCC unroll 16
@@ -341,7 +342,7 @@ class Reconstruction {
     size_t num_mean_vectors_ = 0;  // the first vectors of a row are predicted by means
     bool is_mixed_ = false;        // some lanes of the last of these are parallelograms
     bool has_symbols_[kVectors] = {};
-    Vector means_{};  // all bits set in the lanes of a mixed vector that are means
+    Vector means_{};  // all bits are set in those lanes of the mixed vector that are means
     Vector any_lowest_{};
     Escapes escapes_[kLanes * kVectors];
     Integer tile_[kLanes * kVectors][kTileValues + kTilePadding] = {};  // symbols
@@ -352,7 +353,8 @@ class Reconstruction {
 template <typename Integer>
 bool reconstruct_planes(std::span<PlaneSource<Integer>> planes, const PlanePredictor& predictor,
                         size_t num_points, Buffer& rows) {
-    // Planes with the same prediction together, and among these first those without symbols.
+    // Planes with the same prediction are put together, and among these those without symbols
+    // first.
     std::stable_sort(planes.begin(), planes.end(), [](const auto& a, const auto& b) {
         const auto rank = [](const PlaneHeader& header) {
             return 2 * static_cast<int>(header.prediction) + (header.magnitude > 0);

@@ -1,4 +1,4 @@
-// Planes from packed residuals: many planes at once.
+// Reconstructs planes from packed residuals, many planes at once.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace paim {
 
-// A plane in a file, and where it goes.
+// A packed plane of a file, and memory for its values.
 template <typename Integer>
 struct PlaneSource {
     PlaneHeader header;  // valid
@@ -22,9 +22,9 @@ struct PlaneSource {
     Integer* out = nullptr;  // [N]
 };
 
-// Every plane's `out` = what add_prediction() makes of its residuals. False if an escape lies
-// outside its plane or a value is the lowest of its integers, which files do not use; `out` then
-// holds anything.
+// Fills the `out` of every plane, with the same result as add_prediction() of its residuals.
+// Returns false if an escape lies outside its plane, or if a value is the lowest of its type, which
+// files do not use; `out` is then undefined.
 // planes     are reordered
 // predictor  of N points, unless no plane is predicted
 // rows       scratch memory: up to 64 bytes a point

@@ -1,4 +1,4 @@
-// Values of a plane as what their prediction leaves, and the slow way back.
+// Residuals of values against their prediction, and the slow reference of the inverse.
 #include "paim/format/pack/plane_residuals.h"
 
 #include <algorithm>
@@ -35,7 +35,7 @@ int32_t predict(const Parallelograms& two, const Integer* values) {
     return (complete(two.first, values) + complete(two.second, values) + 1) >> 1;
 }
 
-// use(v, what it is predicted from)
+// Calls use(v, prediction of v) for every vertex in order.
 template <typename Use>
 void for_each_point(const PlanePredictor& predictor, Prediction prediction, size_t num_points,
                     const Use& use) {

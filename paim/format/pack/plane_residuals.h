@@ -1,4 +1,4 @@
-// Values of a plane as what their prediction leaves, and the slow way back.
+// Residuals of values against their prediction, and the slow reference of the inverse.
 #pragma once
 
 #include <span>
@@ -7,15 +7,15 @@
 
 namespace paim {
 
-// residuals[n] = values[n] − prediction, in arithmetic of the integers' size that wraps around, as
-// do the sums that predictions are made of.
+// residuals[n] = values[n] − prediction. Arithmetic, also in predictions, wraps around at the size
+// of the integers.
 // values, residuals  [N] of the predictor's points
 template <typename Integer>
 void subtract_prediction(const PlanePredictor& predictor, Prediction prediction,
                          std::span<const Integer> values, std::span<Integer> residuals);
 
-// The reverse, in place, one plane after the other: the reference for reconstruct_planes(), which
-// does many at once.
+// The inverse, in place, one plane after another. It is the reference for reconstruct_planes(),
+// which reconstructs many planes at once.
 template <typename Integer>
 void add_prediction(const PlanePredictor& predictor, Prediction prediction,
                     std::span<Integer> residuals);

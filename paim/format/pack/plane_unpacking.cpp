@@ -1,4 +1,4 @@
-// Residuals of a plane from symbols and escapes.
+// Unpacks residuals of a plane from symbols and escapes.
 #include "paim/format/pack/plane_unpacking.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Residuals of a plane from symbols and escapes (packed_plane.h).
+// Unpacks residuals of a plane from symbols and escapes (packed_plane.h).
 #pragma once
 
 #include <cstddef>
@@ -9,12 +9,13 @@
 
 namespace paim {
 
-// Values in a tile. A tile starts at the beginning of a byte for every magnitude.
+// Values in a tile. The packed bits of a tile start at a whole byte, whatever the magnitude.
 constexpr size_t kTileValues = 240;
-// How many values unpack_symbols() may write past those it was asked for.
+// Number of values that unpack_symbols() may write after the requested ones.
 constexpr size_t kTilePadding = 8;
 
-// out[j] = symbol first + j, for j in [0, count). Up to kTilePadding values after them are junk.
+// out[j] = symbol first + j, for j in [0, count). Up to kTilePadding values after them are
+// overwritten.
 // source  [symbol_bytes(magnitude, first + count)], any bytes
 // first   a multiple of kTileValues
 // count   up to kTileValues
@@ -36,8 +37,8 @@ class Escapes {
 
     bool done() const { return next_ == end_; }
 
-    // Adds every escape before value `end` that was not added yet.
-    // at(place)  a reference to the value at that place, an unsigned integer
+    // Adds all escapes before value `end` that have not been added yet.
+    // at(place)  returns a reference to the value number `place`, an unsigned integer
     template <typename At>
     void add_until(size_t end, const At& at) {
         if (wide_) {
@@ -50,7 +51,7 @@ class Escapes {
   private:
     template <bool kWide, typename At>
     void add(size_t end, const At& at) {
-        // Copies, because writing through at() could change the members.
+        // Local copies: the compiler must assume that writing through at() changes the members.
         const uint8_t* const gaps = gaps_;
         const uint8_t* const lows = lows_;
         const uint8_t* const highs = highs_;

@@ -1,4 +1,4 @@
-// Memory to work in that decoders leave to those after them.
+// Scratch memory that decoders reuse one after another.
 #pragma once
 
 #include <cstddef>
@@ -9,10 +9,10 @@
 
 namespace paim {
 
-// Memory whose contents are anything. Aligned to cache lines.
+// Memory with undefined contents, aligned to cache lines.
 class Buffer {
   public:
-    // At least so many bytes. What it held is lost.
+    // Makes it at least num_bytes large. The contents are lost.
     std::byte* resize(size_t num_bytes) {
         const size_t num_lines = (num_bytes + sizeof(Line) - 1) / sizeof(Line);
         if (num_lines > num_lines_) {
@@ -31,16 +31,16 @@ class Buffer {
     size_t num_lines_ = 0;
 };
 
-// Of one who works.
+// The scratch memory of one decoder.
 struct Workspace {
-    Buffer contents;  // of frames
+    Buffer contents;  // contents of Zstandard frames
     Buffer rows;
 };
 
-// Of many, one after the other or at once.
+// Workspaces that any number of decoders borrow, one after another or at once.
 class WorkspacePool {
   public:
-    // Goes back to the pool, which outlives it.
+    // A borrowed workspace. Its destructor returns it to the pool, which outlives it.
     class Lease {
       public:
         explicit Lease(WorkspacePool& pool) : pool_(pool), workspace_(pool.take()) {}
@@ -58,7 +58,7 @@ class WorkspacePool {
     Workspace take() {
         const std::lock_guard lock(mutex_);
         if (free_.empty()) {
-            free_.reserve(++num_made_);  // so that leaving never fails
+            free_.reserve(++num_made_);  // so that returning one never fails
             return {};
         }
         Workspace workspace = std::move(free_.back());

@@ -1,4 +1,4 @@
-// Bytes out of Zstandard frames.
+// Decompresses Zstandard frames.
 #include "paim/format/pack/zstd_decoder.h"
 
 #include <zstd.h>
@@ -26,14 +26,14 @@ std::optional<uint64_t> zstd_content_size(std::span<const uint8_t> frame) {
 }
 
 bool zstd_decompress(std::span<const uint8_t> frame, std::span<uint8_t> out) {
-    // The library takes any number of frames, and frames to be skipped, for one.
+    // The library would also accept several frames, and skippable frames.
     constexpr std::array<uint8_t, 4> kMagic{0x28, 0xb5, 0x2f, 0xfd};
     if (frame.size() < kMagic.size() || !std::equal(kMagic.begin(), kMagic.end(), frame.begin()) ||
         ZSTD_findFrameCompressedSize(frame.data(), frame.size()) != frame.size()) {
         return false;
     }
-    // A new context asks the processor what it can, which takes tens of microseconds on virtual
-    // machines: longer than most sections.
+    // Contexts are reused, because a new one queries the processor. On virtual machines that takes
+    // tens of microseconds, longer than most sections.
     thread_local const std::unique_ptr<ZSTD_DCtx, FreeContext> context(ZSTD_createDCtx());
     PAIM_CHECK(context != nullptr);
     const size_t got =

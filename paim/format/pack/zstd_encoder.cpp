@@ -1,7 +1,7 @@
-// Bytes into Zstandard frames.
+// Compresses into Zstandard frames.
 #include "paim/format/pack/zstd_encoder.h"
 
-// For the parameter that asks for Huffman codes whatever else is asked for.
+// Declares the parameter that asks for Huffman codes in any case.
 #define ZSTD_STATIC_LINKING_ONLY
 #include <zstd.h>
 
@@ -19,9 +19,9 @@ struct FreeContext {
 };
 
 constexpr int kSmallLevel = 19;
-// Lowest length of what is found to repeat in noise, in bytes.
+// Shortest repetition that is searched for in noise, in bytes.
 constexpr int kShortestInNoise = 7;
-// Repetitions must save more than one part of so many.
+// Repetitions are used if they save more than 1 / kMinGain of the bytes.
 constexpr size_t kMinGain = 32;
 
 using CompressionContext = std::unique_ptr<ZSTD_CCtx, FreeContext>;
@@ -43,7 +43,7 @@ CompressionContext with_repetitions(int shortest_match) {
     return context;
 }
 
-// Huffman codes alone: the search steps over everything.
+// Huffman codes alone: the search for repetitions steps over all bytes.
 CompressionContext without_repetitions() {
     CompressionContext context = make_context();
     set(context, ZSTD_c_strategy, ZSTD_fast);
@@ -56,7 +56,7 @@ CompressionContext without_repetitions() {
 std::vector<uint8_t> compress(std::span<const uint8_t> bytes, std::span<const size_t> block_ends,
                               const CompressionContext& context) {
     ZSTD_CCtx_setPledgedSrcSize(context.get(), bytes.size());
-    // A flush adds a block header, and may end one block early.
+    // Bound of the bytes of a flush, which adds a block header and may end a block early.
     constexpr size_t kBytesPerFlush = 64;
     std::vector<uint8_t> out(ZSTD_compressBound(bytes.size()) +
                              kBytesPerFlush * (block_ends.size() + 1));

@@ -1,4 +1,4 @@
-// A .paim with compressed sections, put together in memory.
+// Builds a .paim with compressed sections in memory.
 #include "paim/format/paim/packed_file.h"
 
 #include <algorithm>
@@ -36,7 +36,7 @@ Bytes as_bytes(std::span<const T> values) {
     return {first, first + values.size_bytes()};
 }
 
-// Weights [K][P] as multiples of their steps, which they are.
+// Weights [K][P] as integer multiples of their steps. They are such multiples exactly.
 StoredValues weight_integers(const LowRank& matrix) {
     std::vector<int16_t> integers(matrix.weights.size());
     for (size_t j = 0; j < integers.size(); ++j) {
@@ -49,11 +49,10 @@ StoredValues weight_integers(const LowRank& matrix) {
     return integers;
 }
 
-// What integers of an asset are predicted from.
+// Predictors of the integers of an asset.
 class Predictors {
   public:
-    explicit Predictors(const Asset& asset)
-        : poses_(PlanePredictor::chain(asset.num_poses())) {
+    explicit Predictors(const Asset& asset) : poses_(PlanePredictor::chain(asset.num_poses())) {
         for (const CodedMesh& mesh : asset.parts) vertices_.emplace_back(mesh.topology);
     }
 
@@ -75,7 +74,7 @@ class Predictors {
     PlanePredictor none_;
 };
 
-// Makes a task of every kind of row.
+// Makes a task from each kind of row.
 class Packer {
   public:
     Packer(const TableRow& row, const PlanePredictor& predictor, Effort effort)
@@ -105,8 +104,7 @@ class Packer {
         if (matrix.weight_steps.empty() || matrix.num_components == 0) {
             return zstd(ScalarType::f32, std::span<const float>(matrix.weights));
         }
-        return {spec(ScalarType::i16), SectionCodec::planes,
-                [&matrix, &predictor = predictor_] {
+        return {spec(ScalarType::i16), SectionCodec::planes, [&matrix, &predictor = predictor_] {
                     return encode_planes(weight_integers(matrix), matrix.num_components, predictor);
                 }};
     }
@@ -114,7 +112,7 @@ class Packer {
     Task operator()(const Steps& row) const { return floats(row.matrix->steps); }
     Task operator()(const MatrixValues& row) const {
         PAIM_CHECK(row.values != nullptr);
-        // Still floats are small and smooth enough to be worth compressing.
+        // Floats of still parts are few and smooth enough to be worth compressing.
         const bool is_still = row.matrix->num_poses == 1 && row_.part > 0;
         if (is_still && row.values->holds_floats()) return floats(row.values->floats());
         const Precision precision = row.is_component ? row.matrix->precision : Precision::f32;
@@ -145,15 +143,14 @@ class Packer {
     Task floats(const std::vector<float>& values) const {
         return zstd(ScalarType::f32, std::span<const float>(values));
     }
-    // Integers predicted, floats as they are.
+    // Integers are predicted, floats stored as they are.
     Task values(const StoredValues& values, Precision precision) const {
         SectionSpec spec = this->spec(ScalarType::f32);
         PAIM_CHECK_EQ(values.size(), spec.num_values());
         if (!values.holds_floats()) {
             spec.type = values.holds_i8() ? ScalarType::i8 : ScalarType::i16;
             return {spec, SectionCodec::planes,
-                    [&values, num_rows = row_.shape[0], &predictor = predictor_,
-                     effort = effort_] {
+                    [&values, num_rows = row_.shape[0], &predictor = predictor_, effort = effort_] {
                         return encode_planes(values, num_rows, predictor, effort);
                     }};
         }
@@ -199,12 +196,10 @@ PackedFile::PackedFile(const Asset& asset, Effort effort) {
     const std::vector<TableRow> table = section_table(asset);
     const Predictors predictors(asset);
     std::vector<Task> tasks;
-    tasks.push_back({{section::kMetadata, ScalarType::u8, 0,
-                      {1, 1, static_cast<uint32_t>(metadata.size())}},
-                     SectionCodec::zstd,
-                     [&metadata] {
-                         return zstd_compress(as_bytes(std::span<const char>(metadata)));
-                     }});
+    tasks.push_back(
+        {{section::kMetadata, ScalarType::u8, 0, {1, 1, static_cast<uint32_t>(metadata.size())}},
+         SectionCodec::zstd,
+         [&metadata] { return zstd_compress(as_bytes(std::span<const char>(metadata))); }});
     for (const TableRow& row : table) {
         if (!row.is_present()) continue;
         tasks.push_back(std::visit(Packer(row, predictors.of(row), effort), row.values));

@@ -1,4 +1,4 @@
-// A .paim with compressed sections, put together in memory.
+// Builds a .paim with compressed sections in memory.
 #pragma once
 
 #include <cstdint>
@@ -11,19 +11,20 @@
 
 namespace paim {
 
-// Whether any value of the asset is an integer, or its codec is always packed. All other files hold
-// floats as they are.
+// Whether any value of the asset is an integer, or its codec is always packed. Other files store
+// floats uncompressed.
 bool needs_packing(const Asset& asset);
 
 class PackedFile {
   public:
-    // A whole asset (shapes are checked). The same bytes on any number of threads.
-    // Error (unsupported): readers would not take so many values in so small a file.
+    // asset  with all values (shapes are checked)
+    // The bytes are the same on any number of threads.
+    // Error (unsupported): readers would refuse so many values in so small a file.
     explicit PackedFile(const Asset& asset, Effort effort = Effort::small);
 
     uint64_t size_bytes() const { return container_size_bytes(plans_); }
 
-    // All or nothing. Errors (output failed) name the path.
+    // Writes the file completely or not at all. Errors (output failed) name the path.
     void write(const std::filesystem::path& path) const;
 
   private:

@@ -1,4 +1,4 @@
-// The JSON of a .paim.
+// The JSON metadata of a .paim.
 #include "paim/format/paim/paim_metadata.h"
 
 #include <nlohmann/json.hpp>
@@ -45,7 +45,7 @@ std::vector<uint32_t> read_singular_indices(const Metadata& metadata, Attribute 
     const char* const key = kSingularIndices[static_cast<size_t>(attribute)];
     std::vector<uint32_t> indices;
     if (!metadata.root().contains(key)) return indices;
-    // None can be above the last value; of no values there are none.
+    // No index can be above that of the last value. Without values there are no indices.
     const double last =
         num_singular_values > 0 ? static_cast<double>(num_singular_values) - 1.0 : 0;
     for (const double number : metadata.numbers(key, num_components, 0.0, last)) {

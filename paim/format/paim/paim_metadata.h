@@ -1,4 +1,4 @@
-// The JSON of a .paim.
+// The JSON metadata of a .paim.
 #pragma once
 
 #include <string>
@@ -11,9 +11,9 @@ namespace paim {
 
 std::string paim_metadata(const Asset& asset);
 
-// Which singular value each of num_components has (LowRank::singular_indices): none if the
-// metadata says nothing of them.
-// Error (bad input) unless they ascend below num_singular_values.
+// The index of the singular value of each of num_components components (LowRank::singular_indices).
+// Empty if the metadata has none.
+// Error (bad input) unless the indices ascend and are below num_singular_values.
 std::vector<uint32_t> read_singular_indices(const Metadata& metadata, Attribute attribute,
                                             uint32_t num_components, size_t num_singular_values);
 

@@ -12,18 +12,19 @@
 namespace paim {
 
 struct ReadOptions {
-    // Take a file of which only a prefix is there, as while it is being loaded: an asset with the
-    // components that are there (Asset::complete, format/paim/prefixes.h).
+    // Whether to read a prefix of a file, such as the part that has been loaded so far. The asset
+    // then has the components that the prefix holds (Asset::complete, format/paim/prefixes.h).
     bool prefix = false;
 };
 
-// Errors (bad input, unsupported) name the file and what is wrong. Indices, shapes and numbers are
-// checked: what is returned holds finite numbers and decodes to finite numbers. A section that is
-// missing is an error; of a prefix, components may be missing, and the message says how many bytes a
-// prefix needs to be playable.
+// Reads a .paim. Errors (bad input, unsupported) name the file and what is wrong. Indices, shapes
+// and numbers are checked: all values of the asset are finite, and decode to finite values. A
+// missing section is an error. A prefix may lack components; if it is too short to be played, the
+// message says how many bytes are needed.
 PAIM_EXPORT Asset read_paim(const std::filesystem::path& path, const ReadOptions& options = {});
 
-// The same from memory, which is not kept. name  what messages call the bytes
+// The same from memory, which is not kept.
+// name  of the bytes in messages
 PAIM_EXPORT Asset read_paim(std::span<const uint8_t> bytes, const std::string& name,
                             const ReadOptions& options = {});
 

@@ -22,7 +22,7 @@ namespace paim {
 
 namespace {
 
-// The longest playable prefix that is there. Error (bad input) if there is none.
+// The longest playable prefix that the source has. Error (bad input) if there is none.
 Prefix find_prefix(const ContainerReader& reader) {
     const std::vector<Prefix> prefixes = list_prefixes(reader);
     const auto next = std::find_if(prefixes.begin(), prefixes.end(), [&](const Prefix& prefix) {
@@ -30,7 +30,7 @@ Prefix find_prefix(const ContainerReader& reader) {
     });
     if (next == prefixes.begin()) {
         throw_bad_input("{}: cut short: {} bytes, expected at least the {} that can be played",
-                        reader.path(), reader.file_size_bytes(), next->size_bytes);
+                        reader.name(), reader.file_size_bytes(), next->size_bytes);
     }
     return *std::prev(next);
 }
@@ -56,15 +56,15 @@ VertexOrder read_vertex_order(const Metadata& metadata) {
     return VertexOrder::cache;
 }
 
-// The codec that the metadata tells of, with the numbers that it has there.
+// The codec that the metadata names, with its numbers.
 CodedTransfer start_transfer(const Metadata& metadata) {
     const std::span<const TransferCodec> codecs = transfer_codecs();
     const auto marked = std::find_if(codecs.begin(), codecs.end(), [&](const TransferCodec& codec) {
         return !codec.marker.empty() && metadata.root().contains(codec.marker);
     });
-    const auto unmarked = std::find_if(codecs.begin(), codecs.end(), [](const TransferCodec& codec) {
-        return codec.marker.empty();
-    });
+    const auto unmarked =
+        std::find_if(codecs.begin(), codecs.end(),
+                     [](const TransferCodec& codec) { return codec.marker.empty(); });
     CodedTransfer transfer = (marked != codecs.end() ? marked : unmarked)->make();
     for (const NamedNumber& number : transfer->numbers()) {
         *number.value = metadata.integer(number.name, number.lowest, number.highest);
@@ -72,7 +72,8 @@ CodedTransfer start_transfer(const Metadata& metadata) {
     return transfer;
 }
 
-// A matrix with the dimensions of the file. components  the metadata's number of components
+// A matrix with the dimensions of the file, without values.
+// components  the metadata's member with the number of components
 LowRank start_matrix(const Metadata& metadata, const char* components, uint32_t num_points,
                      uint32_t num_planes, uint32_t num_poses) {
     LowRank matrix;
@@ -91,8 +92,8 @@ CodedMesh start_moving(const Metadata& metadata) {
         metadata.integer("num_vertices", 0, std::numeric_limits<int32_t>::max());
     mesh.layout = read_layout(metadata);
     const uint32_t num_poses = metadata.integer("num_poses", 1, kMaxPoses);
-    mesh.positions = start_matrix(metadata, "geometry_components", mesh.topology.num_vertices, 3,
-                                  num_poses);
+    mesh.positions =
+        start_matrix(metadata, "geometry_components", mesh.topology.num_vertices, 3, num_poses);
     mesh.transfer = start_transfer(metadata);
     const uint32_t num_points = mesh.transfer->start(mesh.topology.num_vertices);
     mesh.transfer->matrix = start_matrix(metadata, "transfer_components", num_points,
@@ -125,9 +126,9 @@ CodedMesh start_still(const ContainerReader& reader, const TransferLayout& layou
 
 void read_indices(const Metadata& metadata, Attribute attribute, uint32_t num_components,
                   LowRank& matrix) {
-    matrix.singular_indices = read_singular_indices(metadata, attribute, num_components,
-                                                    matrix.singular_values.size());
-    // Those that are there.
+    matrix.singular_indices =
+        read_singular_indices(metadata, attribute, num_components, matrix.singular_values.size());
+    // Only those of the components that the file has.
     if (!matrix.singular_indices.empty()) matrix.singular_indices.resize(matrix.num_components);
 }
 
@@ -138,7 +139,7 @@ Extent extent_of(const ReadOptions& options) {
 Asset read_asset(const ContainerReader& reader) {
     const Prefix prefix = find_prefix(reader);
     const Metadata metadata(reader.read_text(reader.require(section::kMetadata, ScalarType::u8)),
-                            reader.path());
+                            reader.name());
     Asset asset;
     asset.frames_per_second = static_cast<float>(metadata.number("frames_per_second", 1e-3, 1e6));
     asset.origin = metadata.point("origin");

@@ -12,26 +12,27 @@
 
 namespace paim {
 
-// Size in bytes of the file that write_paim() makes of an asset with these dimensions; where all values
-// are floats, the values of means and components do not matter and may be missing.
+// Size in bytes of the file that write_paim() writes for this asset. If all values are floats, only
+// the dimensions matter, and means and components may be missing.
 uint64_t paim_size_bytes(const Asset& asset);
 
-// Writes a .paim of floats whose means and components arrive in pieces, so that they need never be in
-// memory as a whole. All or nothing.
+// Writes a .paim of floats whose means and components are given in pieces, so that they are never
+// in memory as a whole. The file is written completely or not at all.
 class PaimWriter {
   public:
-    // asset  everything but the means and components of the part that moves
+    // asset  without the values of means and components of the moving part
     // Errors (output failed) name the path.
     PaimWriter(const std::filesystem::path& path, const Asset& asset);
 
-    // The next rows of a mean, or of a component (unit RMS; rounded to the matrix's precision here).
+    // Appends rows of a mean, or of a component (of unit RMS, rounded here to the matrix's
+    // precision).
     void append_mean(Attribute attribute, std::span<const float> rows);
     void append_component(ComponentId id, std::span<const float> rows);
 
-    // The sections that a file of this asset has, in order.
+    // The sections of a file of this asset, in order.
     static std::vector<SectionPlan> section_plans(const Asset& asset);
 
-    // Every mean and component must be complete by now (checked).
+    // Finishes the file. Every mean and component must be complete (checked).
     void commit() { writer_.commit(); }
 
   private:
@@ -44,7 +45,8 @@ class PaimWriter {
     ContainerWriter writer_;
 };
 
-// Errors (output failed) name the path; unsupported: files have no place for such an asset.
+// Writes a .paim. Errors: output failed, naming the path; unsupported if files cannot hold such an
+// asset.
 void write_paim(const std::filesystem::path& path, const Asset& asset);
 
 }  // namespace paim

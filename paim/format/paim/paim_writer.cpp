@@ -1,4 +1,4 @@
-// Writes .paim files: those of floats as they are, all others packed.
+// Writes .paim files: floats uncompressed, all others packed.
 #include <algorithm>
 #include <utility>
 
@@ -13,7 +13,7 @@ namespace paim {
 
 namespace {
 
-// The type that a row of floats has in a file that is not packed.
+// The type of a row of floats in a file that is not packed.
 struct PlainType {
     ScalarType operator()(Topology*) const { return ScalarType::u32; }
     ScalarType operator()(const SingularValues&) const { return ScalarType::f64; }
@@ -57,7 +57,7 @@ struct PlainValues {
 
 }  // namespace
 
-// The sections of a file of floats, and which of them hold what arrives in pieces.
+// The sections of a file of floats, and those of them that are given in pieces.
 struct PaimWriter::Layout {
     std::string metadata;
     std::vector<TableRow> table;  // row j is section 1 + j
@@ -66,10 +66,8 @@ struct PaimWriter::Layout {
     std::vector<size_t> component[2];
 
     explicit Layout(const Asset& asset) : metadata(paim_metadata(asset)) {
-        plans.push_back(SectionSpec{section::kMetadata,
-                                    ScalarType::u8,
-                                    0,
-                                    {1, 1, static_cast<uint32_t>(metadata.size())}});
+        plans.push_back(SectionSpec{
+            section::kMetadata, ScalarType::u8, 0, {1, 1, static_cast<uint32_t>(metadata.size())}});
         for (TableRow& row : section_table(asset)) {
             if (row.is_present()) table.push_back(std::move(row));
         }
@@ -111,7 +109,7 @@ PaimWriter::PaimWriter(const std::filesystem::path& path, const Asset& asset, La
     writer_.append(0, std::span<const char>(layout.metadata));
     for (size_t j = 0; j < layout.table.size(); ++j) {
         const TableRow& row = layout.table[j];
-        // Those of the part that moves arrive in pieces.
+        // Those of the moving part are given in pieces.
         if (row.part == 0 && std::holds_alternative<MatrixValues>(row.values)) continue;
         std::visit(PlainValues{writer_, 1 + j}, row.values);
     }

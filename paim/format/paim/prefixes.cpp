@@ -10,13 +10,13 @@ namespace paim {
 
 namespace {
 
-// Components of a part in file order, and where they end.
+// The ends in the file of the components of one attribute.
 class ComponentEnds {
   public:
-    // Of sections that have the same index, the first is read.
+    // If several sections have the same index, the first one counts.
     void add(const Section& section, uint64_t end) { ends_.emplace(section.spec.index, end); }
 
-    // For k = 0, 1, ...: how many bytes it takes to have components 0 … k.
+    // For k = 0, 1, …: the size of the prefix that has components 0 … k.
     std::vector<uint64_t> running() const {
         std::vector<uint64_t> sizes;
         for (const auto& [index, end] : ends_) {

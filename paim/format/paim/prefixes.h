@@ -1,4 +1,4 @@
-// Prefixes of a .paim that can be played: how many bytes they take and what they hold.
+// Prefixes of a .paim that can be played: their sizes and their components.
 #pragma once
 
 #include <cstdint>
@@ -10,20 +10,20 @@
 namespace paim {
 
 struct Prefix {
-    uint64_t size_bytes = 0;  // from the beginning of the file
+    uint64_t size_bytes = 0;  // from the start of the file
     uint32_t geometry_components = 0;
     uint32_t transfer_components = 0;
 
     bool operator==(const Prefix&) const = default;
 };
 
-// From the section table: first the shortest prefix that can be played, which has everything but
-// components, then one for every component that it takes more bytes to have. A component counts once
-// all those of its part before it are there.
+// Lists prefixes by the section table. The first is the shortest one that can be played, which has
+// all sections but components. Each component that needs more bytes adds a prefix. A prefix has a
+// component if it also has all earlier ones of the same attribute.
 std::vector<Prefix> list_prefixes(const ContainerReader& reader);
 
-// The same of a file of which no more than header and section table need be there. Errors: bad
-// input, naming the file, if they are not, or damaged; unsupported.
+// The same for a file that needs to have its header and section table only. Errors: bad input,
+// naming the file, if these are missing or damaged; unsupported.
 std::vector<Prefix> read_prefixes(const std::filesystem::path& path);
 
 }  // namespace paim

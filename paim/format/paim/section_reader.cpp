@@ -1,4 +1,4 @@
-// Takes the sections of a .paim apart.
+// Reads the sections of a .paim into an asset.
 #include "paim/format/paim/section_reader.h"
 
 #include <algorithm>
@@ -40,7 +40,8 @@ Precision precision_of(ScalarType type) {
     }
 }
 
-// out [sections]: integers of sections of the same type and shape, undone side by side.
+// Decodes integers of sections of the same type and shape, several at once.
+// out  [sections]
 template <typename Integer>
 void read_integers(const ContainerReader& reader, std::span<const Section* const> sections,
                    const PlanePredictor& predictor, WorkspacePool& pool, StoredValues* out) {
@@ -72,7 +73,8 @@ void read_integers(const ContainerReader& reader, std::span<const Section* const
     std::move(values.begin(), values.end(), out);
 }
 
-// out [sections]: integers, or finite floats. Sections have the same type and shape.
+// Reads integers, or finite floats (checked), of sections of the same type and shape.
+// out  [sections]
 void read_alike(const ContainerReader& reader, std::span<const Section* const> sections,
                 const PlanePredictor& predictor, WorkspacePool& pool, StoredValues* out) {
     switch (sections[0]->spec.type) {
@@ -94,14 +96,14 @@ void read_alike(const ContainerReader& reader, std::span<const Section* const> s
     }
 }
 
-// How many planes of this type are best undone at once.
+// Number of planes of this type that are decoded fastest at once.
 size_t planes_at_once(ScalarType type) {
     return type == ScalarType::i8    ? kPlanesAtOnce<int8_t>
            : type == ScalarType::i16 ? kPlanesAtOnce<int16_t>
                                      : 1;
 }
 
-// An array of values to be read, with what its integers are predicted from.
+// An array of values to read, with the predictor of its integers.
 struct Job {
     const Section* section;
     const PlanePredictor* predictor;
@@ -113,9 +115,10 @@ bool are_alike(const Job& a, const Job& b) {
            a.section->spec.shape == b.section->spec.shape;
 }
 
-// Reads all arrays, several at once where they are alike: on all threads, the same on any number.
+// Reads all arrays on all threads; arrays of the same type and shape are read together. The result
+// is the same on any number of threads.
 void read_values(const ContainerReader& reader, std::span<const Job> jobs) {
-    std::vector<size_t> ends{0};  // of those that are read at once
+    std::vector<size_t> ends{0};  // of the groups of arrays that are read together
     for (size_t j = 1; j < jobs.size(); ++j) {
         const SectionSpec& spec = jobs[j].section->spec;
         const size_t num_planes = (j + 1 - ends.back()) * spec.shape[1];
@@ -143,7 +146,7 @@ StoredValues read_values(const ContainerReader& reader, const Section& section,
     return values;
 }
 
-// Steps that integers are multiples of: numbers from 0 up, of which 2¹⁵ are finite.
+// Reads steps of integers. Each is at least 0, and 2¹⁵ times it is finite (checked).
 std::vector<float> read_steps(const ContainerReader& reader, const Section& section) {
     std::vector<float> steps = reader.read_f32(section);
     for (const float step : steps) {
@@ -161,17 +164,17 @@ void check_singular_values(const ContainerReader& reader, const LowRank& matrix)
     for (const double s : matrix.singular_values) {
         if (!(s >= 0.0 && s <= previous && std::isfinite(s))) {
             throw_bad_input("{}: singular values: expected finite, descending numbers, got {}",
-                            reader.path(), s);
+                            reader.name(), s);
         }
         previous = s;
     }
     if (matrix.singular_values.size() < matrix.num_components) {
         throw_bad_input("{}: {} singular values, expected at least the {} components'",
-                        reader.path(), matrix.singular_values.size(), matrix.num_components);
+                        reader.name(), matrix.singular_values.size(), matrix.num_components);
     }
 }
 
-// Types that a row may have in a file.
+// The types that a row may have in a file.
 struct AllowedTypes {
     using Types = std::vector<ScalarType>;
     Types operator()(Topology*) const { return {ScalarType::u32}; }
@@ -194,11 +197,11 @@ struct AllowedTypes {
 const Section& find_section(const ContainerReader& reader, const TableRow& row) {
     const Section* const section = reader.find(row.tag, row.index);
     if (section == nullptr) {
-        throw_bad_input("{}: section {} {} is missing", reader.path(), row.tag.str(), row.index);
+        throw_bad_input("{}: section {} {} is missing", reader.name(), row.tag.str(), row.index);
     }
     const std::vector<ScalarType> types = std::visit(AllowedTypes(), row.values);
     if (std::find(types.begin(), types.end(), section->spec.type) == types.end()) {
-        if (types.size() == 1) reader.require(row.tag, types[0], row.index);  // says what it expected
+        if (types.size() == 1) reader.require(row.tag, types[0], row.index);  // throws
         throw_unsupported("{}: values of {}", reader.label(*section),
                           scalar_name(section->spec.type));
     }
@@ -213,7 +216,7 @@ const Section& find_section(const ContainerReader& reader, const TableRow& row) 
     return *section;
 }
 
-// Whether the values that a row of steps goes with are integers in the file.
+// Whether the values that a row of steps belongs to are integers in the file.
 bool goes_with_integers(const std::vector<FoundRow>& found, const TableRow& steps) {
     const auto* const of_values = std::get_if<Steps>(&steps.values);
     return std::any_of(found.begin(), found.end(), [&](const FoundRow& other) {
@@ -233,14 +236,14 @@ bool is_steps(const TableRow& row) {
            std::holds_alternative<WeightSteps>(row.values);
 }
 
-// The sizes that the file alone knows.
+// Marks the sizes that only the file knows.
 void open_shape(TableRow& row) {
     if (std::holds_alternative<Topology*>(row.values)) row.shape[0] = kAnySize;
     if (std::holds_alternative<Albedo*>(row.values)) row.shape[0] = kAnySize;
     if (std::holds_alternative<SingularValues>(row.values)) row.shape[1] = kAnySize;
 }
 
-// All rows of the file, checked; steps only where there are integers.
+// All rows of the file, checked. Rows of steps are among them only if their values are integers.
 std::vector<FoundRow> find_rows(const ContainerReader& reader, Asset& asset) {
     std::vector<FoundRow> found;
     std::vector<TableRow> steps;
@@ -260,13 +263,14 @@ std::vector<FoundRow> find_rows(const ContainerReader& reader, Asset& asset) {
             with_steps.push_back({std::move(row), &section});
         }
     }
-    // Steps first: weights are multiplied by theirs.
+    // Steps come first, because weights are multiplied by theirs when they are read.
     with_steps.insert(with_steps.end(), std::make_move_iterator(found.begin()),
                       std::make_move_iterator(found.end()));
     return with_steps;
 }
 
-// Matrices hold integers or floats, and know which; a half float's mean is of floats.
+// Sets the precision of matrices. Mean and components are all integers or all floats (checked); the
+// mean of half floats is of floats.
 void set_precisions(const ContainerReader& reader, const std::vector<FoundRow>& found) {
     for (const FoundRow& mean : found) {
         const auto* const of_mean = std::get_if<MatrixValues>(&mean.row.values);
@@ -281,24 +285,24 @@ void set_precisions(const ContainerReader& reader, const std::vector<FoundRow>& 
                 throw_unsupported("{}: {}, where others are not", reader.label(*other.section),
                                   scalar_name(other.section->spec.type));
             }
-            if (other.row.index == 0) matrix.precision = precision;  // which has the most bits
+            if (other.row.index == 0) matrix.precision = precision;  // the one with most bits
         }
     }
 }
 
-// Error (bad input) if a file of this size has no business with so many vertices: sections may claim
-// few bytes for each.
+// Error (bad input) if the file is too small for so many vertices. The predictor takes many bytes a
+// vertex, while sections may claim few.
 PlanePredictor make_predictor(const ContainerReader& reader, const Topology& topology) {
     const uint64_t most =
         most_bytes_of_values(reader.file_size_bytes()) / PlanePredictor::kBytesAVertex;
     if (topology.num_vertices > most) {
-        throw_bad_input("{}: {} vertices, expected at most {} in a file of {} bytes", reader.path(),
+        throw_bad_input("{}: {} vertices, expected at most {} in a file of {} bytes", reader.name(),
                         topology.num_vertices, most, reader.file_size_bytes());
     }
     return PlanePredictor(topology);
 }
 
-// What integers of a file are predicted from; nothing where no section is predicted.
+// Predictors of the integers of a file; none if no section is predicted.
 class Predictors {
   public:
     Predictors(const ContainerReader& reader, const Asset& asset)
@@ -330,7 +334,7 @@ class Predictors {
     PlanePredictor none_;
 };
 
-// Reads everything of a row but arrays of values, which are read together afterwards.
+// Reads a row. Arrays of values are only listed here, and read together afterwards.
 struct RowReader {
     const ContainerReader& reader;
     const Section& section;
@@ -338,7 +342,7 @@ struct RowReader {
     const Predictors& predictors;
     std::vector<Job>& jobs;
 
-    void operator()(Topology*) const {}  // before all others
+    void operator()(Topology*) const {}  // read before all other rows
     void operator()(Albedo*) const {}
     void operator()(const SingularValues& values) const {
         std::vector<double>& out = values.matrix->singular_values;
@@ -411,7 +415,7 @@ bool is_wanted(const FoundRow& found) {
            found.row.index < values->matrix->num_components;
 }
 
-// What decoders add up to may not overflow, whatever the pose and the number of components.
+// Error (bad input) if decoded values could overflow in any pose with any number of components.
 void check_magnitudes(const ContainerReader& reader, const CodedMesh& mesh) {
     constexpr double kMax = std::numeric_limits<float>::max();
     const auto check = [&](const char* what, const LowRank& matrix, double gain) {
@@ -420,7 +424,7 @@ void check_magnitudes(const ContainerReader& reader, const CodedMesh& mesh) {
                 throw_bad_input(
                     "{}: {}: means, components and weights decode to numbers of up to {:.3g}, "
                     "expected at most {:.3g}",
-                    reader.path(), what, bound * gain, kMax);
+                    reader.name(), what, bound * gain, kMax);
             }
         }
     };
@@ -438,7 +442,7 @@ void read_sections(const ContainerReader& reader, const ComponentCounts& counts,
     read_meshes(reader, found, asset);
     const Predictors predictors(reader, asset);
 
-    // Arrays of the same kind follow each other, so that many are read at once.
+    // Arrays of the same type and shape are put together, so that many are read at once.
     std::vector<Job> jobs;
     const auto read = [&](bool components) {
         for (const FoundRow& row : found) {

@@ -82,7 +82,7 @@ class TableBuilder {
             row.values);
     }
 
-    // Everything of an attribute but means and components.
+    // Adds the rows of an attribute without mean and components.
     void add_frame(size_t i, LowRank& matrix) {
         add(section::kSingularValues[i], {1, size_of(matrix.singular_values.size())},
             SingularValues{&matrix});
@@ -106,7 +106,7 @@ class TableBuilder {
 
 void check_parts(const Asset& asset) {
     if (asset.parts.size() > 2) {
-        throw_unsupported("an asset of {} parts: files hold one that moves and one that stands still",
+        throw_unsupported("an asset of {} parts: files hold one that moves and one that is still",
                           asset.parts.size());
     }
     const CodedMesh* const still = asset.still();
@@ -117,7 +117,7 @@ void check_parts(const Asset& asset) {
         still->layout != asset.moving().layout) {
         throw_unsupported(
             "a second part that moves, or whose transfer is coded otherwise: files hold one that "
-            "stands still, every vertex with its own transfer of the first part's layout");
+            "is still, every vertex with its own transfer of the first part's layout");
     }
 }
 
@@ -137,7 +137,8 @@ std::vector<TableRow> section_table(Asset& asset) {
 }
 
 std::vector<TableRow> section_table(const Asset& asset) {
-    // Rows point to what reading fills; whoever has only a constant asset does not write through them.
+    // Rows point to values that the reader fills. Callers with a constant asset do not write
+    // through them.
     return section_table(const_cast<Asset&>(asset));
 }
 
@@ -150,7 +151,7 @@ std::vector<ComponentId> component_order(const Asset& asset) {
     for (const Attribute attribute : {Attribute::geometry, Attribute::transfer}) {
         const LowRank& matrix = asset.moving().attribute(attribute);
         const double largest = matrix.singular_values.empty() ? 0.0 : matrix.singular_values[0];
-        double energy = 0.0;  // relative to the largest value, which may be too big to square
+        double energy = 0.0;  // relative to the largest value, whose square may overflow
         for (const double s : matrix.singular_values) energy += (s / largest) * (s / largest);
         for (uint32_t k = 0; k < matrix.num_components; ++k) {
             const size_t index = matrix.singular_index(k);

@@ -1,5 +1,5 @@
-// The table of sections of a .paim: what an asset consists of, in the order of the file. Writers walk
-// it to lay a file out and to fill it, the reader walks it to check a file and to take it apart.
+// The table of sections of a .paim: the arrays of an asset, in the order of the file. Writers walk
+// it to lay out a file and to fill it; the reader walks it to check a file and to read it.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace paim {
 
-// What the values of a section are, and where they are in memory. The matrix is the one that a row
+// The kinds of values of a section, with their place in memory. `matrix` is the one that a row
 // belongs to.
 struct SingularValues {
     LowRank* matrix;
@@ -29,16 +29,16 @@ struct Steps {  // only where values are integers
 };
 struct MatrixValues {
     LowRank* matrix;
-    StoredValues* values;  // nullptr while they are not in memory: they arrive in pieces
+    StoredValues* values;  // nullptr: not in memory, but given in pieces
     bool is_component = false;
 };
 using RowValues = std::variant<Topology*, Albedo*, SingularValues, Weights, WeightSteps, Steps,
                                MatrixValues, StoredValues*, SmallNumbers, std::vector<float>*>;
 
-// Stands for a dimension that the file alone knows.
+// A dimension that only the file knows.
 constexpr uint32_t kAnySize = std::numeric_limits<uint32_t>::max();
 
-// Where integers of a section have neighbours to be predicted from.
+// The neighbours that integers of a section are predicted from.
 enum class Neighbours { none, vertices, poses };
 
 struct TableRow {
@@ -46,31 +46,31 @@ struct TableRow {
     uint32_t index = 0;
     std::array<uint32_t, 2> shape{0, 0};
     Neighbours neighbours = Neighbours::none;
-    size_t part = 0;  // of the asset, whose vertices those are
+    size_t part = 0;  // number of the part whose vertices are the columns
     RowValues values;
 
-    // Whether the asset in memory has this section: steps go with integers.
+    // Whether the asset in memory has this section. Steps exist only with integers.
     bool is_present() const;
 };
 
-// Every row of an asset whose dimensions are set; values may still be missing. Metadata is not among
-// them. Rows point into the asset.
-// Error (unsupported): more than one part, beyond the first, or one that does not stand still: files
-// have no place for it.
+// All rows of an asset whose dimensions are set, without metadata. Values may be missing. Rows
+// point into the asset.
+// Error (unsupported) if the asset has more than two parts, or a second part that moves, which
+// files cannot hold.
 std::vector<TableRow> section_table(Asset& asset);
 
-// For walks that only read through the rows.
+// The same, for callers that only read through the rows.
 std::vector<TableRow> section_table(const Asset& asset);
 
-// A component of the part that moves.
+// A component of the moving part.
 struct ComponentId {
     Attribute attribute;
     uint32_t k;
     bool operator==(const ComponentId&) const = default;
 };
 
-// The order of components in a file: by the share of their attribute's energy, largest first, so that
-// every prefix is the best coarser animation of its size.
+// The order of components in a file: by their share of the energy of their attribute, largest
+// first. So every prefix has the best components for its size.
 std::vector<ComponentId> component_order(const Asset& asset);
 
 }  // namespace paim

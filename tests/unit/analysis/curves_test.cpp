@@ -116,7 +116,7 @@ TEST_F(Curves, OfComponentsLoseTheSingularValuesFromKOn) {
     }
 }
 
-// Bytes are those of the whole file, with everything else kept: what stands still in as many bands, and
+// Bytes are those of the whole file, with everything else kept: the still part in as many bands, and
 // the origin.
 TEST_F(Curves, SizesCountWhatStandsStill) {
     Asset asset = make_example_asset(kBands, kChannels, kPoses);

@@ -14,12 +14,12 @@
 namespace paim {
 namespace {
 
-constexpr size_t kOwn = 5, kScenery = 3, kAll = kOwn + kScenery;
+constexpr size_t kOwn = 5, kStill = 3, kAll = kOwn + kStill;
 
 // Random rows, terms and colours; two bands, three channels.
 struct RandomScene {
     Eigen::MatrixXd rows[2];  // [own][all]
-    BounceTerms scenery_terms;
+    BounceTerms still_terms;
     std::array<std::vector<float>, 2> direct;  // [C][V]
     BounceScene scene;
 
@@ -37,19 +37,19 @@ struct RandomScene {
             std::generate(half.begin(), half.end(), number);
         }
         for (int b = 0; b < 3; ++b) {
-            BounceTerm& term = scenery_terms.emplace_back();
+            BounceTerm& term = still_terms.emplace_back();
             for (auto& half : term) {
-                half.resize(3 * 4 * kScenery);
+                half.resize(3 * 4 * kStill);
                 std::generate(half.begin(), half.end(), number);
             }
         }
         scene.layout = {TransferKind::diffuse, 2, 3};
         scene.num_vertices = kOwn;
-        scene.num_scenery_vertices = kScenery;
+        scene.num_still_vertices = kStill;
         scene.albedo.values.resize(kOwn);
         for (Vec3f& value : scene.albedo.values) value = Vec3f(number(), number(), number());
-        scene.scenery_albedo.values = {Vec3f(0.9f, 0.5f, 0.1f)};
-        scene.scenery_terms = &scenery_terms;
+        scene.still_albedo.values = {Vec3f(0.9f, 0.5f, 0.1f)};
+        scene.still_terms = &still_terms;
         scene.make_row = [this](size_t v, size_t half, TransportRow& row) {
             row.clear();
             for (uint32_t u = 0; u < kAll; ++u) {
@@ -83,10 +83,10 @@ TEST(Bounces, AreTheDenseMatrixApplied) {
                             EXPECT_NEAR(terms[b][half][(channel * kOwn + v) * 4 + i], term[v],
                                         1e-6);
                         }
-                        for (uint32_t s = 0; s < kScenery; ++s) {
+                        for (uint32_t s = 0; s < kStill; ++s) {
                             light[kOwn + s] =
-                                random.scene.scenery_albedo.at(s)[static_cast<int>(channel)] *
-                                random.scenery_terms[b][half][(channel * kScenery + s) * 4 + i];
+                                random.scene.still_albedo.at(s)[static_cast<int>(channel)] *
+                                random.still_terms[b][half][(channel * kStill + s) * 4 + i];
                         }
                         term = random.rows[half] * light;
                         total += term;

@@ -85,7 +85,7 @@ TEST(Accumulate, GivesTheSameBytesOnEveryVectorUnit) {
     }
 }
 
-// What lies beside the values asked for stays as it is.
+// Memory before and after the values asked for stays as it is.
 TEST(Accumulate, WritesNothingElse) {
     const StoredValues mean = random_values(Precision::i8, 1);
     const std::vector<StoredValues> components(9, random_values(Precision::i8, 2));

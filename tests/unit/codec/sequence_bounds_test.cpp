@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "paim/codec/svd/svd_transfer.h"
 #include "paim/mesh/planes.h"
@@ -61,6 +62,30 @@ TEST(SequenceBounds, HoldEveryPose) {
     const Bounds single = sequence_bounds(moving_points(1));
     EXPECT_EQ(single.lower, Vec3f(0, 0, 0));
     EXPECT_EQ(single.upper, Vec3f(1, 2, 3));
+}
+
+// The poses that count: those whose vertex shows in the bounds when it alone is far away.
+std::vector<uint32_t> sampled_poses(uint32_t num_poses, uint64_t max_multiply_adds) {
+    std::vector<uint32_t> sampled;
+    for (uint32_t p = 0; p < num_poses; ++p) {
+        Asset asset = moving_points(num_poses);
+        asset.moving().positions.weights[p] = 99.0f;
+        if (sequence_bounds(asset, max_multiply_adds).upper.x() == 100.0f) sampled.push_back(p);
+    }
+    return sampled;
+}
+
+// A pose of moving_points() takes 3 planes · 2 points · (1 mean + 2 components) = 18 multiply-adds.
+TEST(SequenceBounds, SampleWhatTakesMoreThanTheLimit) {
+    using Poses = std::vector<uint32_t>;
+    EXPECT_EQ(sampled_poses(6, 6 * 18), (Poses{0, 1, 2, 3, 4, 5}));
+    EXPECT_EQ(sampled_poses(6, 6 * 18 - 1), (Poses{0, 2, 4, 5}));
+    EXPECT_EQ(sampled_poses(6, 3 * 18), (Poses{0, 2, 4, 5}));
+    EXPECT_EQ(sampled_poses(6, 3 * 18 - 1), (Poses{0, 3, 5}));
+    // Two samples and the last pose, however small the limit.
+    EXPECT_EQ(sampled_poses(6, 0), (Poses{0, 3, 5}));
+    EXPECT_EQ(sampled_poses(2, 0), (Poses{0, 1}));
+    EXPECT_EQ(sampled_poses(1, 0), (Poses{0}));
 }
 
 TEST(SequenceBounds, HoldWhatStandsStillNearBy) {

@@ -58,7 +58,7 @@ TEST(ObjOrigin, RefusesWhatNoFloatHoldsFromThere) {
     const std::string stray = near + "v 3e38 0 0\n";
     expect_refused(sequence_error({stray + face}), "0.obj");
     expect_refused(sequence_error({near + "v 0 0 0\n" + face, stray + face}), "1.obj");
-    // Scenery is counted from where the poses are.
+    // A still mesh is counted from the origin of the poses.
     ObjOptions options;
     options.origin = Vec3d(-3e38, 0, 0);
     expect_refused(sequence_error({"v 3e38 0 0\nv 3.01e38 0 0\nv 3e38 1e36 0\n" + face}, options),

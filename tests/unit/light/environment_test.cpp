@@ -124,7 +124,7 @@ TEST(EnvironmentLight, RadianceInterpolatesPixelCentres) {
         }
     }
     const EnvironmentLight light(image);
-    const auto at = [&](double x, double y) {  // pixel coordinates, centres at halves
+    const auto at = [&](double x, double y) {  // pixel coordinates, centres at j + 0.5
         return light.radiance(direction_from_latlong(x / 8.0, y / 4.0));
     };
     const auto expect = [](const Vec3f& got, const Vec3f& expected) {

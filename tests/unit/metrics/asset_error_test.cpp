@@ -21,7 +21,7 @@ constexpr uint32_t kVertices = 4;
 
 class AssetErrorTest : public testing::Test {
   protected:
-    // A bake for the asset's meshes: poses 0 … num_poses − 1, then what stands still.
+    // A bake for the asset's meshes: poses 0 … num_poses − 1, then the still meshes.
     BakeReader write_bake(const Asset& asset, const TransferLayout& layout, uint32_t num_poses,
                           const std::function<BakedPose()>& make_pose) {
         std::vector<BakeIdentity::Source> poses;
@@ -31,11 +31,11 @@ class AssetErrorTest : public testing::Test {
             made_up_identity(moving.topology, moving.albedo, layout, std::move(poses));
         const auto directory = directory_ / "x.bake";
         std::filesystem::remove_all(directory);
-        if (asset.still() != nullptr) identity.scenery.push_back({"still", 0});
+        if (asset.still() != nullptr) identity.still_meshes.push_back({"still", 0});
         const BakeWriter writer(directory, identity, moving.topology, moving.albedo);
         for (uint32_t p = 0; p < num_poses; ++p) writer.write_pose(p, make_pose());
         if (asset.still() != nullptr) {
-            writer.write_scenery({asset.still()->topology, asset.still()->albedo, make_pose()});
+            writer.write_still_mesh({asset.still()->topology, asset.still()->albedo, make_pose()});
         }
         return BakeReader(directory);
     }
@@ -99,11 +99,11 @@ class AssetErrorTest : public testing::Test {
         const AssetError error = measure_asset(asset, bake, spectrum);
         // The sum of a few products of about 1 in floats is rounded by some 2^-24, in two orders,
         // while what is measured is about 1.
-        EXPECT_NEAR(error.transfer.deviation, std::sqrt(deviation / baked), 1e-6);
+        EXPECT_NEAR(error.transfer.error_to_bake, std::sqrt(deviation / baked), 1e-6);
         EXPECT_NEAR(error.transfer.bake_noise, std::sqrt(noise / baked), 1e-14);
         EXPECT_NEAR(error.geometry.rms(), std::sqrt(distances / kVertices / bake.num_poses()),
                     1e-6);
-        EXPECT_GT(error.transfer.deviation, 0.1);
+        EXPECT_GT(error.transfer.error_to_bake, 0.1);
         EXPECT_EQ(error.transfer.bands.size(), layout.in_bands);
     }
 
@@ -152,14 +152,14 @@ TEST_F(AssetErrorTest, RefusesAnotherAnimation) {
     expect_failure(turned, bake, "other triangles");
 }
 
-// Integers of what stands still against its bake: Σ (t̂ − y)² / Σ y² of its own values, and distances.
+// Integers of a still part against its bake: Σ (x̂ − x)² / Σ x² of its own values, and distances.
 TEST_F(AssetErrorTest, MeasuresWhatStandsStill) {
     for (const uint32_t bands : {2u, 3u}) {
         Asset asset = make_example_asset(bands, 3);
         asset.parts.push_back(make_quantised_still(asset.moving().layout));
         const CodedMesh& still = *asset.still();
         const BakeReader bake = write_bake(asset, {TransferKind::diffuse, 3, 3}, 5);
-        const BakedPose& baked = bake.scenery()->pose;
+        const BakedPose& baked = bake.still_mesh()->pose;
         const std::vector<float> positions = still.positions.mean_floats();
         const std::vector<float> transfer = still.transfer->matrix.mean_floats();
         double deviation = 0.0, energy = 0.0, distances = 0.0;
@@ -180,7 +180,7 @@ TEST_F(AssetErrorTest, MeasuresWhatStandsStill) {
         }
         const AssetError error = measure_asset(asset, bake, BandPower::flat(3));
         ASSERT_TRUE(error.still.has_value());
-        EXPECT_NEAR(error.still->transfer.deviation, std::sqrt(deviation / energy), 1e-12);
+        EXPECT_NEAR(error.still->transfer.error_to_bake, std::sqrt(deviation / energy), 1e-12);
         EXPECT_NEAR(error.still->geometry.rms(), std::sqrt(distances / 4.0), 1e-12);
         const std::vector<NamedError> named = named_errors(error);
         EXPECT_EQ(named.back().name, "scenery_position_worst");
@@ -226,7 +226,7 @@ TEST_F(AssetErrorTest, TakesNoiseInTheOrderOfTheFile) {
             matrix.weights = {1.0f, -1.0f};
             const TransferError error = measure_asset(asset, bake, BandPower::flat(1)).transfer;
             // ‖y‖² = 4 (3² + 1²), of which three vertices are lost; ‖d‖² = 2. Roundings of a few numbers.
-            EXPECT_NEAR(error.deviation, std::sqrt(30.0 / 40.0), 1e-14);
+            EXPECT_NEAR(error.error_to_bake, std::sqrt(30.0 / 40.0), 1e-14);
             EXPECT_NEAR(error.bake_noise, std::sqrt(2.0 / 40.0), 1e-14);
             EXPECT_NEAR(error.error, std::sqrt((decoded == noisy ? 32.0 : 28.0) / 40.0), 1e-14)
                 << decoded << " " << noisy;
@@ -250,17 +250,17 @@ TEST_F(AssetErrorTest, FindsWhatStandsStillInCacheOrder) {
     for (size_t v = 0; v < 4; ++v) {
         const size_t old = still.old_vertex[v];
         for (size_t j = 0; j < 3; ++j) {
-            positions[4 * j + v] = bake.scenery()->pose.positions[4 * j + old];
+            positions[4 * j + v] = bake.still_mesh()->pose.positions[4 * j + old];
         }
         for (size_t j = 0; j < 4; ++j) {
-            transfer[4 * j + v] = bake.scenery()->pose.transfer[4 * j + old];
+            transfer[4 * j + v] = bake.still_mesh()->pose.transfer[4 * j + old];
         }
     }
     asset.still()->positions = LowRank::still(3, positions);
     asset.still()->transfer->matrix = LowRank::still(4, transfer);
     const AssetError error = measure_asset(asset, bake, BandPower::natural());
     EXPECT_EQ(error.still->geometry.worst(), 0.0);
-    EXPECT_EQ(error.still->transfer.deviation, 0.0);
+    EXPECT_EQ(error.still->transfer.error_to_bake, 0.0);
     EXPECT_NEAR(error.still->transfer.error, error.still->transfer.bake_noise, 1e-12);
 }
 
@@ -268,10 +268,10 @@ TEST_F(AssetErrorTest, RefusesOtherThingsThatStandStill) {
     Asset asset = make_example_asset(2, 1);
     const BakeReader without = write_bake(asset, asset.moving().layout, 5);
     asset.parts.push_back(make_example_still(asset.moving().layout));
-    expect_failure(asset, without, "0 vertices of scenery, got 4");
+    expect_failure(asset, without, "0 vertices of still meshes, got 4");
     const BakeReader bake = write_bake(asset, asset.moving().layout, 5);
     std::swap(asset.still()->topology.triangles[0], asset.still()->topology.triangles[1]);
-    expect_failure(asset, bake, "other triangles of the scenery");
+    expect_failure(asset, bake, "other triangles of the still meshes");
 }
 
 // Every figure by its own name.
@@ -279,9 +279,9 @@ TEST_F(AssetErrorTest, IsStatedAndReadBack) {
     AssetError error;
     error.transfer.error = 0.3;
     error.transfer.missing_bands = 0.4;
-    error.transfer.deviation = 0.25;
-    error.transfer.worst_vertex_deviation = 0.75;
-    error.transfer.worst_pose_deviation = 0.625;
+    error.transfer.error_to_bake = 0.25;
+    error.transfer.worst_vertex_error_to_bake = 0.75;
+    error.transfer.worst_pose_error_to_bake = 0.625;
     error.geometry.add(std::vector<float>{0, 0, 0, 0, 0, 0}, std::vector<float>{3, 0, 4, 0, 0, 0},
                        0);
     Asset asset = make_example_asset();

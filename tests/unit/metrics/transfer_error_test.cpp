@@ -37,13 +37,13 @@ Animation random_animation(const TransferLayout& layout, Index num_vertices, Ind
             (baked + 0.2 * gaussian(rows, num_poses, 3)).cast<float>()};
 }
 
-TransferErrorMeter new_meter(const Animation& a, const BandPower& spectrum, const MatrixXd& kept) {
+TransferErrorMeter new_meter(const Animation& a, const BandPower& spectrum, const MatrixXd& span) {
     return {a.layout, static_cast<uint32_t>(a.num_vertices), static_cast<uint32_t>(a.num_poses()),
-            spectrum, kept};
+            spectrum, span};
 }
 
-TransferError measure(const Animation& a, const BandPower& spectrum, const MatrixXd& kept) {
-    TransferErrorMeter meter = new_meter(a, spectrum, kept);
+TransferError measure(const Animation& a, const BandPower& spectrum, const MatrixXd& span) {
+    TransferErrorMeter meter = new_meter(a, spectrum, span);
     for (uint32_t j = 0; j < a.layout.num_planes(); ++j) {
         const auto plane = static_cast<Index>(j);
         meter.add(j, a.plane(a.baked, plane), a.plane(a.noise, plane), a.plane(a.decoded, plane));
@@ -72,7 +72,7 @@ TEST(TransferError, OfFlatLightIsTheRelativeFrobeniusError) {
     const double baked = squared(a.baked);
     const double deviation = (a.decoded.cast<double>() - a.baked.cast<double>()).squaredNorm();
     // Sums of 57,000 squares in double, in another order.
-    EXPECT_NEAR(error.deviation / std::sqrt(deviation / baked), 1.0, 1e-13);
+    EXPECT_NEAR(error.error_to_bake / std::sqrt(deviation / baked), 1.0, 1e-13);
     EXPECT_NEAR(error.bake_noise / std::sqrt(squared(a.noise) / baked), 1.0, 1e-13);
     EXPECT_EQ(error.missing_bands, 0.0);
     EXPECT_EQ(error.total(), error.error);
@@ -87,12 +87,12 @@ TEST(TransferError, WeighsBandsByTheLight) {
     const TransferError flat = measure(a, BandPower::flat(2), mean_only(2));
     const TransferError natural = measure(a, BandPower::natural(), mean_only(2));
     // Roundings of a few numbers.
-    EXPECT_NEAR(flat.deviation, std::sqrt(5.0 / 22.0), 1e-15);
-    EXPECT_NEAR(natural.deviation, std::sqrt(2.0 / 13.0), 1e-15);
+    EXPECT_NEAR(flat.error_to_bake, std::sqrt(5.0 / 22.0), 1e-15);
+    EXPECT_NEAR(natural.error_to_bake, std::sqrt(2.0 / 13.0), 1e-15);
     EXPECT_NEAR(flat.bake_noise, std::sqrt(5.0 / 22.0), 1e-15);
     EXPECT_NEAR(natural.bake_noise, std::sqrt(2.0 / 13.0), 1e-15);
     EXPECT_EQ(natural.bands[0].baked, 10.0);
-    EXPECT_EQ(natural.bands[1].deviation, 4.0);
+    EXPECT_EQ(natural.bands[1].error_to_bake, 4.0);
 }
 
 // The definition: radiance under random lights, whose coefficients have the spectrum's variances.
@@ -126,7 +126,7 @@ TEST(TransferError, IsTheErrorOfRadianceUnderRandomLights) {
             }
         }
         // Standard error of the ratio, as if both were independent, which is more than it has.
-        const double measured = measure(a, spectrum, every_pose(3)).deviation;
+        const double measured = measure(a, spectrum, every_pose(3)).error_to_bake;
         double relative_variance = 0.0;
         for (int j = 0; j < 2; ++j) {
             relative_variance += (squares[j] / (sums[j] * sums[j]) - 1.0) / kLights;
@@ -143,8 +143,8 @@ TEST(TransferError, KeepingEverythingLeavesTheBakesNoise) {
     Animation a = random_animation({TransferKind::diffuse, 2, 1}, 500, 9);
     a.decoded = a.baked;
     const TransferError error = measure(a, BandPower::natural(), every_pose(9));
-    EXPECT_EQ(error.deviation, 0.0);
-    // The kept space is everything to roundings.
+    EXPECT_EQ(error.error_to_bake, 0.0);
+    // The span is the whole space up to rounding.
     EXPECT_NEAR(error.error / error.bake_noise, 1.0, 1e-12);
     EXPECT_EQ(error.total(), std::hypot(error.error, error.missing_bands));
     EXPECT_GT(error.missing_bands, 0.0);
@@ -154,7 +154,7 @@ TEST(TransferError, DecodingNothingLosesTheSignalAndTheNoise) {
     Animation a = random_animation({TransferKind::diffuse, 2, 1}, 500, 9);
     a.decoded.setZero();
     const TransferError error = measure(a, BandPower::flat(2), every_pose(9));
-    EXPECT_EQ(error.deviation, 1.0);
+    EXPECT_EQ(error.error_to_bake, 1.0);
     // √(‖y‖² − ‖d‖²) / ‖y‖, to roundings of sums.
     EXPECT_NEAR(error.error, std::sqrt(1.0 - squared(a.noise) / squared(a.baked)), 1e-13);
 }
@@ -165,9 +165,9 @@ TEST(TransferError, CountsBandsThatAreNotKept) {
     a.decoded = a.baked;
     a.decoded.bottomRows(3 * a.num_vertices).setZero();
     const TransferError error = measure(a, BandPower::flat(2), every_pose(5));
-    EXPECT_EQ(error.bands[0].deviation, 0.0);
-    EXPECT_EQ(error.bands[1].deviation, error.bands[1].baked);
-    EXPECT_EQ(error.bands[1].passed, 0.0);
+    EXPECT_EQ(error.bands[0].error_to_bake, 0.0);
+    EXPECT_EQ(error.bands[1].error_to_bake, error.bands[1].baked);
+    EXPECT_EQ(error.bands[1].noise_covariance, 0.0);
     const double expected = error.bands[0].noise + error.bands[1].baked - error.bands[1].noise;
     EXPECT_NEAR(error.error, std::sqrt(expected / squared(a.baked)), 1e-12);
 }
@@ -226,7 +226,7 @@ TEST_F(KnownTruth, IsMetByWhatIsExpected) {
     expect_true_error(bake_ * projector, "projected");
     const MatrixXd mean = bake_.rowwise().mean().replicate(1, kPoses);
     expect_true_error(mean, "still");
-    expect_true_error(bake_, "everything, though a smaller space is said to be kept");
+    expect_true_error(bake_, "everything, though the span given is smaller");
 }
 
 TEST_F(KnownTruth, IsMetWhereVerticesAreShrunkDifferently) {
@@ -247,9 +247,9 @@ TEST(TransferError, FindsTheWorstVertexAndPose) {
     a.decoded(2, 0) -= 1;
     const TransferError error = measure(a, BandPower::flat(1), every_pose(2));
     EXPECT_EQ(error.worst_vertex, 1u);
-    EXPECT_NEAR(error.worst_vertex_deviation, std::sqrt(4.0 / 6.0), 1e-15);
+    EXPECT_NEAR(error.worst_vertex_error_to_bake, std::sqrt(4.0 / 6.0), 1e-15);
     EXPECT_EQ(error.worst_pose, 0u);
-    EXPECT_NEAR(error.worst_pose_deviation, std::sqrt(5.0 / 9.0), 1e-15);
+    EXPECT_NEAR(error.worst_pose_error_to_bake, std::sqrt(5.0 / 9.0), 1e-15);
 }
 
 // Two vertices, two poses, two bands; natural light gives band 1 a quarter of band 0. Without it, the
@@ -264,22 +264,22 @@ TEST(TransferError, WeighsTheWorstVertexAndPoseByTheLight) {
     EXPECT_EQ(natural.worst_vertex, 0u);
     EXPECT_EQ(natural.worst_pose, 0u);
     // Relative to the RMS of two vertices, or poses. Roundings of a few numbers.
-    EXPECT_NEAR(natural.worst_vertex_deviation, std::sqrt(4.0 / 14.0), 1e-15);
-    EXPECT_NEAR(natural.worst_pose_deviation, std::sqrt(4.0 / 14.0), 1e-15);
+    EXPECT_NEAR(natural.worst_vertex_error_to_bake, std::sqrt(4.0 / 14.0), 1e-15);
+    EXPECT_NEAR(natural.worst_pose_error_to_bake, std::sqrt(4.0 / 14.0), 1e-15);
     const TransferError flat = measure(a, BandPower::flat(2), every_pose(2));
     EXPECT_EQ(flat.worst_vertex, 1u);
     EXPECT_EQ(flat.worst_pose, 1u);
-    EXPECT_NEAR(flat.worst_vertex_deviation, std::sqrt(9.0 / 32.0), 1e-15);
-    EXPECT_NEAR(flat.worst_pose_deviation, std::sqrt(9.0 / 32.0), 1e-15);
+    EXPECT_NEAR(flat.worst_vertex_error_to_bake, std::sqrt(9.0 / 32.0), 1e-15);
+    EXPECT_NEAR(flat.worst_pose_error_to_bake, std::sqrt(9.0 / 32.0), 1e-15);
 }
 
 TEST(TransferError, OfNumbersThatAreNoneIsNone) {
     Animation a = random_animation({TransferKind::diffuse, 1, 1}, 4, 3);
     a.decoded(2, 1) = std::numeric_limits<float>::quiet_NaN();
     const TransferError error = measure(a, BandPower::flat(1), every_pose(3));
-    EXPECT_TRUE(std::isnan(error.deviation));
+    EXPECT_TRUE(std::isnan(error.error_to_bake));
     EXPECT_TRUE(std::isnan(error.error));
-    EXPECT_TRUE(std::isnan(error.worst_vertex_deviation));
+    EXPECT_TRUE(std::isnan(error.worst_vertex_error_to_bake));
     EXPECT_EQ(error.worst_vertex, 2u);
     EXPECT_EQ(error.worst_pose, 1u);
 }
@@ -288,10 +288,10 @@ TEST(TransferError, OfNothingIsNothingOrInfinite) {
     Animation a = random_animation({TransferKind::diffuse, 2, 1}, 4, 3);
     a.baked.setZero();
     a.noise.setZero();
-    EXPECT_TRUE(std::isinf(measure(a, BandPower::natural(), every_pose(3)).deviation));
+    EXPECT_TRUE(std::isinf(measure(a, BandPower::natural(), every_pose(3)).error_to_bake));
     a.decoded.setZero();
     const TransferError error = measure(a, BandPower::natural(), every_pose(3));
-    EXPECT_EQ(error.deviation, 0.0);
+    EXPECT_EQ(error.error_to_bake, 0.0);
     EXPECT_EQ(error.total(), 0.0);
 }
 
@@ -303,11 +303,11 @@ TEST(TransferError, DoesNotDependOnThreads) {
         return measure(a, BandPower::natural(), mean_only(6));
     };
     const TransferError one = run(1), many = run(4);
-    EXPECT_EQ(one.deviation, many.deviation);
+    EXPECT_EQ(one.error_to_bake, many.error_to_bake);
     EXPECT_EQ(one.error, many.error);
     EXPECT_EQ(one.total(), many.total());
-    EXPECT_EQ(one.worst_vertex_deviation, many.worst_vertex_deviation);
-    EXPECT_EQ(one.worst_pose_deviation, many.worst_pose_deviation);
+    EXPECT_EQ(one.worst_vertex_error_to_bake, many.worst_vertex_error_to_bake);
+    EXPECT_EQ(one.worst_pose_error_to_bake, many.worst_pose_error_to_bake);
 }
 
 TEST(TransferErrorDeathTest, RefusesWhatMakesNoSense) {

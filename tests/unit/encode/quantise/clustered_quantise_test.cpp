@@ -108,8 +108,8 @@ TEST_F(ClusterTransfer, ErrorIsThatOfWhatIsDecoded) {
         const Quantiser quantiser{step, 3, kWeights};
         const double stated = clustered_error(clustered, quantiser);
         // Errors of bases and of coefficients are added as if they had nothing to do with each
-        // other. Weights are rounded besides: 3 · 12 of them, each as bad as a value of the bases on
-        // average, beside 4 · 4 · 28 values of these and 1800 coefficients.
+        // other. Weights are rounded, too: 3 · 12 of them, each as bad as a value of the bases on
+        // average; the bases have 4 · 4 · 28 values, and there are 1800 coefficients.
         EXPECT_NEAR(decoded(factors, clustered, quantiser) / stated, 1.0, 0.1) << step;
     }
 }

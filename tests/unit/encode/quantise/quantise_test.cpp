@@ -32,7 +32,7 @@ TEST(Quantise, ErrorIsThatOfWhatIsDecoded) {
             const double found = decoded(factors, quantiser);
             // Weights are least squares, so that rounding them only adds: P weights of a component
             // cost what P of its 1600 values do, 0.75 % of P step²/12 each on average. Floats:
-            // 2^-24 of values near 1 is nothing beside a step.
+            // 2^-24 of values near 1 is much smaller than a step.
             EXPECT_GE(found, 0.99999 * stated) << step << " " << kept;
             EXPECT_LE(found, 1.03 * stated) << step << " " << kept;
         }
@@ -198,7 +198,7 @@ TEST(Quantise, OnePoseIsAMean) {
     const LowRank matrix = quantise(factors, quantiser);
     EXPECT_EQ(matrix.num_components, 0u);
     EXPECT_EQ(matrix.num_poses, 1u);
-    // Floats of the decoded mean, 2^-24 of 1, beside errors of 0.003.
+    // Floats of the decoded mean, 2^-24 of 1, are much smaller than errors of 0.003.
     EXPECT_NEAR(decoded(factors, quantiser) / quantised_error(factors, quantiser), 1.0, 1e-4);
 }
 

@@ -62,7 +62,7 @@ inline Eigen::MatrixXd exact_plane(const ScaledFactors& factors, uint32_t j) {
     return plane;
 }
 
-// Weighted squares of what the transfer of a mesh decodes to beside the factors.
+// Weighted squared error of the decoded transfer of a mesh against the factors.
 inline double decoded_error(const CodedMesh& mesh, const ScaledFactors& factors,
                             const std::vector<double>& plane_weight) {
     double sum = 0.0;

@@ -78,8 +78,8 @@ TEST_F(Feasibility, CountsWhatStandsStillToo) {
     problem_->best_achievable.still->transfer.error = 0.03;
     EXPECT_EQ(refusal(0.031), "");
     EXPECT_EQ(refusal(0.02), name() +
-                                 ": a transfer error of 2 % is asked for, but of the scenery the "
-                                 "bake's noise leaves 3 % at best: bake with more --rays");
+                                 ": a transfer error of 2 % is asked for, but in the still meshes "
+                                 "the bake's noise leaves 3 % at best: bake with more --rays");
     EXPECT_EQ(problem_->least_error(), 0.03);
 }
 

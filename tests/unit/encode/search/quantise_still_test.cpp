@@ -120,7 +120,7 @@ TEST_F(QuantiseStill, IsRefusedByNameWhereItsNoiseIsTooLarge) {
         ADD_FAILURE() << "not refused";
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ExitCode::threshold_exceeded);
-        EXPECT_NE(std::string(error.what()).find("of the scenery the bake's noise leaves"),
+        EXPECT_NE(std::string(error.what()).find("in the still meshes the bake's noise leaves"),
                   std::string::npos)
             << error.what();
     }
@@ -133,7 +133,7 @@ TEST_F(QuantiseStill, LeavesFloatsAsTheyAre) {
     const BakeReader bake = this->bake(0.001);
     const AssetError measured = measure_asset(encode(bake, 0.02), bake, BandPower::flat(4));
     EXPECT_EQ(measured.still->geometry.worst(), 0.0);
-    EXPECT_EQ(measured.still->transfer.deviation, 0.0);
+    EXPECT_EQ(measured.still->transfer.error_to_bake, 0.0);
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ inline BakeReader write_target_bake(const std::filesystem::path& directory,
     std::vector<BakeIdentity::Source> poses;
     for (uint32_t p = 0; p < bake.num_poses; ++p) poses.push_back({"pose", p});
     BakeIdentity identity = made_up_identity(topology, albedo, bake.layout, std::move(poses));
-    if (bake.still_noise) identity.scenery.push_back({"still", 0});
+    if (bake.still_noise) identity.still_meshes.push_back({"still", 0});
     const BakeWriter writer(directory, identity, topology, albedo);
 
     RandomStream random(5);
@@ -100,7 +100,7 @@ inline BakeReader write_target_bake(const std::filesystem::path& directory,
             p, make_pose(bake.movement * 2.0 * kPi * p / bake.num_poses, bake.noise, 1.0));
     }
     if (bake.still_noise) {
-        writer.write_scenery({topology, albedo, make_pose(0.5, *bake.still_noise, 2.0)});
+        writer.write_still_mesh({topology, albedo, make_pose(0.5, *bake.still_noise, 2.0)});
     }
     return BakeReader(directory);
 }

@@ -97,8 +97,8 @@ TEST_F(TargetEncode, FilesAreWithinTheErrorsThatTheyState) {
     }
 }
 
-// The same by hand: decoded planes beside poses of the bake, whose vertices are in another order.
-TEST_F(TargetEncode, DeviationIsThatOfReorderedVertices) {
+// The same by hand: decoded planes against poses of the bake, whose vertices are in another order.
+TEST_F(TargetEncode, ErrorToBakeIsThatOfReorderedVertices) {
     const BakeReader bake = this->bake();
     const TargetSummary summary = encode(bake, target(bake, 0.03));
     const Asset asset = read_paim(output_);
@@ -128,7 +128,7 @@ TEST_F(TargetEncode, DeviationIsThatOfReorderedVertices) {
         }
     }
     // Sums in another order; positions are decoded in another order too, as floats.
-    EXPECT_NEAR(summary.error.transfer.deviation / std::sqrt(deviation / energy), 1.0, 1e-9);
+    EXPECT_NEAR(summary.error.transfer.error_to_bake / std::sqrt(deviation / energy), 1.0, 1e-9);
     EXPECT_NEAR(summary.error.geometry.rms() / std::sqrt(distances / 4000.0), 1.0, 1e-4);
 }
 
@@ -451,8 +451,8 @@ TEST_F(TargetEncode, ProblemIsInCacheOrder) {
     for (uint32_t v = 0; v < 400; ++v) {
         EXPECT_FLOAT_EQ(problem.geometry.mean[v], pose.positions[order.old_vertex[v]]);
     }
-    // What the components leave of a bake with little noise: less than its noise,
-    // 0.001 beside an RMS of some 0.3.
+    // The error that all components leave of a bake with little noise: less than its noise, 0.001 relative
+    // to an RMS of about 0.3.
     EXPECT_LT(problem.best_achievable.transfer.error, 0.004);
     EXPECT_GT(problem.transfer_energy, 0.0);
 }

@@ -166,7 +166,7 @@ TEST_F(BakeDirectory, TakesABeginningForItsOwnAndNothingElse) {
     write_all();
     EXPECT_EQ(reading_complaint(), "nothing");
 
-    fs::remove(bake_ / "manifest.json");  // poses without a manifest are someone's, not a beginning
+    fs::remove(bake_ / "manifest.json");  // poses without a manifest are no bake that was begun
     expect_contains(complaint([&] { writer(); }), "is not empty and not a bake (no manifest.json)");
 }
 
@@ -211,36 +211,37 @@ TEST_F(BakeDirectory, ManifestKeepsFloorAndBounces) {
     EXPECT_EQ(without.find("bounces"), std::string::npos);
 }
 
-TEST_F(BakeDirectory, KeepsSceneryAndRefusesOthersByName) {
+TEST_F(BakeDirectory, KeepsStillMeshesAndRefusesOthersByName) {
     BakeIdentity identity = make_identity();
-    identity.scenery = {{"wall.obj", 5}, {"tree.obj", 6}};
-    BakedScenery scenery{kTetrahedron, kAlbedo, make_pose(7)};
+    identity.still_meshes = {{"wall.obj", 5}, {"tree.obj", 6}};
+    BakedStillMesh still_mesh{kTetrahedron, kAlbedo, make_pose(7)};
     {
         const BakeWriter all = writer(identity);
-        EXPECT_FALSE(all.has_scenery());
-        all.write_scenery(scenery);
-        EXPECT_TRUE(all.has_scenery());
+        EXPECT_FALSE(all.has_still_mesh());
+        all.write_still_mesh(still_mesh);
+        EXPECT_TRUE(all.has_still_mesh());
         for (uint32_t p = 0; p < 3; ++p) all.write_pose(p, make_pose(p));
     }
     const BakeReader reader(bake_);
     EXPECT_EQ(reader.identity(), identity);
-    ASSERT_TRUE(reader.scenery());
-    EXPECT_EQ(reader.scenery()->topology, scenery.topology);
-    EXPECT_EQ(reader.scenery()->albedo.values, scenery.albedo.values);
-    EXPECT_EQ(reader.scenery()->pose.positions, scenery.pose.positions);
-    EXPECT_EQ(reader.scenery()->pose.normals, scenery.pose.normals);
-    EXPECT_EQ(reader.scenery()->pose.transfer, scenery.pose.transfer);
+    ASSERT_TRUE(reader.still_mesh());
+    EXPECT_EQ(reader.still_mesh()->topology, still_mesh.topology);
+    EXPECT_EQ(reader.still_mesh()->albedo.values, still_mesh.albedo.values);
+    EXPECT_EQ(reader.still_mesh()->pose.positions, still_mesh.pose.positions);
+    EXPECT_EQ(reader.still_mesh()->pose.normals, still_mesh.pose.normals);
+    EXPECT_EQ(reader.still_mesh()->pose.transfer, still_mesh.pose.transfer);
 
     const auto refusal = [&](const auto& change) {
         BakeIdentity other = identity;
         change(other);
         return complaint([&] { writer(other); });
     };
-    expect_contains(refusal([](auto& i) { i.scenery.clear(); }),
+    expect_contains(refusal([](auto& i) { i.still_meshes.clear(); }),
                     "(static files: 2 there, 0 asked for)");
-    expect_contains(refusal([](auto& i) { i.scenery[1].name = "bush.obj"; }),
+    expect_contains(refusal([](auto& i) { i.still_meshes[1].name = "bush.obj"; }),
                     "(static file 1: tree.obj (0000000000000006) there, bush.obj (");
-    expect_contains(refusal([](auto& i) { ++i.scenery[0].xxh3; }), "(static file 0: wall.obj (");
+    expect_contains(refusal([](auto& i) { ++i.still_meshes[0].xxh3; }),
+                    "(static file 0: wall.obj (");
 
     const std::string whole = text_of("scenery.bin");
     for (size_t j = 0; j < 40; ++j) {
@@ -248,10 +249,10 @@ TEST_F(BakeDirectory, KeepsSceneryAndRefusesOthersByName) {
         damaged[whole.size() * j / 40] ^= 4;
         write_file(bake_ / "scenery.bin", damaged);
         const std::string message = reading_complaint();
-        EXPECT_EQ(writer(identity).has_scenery(), message == "nothing") << j;
+        EXPECT_EQ(writer(identity).has_still_mesh(), message == "nothing") << j;
         if (message != "nothing") expect_contains(message, "scenery.bin: ");
         write_file(bake_ / "scenery.bin", whole.substr(0, whole.size() * j / 40));
-        EXPECT_FALSE(writer(identity).has_scenery()) << "cut at " << whole.size() * j / 40;
+        EXPECT_FALSE(writer(identity).has_still_mesh()) << "cut at " << whole.size() * j / 40;
     }
     fs::remove(bake_ / "scenery.bin");
     expect_contains(reading_complaint(), "scenery.bin: cannot open");

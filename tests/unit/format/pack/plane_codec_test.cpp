@@ -50,7 +50,7 @@ TEST(PlanePredictor, TakesNeighboursBeforeTheVertex) {
     const auto residuals = subtract(predictor, Prediction::mean, values);
     EXPECT_EQ(residuals[0], 100);       // nobody before it
     EXPECT_EQ(residuals[1], 10 - 100);  // 0
-    EXPECT_EQ(residuals[4], 7 - 25);    // (2 · 34 + 20 + 10) / 4, halves up
+    EXPECT_EQ(residuals[4], 7 - 25);    // (2 · 34 + 20 + 10) / 4, ties up
     EXPECT_EQ(residuals[3], 34 - 55);   // 0 and 1: 110 / 2
     EXPECT_EQ(subtract(predictor, Prediction::none, values), values);
 }

@@ -240,7 +240,7 @@ TEST(PaimFile, RefusesClaimsOfFarMoreValuesThanBytes) {
     }
 }
 
-// What stands still is reason enough to pack a file; its values are integers times a step a plane.
+// A file with a still part is packed; values of that part are integers times a step for each plane.
 TEST(PaimFile, KeepsStillPartsOfIntegers) {
     const TemporaryDirectory directory;
     Asset asset = make_example_asset(3, 3);

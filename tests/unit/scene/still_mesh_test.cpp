@@ -1,5 +1,5 @@
-// Scenery: several still meshes as one, and what they do to the poses' light.
-#include "compressor/scene/static_mesh.h"
+// Several still meshes as one, and what they do to the poses' light.
+#include "compressor/scene/still_mesh.h"
 
 #include <gtest/gtest.h>
 
@@ -35,40 +35,40 @@ PoseSet plate(const PoseSet& both, bool upper) {
                    {{pose.positions.begin() + first, pose.positions.begin() + first + half}});
 }
 
-TEST(StaticMesh, AddsMeshAfterMesh) {
-    StaticMesh scenery;
-    EXPECT_TRUE(scenery.empty());
+TEST(StillMesh, AddsMeshAfterMesh) {
+    StillMesh still_mesh;
+    EXPECT_TRUE(still_mesh.empty());
     const Albedo red{{Vec3f(1, 0, 0)}}, blue{{Vec3f(0, 0, 1)}};
-    scenery.add(square(0, red));
-    scenery.add(square(1, red));
-    EXPECT_EQ(scenery.albedo.values.size(), 1u);  // one colour, however many meshes
-    EXPECT_EQ(scenery.albedo.at(5), red.at(0));
-    scenery.add(square(2, blue));
-    ASSERT_EQ(scenery.topology.num_vertices, 12u);
-    EXPECT_EQ(scenery.topology.triangles[4], (Triangle{8, 10, 9}));
-    ASSERT_EQ(scenery.albedo.values.size(), 12u);
-    EXPECT_EQ(scenery.albedo.at(7), red.at(0));
-    EXPECT_EQ(scenery.albedo.at(8), blue.at(0));
-    EXPECT_EQ(scenery.pose.positions[9], Vec3f(1, 2, 0));
-    EXPECT_EQ(scenery.pose.normals.size(), 12u);
-    ASSERT_EQ(scenery.sources.size(), 3u);
+    still_mesh.add(square(0, red));
+    still_mesh.add(square(1, red));
+    EXPECT_EQ(still_mesh.albedo.values.size(), 1u);  // one colour, however many meshes
+    EXPECT_EQ(still_mesh.albedo.at(5), red.at(0));
+    still_mesh.add(square(2, blue));
+    ASSERT_EQ(still_mesh.topology.num_vertices, 12u);
+    EXPECT_EQ(still_mesh.topology.triangles[4], (Triangle{8, 10, 9}));
+    ASSERT_EQ(still_mesh.albedo.values.size(), 12u);
+    EXPECT_EQ(still_mesh.albedo.at(7), red.at(0));
+    EXPECT_EQ(still_mesh.albedo.at(8), blue.at(0));
+    EXPECT_EQ(still_mesh.pose.positions[9], Vec3f(1, 2, 0));
+    EXPECT_EQ(still_mesh.pose.normals.size(), 12u);
+    ASSERT_EQ(still_mesh.sources.size(), 3u);
     // Checksums tell heights and colours apart.
-    EXPECT_NE(scenery.sources[0].xxh3, scenery.sources[1].xxh3);
-    StaticMesh other;
+    EXPECT_NE(still_mesh.sources[0].xxh3, still_mesh.sources[1].xxh3);
+    StillMesh other;
     other.add(square(0, blue));
-    EXPECT_NE(other.sources[0].xxh3, scenery.sources[0].xxh3);
-    EXPECT_EQ(other.sources[0].name, scenery.sources[0].name);
+    EXPECT_NE(other.sources[0].xxh3, still_mesh.sources[0].xxh3);
+    EXPECT_EQ(other.sources[0].name, still_mesh.sources[0].name);
 }
 
-TEST(StaticMesh, BlocksAsIfItWerePartOfTheMesh) {
+TEST(StillMesh, BlocksAsIfItWerePartOfTheMesh) {
     const PoseSet both = poses::make_pose_set(*poses::make_plates_sequence(200), 1);
     const PoseSet lower = plate(both, false), upper = plate(both, true);
-    StaticMesh scenery;
-    scenery.add(upper);
+    StillMesh still_mesh;
+    still_mesh.add(upper);
     const BakeOptions options{3, 256, 1};
     const BakedPose whole = TransferBaker(options).bake(both.topology(), both.load_pose(0), 0);
     const BakedPose part =
-        TransferBaker(options, {}, scenery).bake(lower.topology(), lower.load_pose(0), 0);
+        TransferBaker(options, {}, still_mesh).bake(lower.topology(), lower.load_pose(0), 0);
     // The same rays against the same triangles: the same numbers.
     const size_t num_all = both.topology().num_vertices, num_lower = num_all / 2;
     for (size_t i = 0; i < 9; ++i) {
@@ -79,39 +79,39 @@ TEST(StaticMesh, BlocksAsIfItWerePartOfTheMesh) {
     EXPECT_GT(part.statistics.occluded, 0u);
 }
 
-TEST(StaticMesh, IsBakedOnceAloneAndFoundAgain) {
+TEST(StillMesh, IsBakedOnceAloneAndFoundAgain) {
     const PoseSet both = poses::make_pose_set(*poses::make_plates_sequence(200), 2);
     const TemporaryDirectory directory;
     const auto bake = directory / "x.bake";
     const BakeOptions options{2, 64, 1};
     Surroundings surroundings;
-    surroundings.scenery.add(plate(both, true));
+    surroundings.still_mesh.add(plate(both, true));
     const PoseSet lower = plate(both, false);
     const auto run = [&] {
         bake_sequence(
             lower, options, "faces", bake, 0, 0, [](uint32_t) {}, surroundings);
     };
     run();
-    const auto bytes = read_file(bake_scenery_file(bake), 1 << 20);
+    const auto bytes = read_file(bake_still_mesh_file(bake), 1 << 20);
     const BakeReader reader(bake);
-    ASSERT_TRUE(reader.scenery());
+    ASSERT_TRUE(reader.still_mesh());
     // Nothing above the upper plate's front, which faces down: open to all below but the lower
     // plate, which it does not see.
-    EXPECT_EQ(reader.scenery()->pose.statistics.occluded, 0u);
+    EXPECT_EQ(reader.still_mesh()->pose.statistics.occluded, 0u);
     EXPECT_GT(reader.read_pose(0).statistics.occluded, 0u);
-    std::filesystem::remove(bake_scenery_file(bake));
-    run();  // goes on: the poses are there, the scenery is made anew
-    EXPECT_EQ(read_file(bake_scenery_file(bake), 1 << 20), bytes);
+    std::filesystem::remove(bake_still_mesh_file(bake));
+    run();  // goes on: the poses are there, the still mesh is baked again
+    EXPECT_EQ(read_file(bake_still_mesh_file(bake), 1 << 20), bytes);
 }
 
-TEST(StaticMesh, BouncesTheSameLightIntoPosesThatAreBakedLater) {
+TEST(StillMesh, BouncesTheSameLightIntoPosesThatAreBakedLater) {
     const PoseSet both = poses::make_pose_set(*poses::make_plates_sequence(200), 1);
     const TemporaryDirectory directory;
     const auto bake = directory / "x.bake";
     BakeOptions options{2, 64, 1};
     options.bounces = 2;
     Surroundings surroundings;
-    surroundings.scenery.add(plate(both, true));
+    surroundings.still_mesh.add(plate(both, true));
     const PoseSet lower = plate(both, false);
     const auto run = [&] {
         bake_sequence(
@@ -120,7 +120,7 @@ TEST(StaticMesh, BouncesTheSameLightIntoPosesThatAreBakedLater) {
     };
     const auto bytes = run();
     std::filesystem::remove(bake_pose_file(bake, 0));
-    EXPECT_EQ(run(), bytes);  // the scenery's file is there, its bounces are not
+    EXPECT_EQ(run(), bytes);  // the still mesh's file is there, its bounces are not
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The memory of scenery, as planned before a bake and as a bake holds it.
+// The memory of a still mesh: planned before a bake, and held by a bake.
 #include <gtest/gtest.h>
 
 #include "compressor/bake/bake_sequence.h"
@@ -9,10 +9,10 @@
 namespace paim {
 namespace {
 
-TEST(SceneryBytes, AreTheArraysThatABakeHolds) {
+TEST(StillMeshBytes, AreTheArraysThatABakeHolds) {
     const TemporaryDirectory directory;
     Surroundings surroundings;
-    surroundings.scenery.add(poses::make_octopus(1500, 1));
+    surroundings.still_mesh.add(poses::make_octopus(1500, 1));
     BakeOptions options;
     options.bands = 3;
     options.rays = 2;
@@ -22,15 +22,15 @@ TEST(SceneryBytes, AreTheArraysThatABakeHolds) {
         surroundings);
     const BakeReader bake(directory / "x.bake");
     ASSERT_EQ(bake.identity().layout.channels, 3u);
-    ASSERT_TRUE(bake.scenery());
-    const BakedPose& pose = bake.scenery()->pose;
+    ASSERT_TRUE(bake.still_mesh());
+    const BakedPose& pose = bake.still_mesh()->pose;
     const uint64_t held = sizeof(float) * (pose.positions.size() + pose.normals.size() +
                                            pose.transfer.size() + pose.noise.size()) +
-                          sizeof(Triangle) * bake.scenery()->topology.triangles.size() +
-                          sizeof(Vec3f) * bake.scenery()->albedo.values.size();
-    EXPECT_EQ(bake_size(bake).scenery_bytes, held);
-    EXPECT_EQ(scenery_bytes(surroundings.scenery.topology, surroundings.scenery.albedo,
-                            bake.identity().layout),
+                          sizeof(Triangle) * bake.still_mesh()->topology.triangles.size() +
+                          sizeof(Vec3f) * bake.still_mesh()->albedo.values.size();
+    EXPECT_EQ(bake_size(bake).still_mesh_bytes, held);
+    EXPECT_EQ(still_mesh_bytes(surroundings.still_mesh.topology, surroundings.still_mesh.albedo,
+                               bake.identity().layout),
               held);
 }
 

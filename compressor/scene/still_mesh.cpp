@@ -1,5 +1,5 @@
-// Scenery: meshes that stand still among the poses.
-#include "compressor/scene/static_mesh.h"
+// Still meshes among the poses, which block their light and bounce it.
+#include "compressor/scene/still_mesh.h"
 
 #include <filesystem>
 #include <limits>
@@ -11,7 +11,7 @@ namespace paim {
 
 namespace {
 
-// Of everything that shapes light.
+// Checksum of everything that changes light: faces, albedo, positions and normals.
 uint64_t checksum(const PoseSource& source, const Pose& pose) {
     const uint64_t mesh = mesh_checksum(source.topology(), source.albedo());
     StreamingHash hash;
@@ -23,7 +23,7 @@ uint64_t checksum(const PoseSource& source, const Pose& pose) {
 
 }  // namespace
 
-void StaticMesh::add(const PoseSource& source) {
+void StillMesh::add(const PoseSource& source) {
     const Pose own = source.load_pose(0);
     const uint32_t num_own = source.topology().num_vertices;
     const std::string name = source.pose_name(0);
@@ -31,7 +31,7 @@ void StaticMesh::add(const PoseSource& source) {
         throw_bad_input("{}: {} vertices are too many to add to {}", name, num_own,
                         topology.num_vertices);
     }
-    // The name alone, so that a bake does not depend on where the files lie.
+    // The name without its folder, so that a bake does not depend on the place of the files.
     sources.push_back({std::filesystem::path(name).filename().string(), checksum(source, own)});
     if (empty()) {
         albedo = source.albedo();

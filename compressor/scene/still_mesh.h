@@ -1,4 +1,4 @@
-// Scenery: meshes that stand still among the poses.
+// Still meshes among the poses, which block their light and bounce it.
 #pragma once
 
 #include <string>
@@ -9,16 +9,16 @@
 
 namespace paim {
 
-// Several still meshes as one.
-struct StaticMesh {
+// All still meshes as one.
+struct StillMesh {
     Topology topology;
     Albedo albedo;
     Pose pose;
-    std::vector<BakeIdentity::Source> sources;  // names and checksums of what was added
+    std::vector<BakeIdentity::Source> sources;  // names and checksums of the meshes that were added
 
     bool empty() const { return topology.num_vertices == 0; }
 
-    // Adds the source's first pose, counted from the same origin as the poses it stands among.
+    // Adds the source's first pose, whose positions are relative to the origin of the poses.
     // Error (bad input) if that makes more than 2^31 - 1 vertices.
     void add(const PoseSource& source);
 };
