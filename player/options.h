@@ -8,15 +8,9 @@
 
 #include "paim/image/tone.h"
 #include "player/render/frame.h"
+#include "player/ui/orbit_camera.h"
 
 namespace paim::player {
-
-// Where the camera stands, relative to the frame that shows the whole animation.
-struct CameraOptions {
-    float azimuth_rad = 0.5f;  // frame_bounds()'s defaults
-    float elevation_rad = 0.3f;
-    float distance_factor = 1.0f;
-};
 
 // How much of the file's detail is asked for; nothing: all that it has.
 struct WantedLimits {

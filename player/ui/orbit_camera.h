@@ -3,9 +3,15 @@
 
 #include "paim/mesh/bounds.h"
 #include "paim/shade/camera.h"
-#include "player/options.h"
 
 namespace paim::player {
+
+// Where the camera stands at first, relative to the frame that shows the whole animation.
+struct CameraOptions {
+    float azimuth_rad = 0.5f;  // frame_bounds()'s defaults
+    float elevation_rad = 0.3f;
+    float distance_factor = 1.0f;
+};
 
 // The camera that the options ask for: frame_bounds(), at distance_factor times its distance.
 Camera start_camera(const CameraOptions& options, const Bounds& bounds, float aspect);
