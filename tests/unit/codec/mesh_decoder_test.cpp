@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "paim/codec/rebuild_planes.h"
 #include "tests/example_asset.h"
 
@@ -70,6 +72,19 @@ TEST(MeshDecoder, InterpolatesWeightsAndClampsTime) {
     EXPECT_EQ(weights[0], positions.weights[4]);
     interpolate_weights(positions, -1.0, weights);
     EXPECT_EQ(weights[0], positions.weights[0]);
+}
+
+// After the last pose's weight lies the next component's first, which would show even if it were
+// multiplied by zero.
+TEST(MeshDecoder, ReadsNoWeightAfterTheLastPose) {
+    LowRank matrix = make_example_asset(2, 1, 3, 2).moving().positions;
+    const std::vector<float> last{matrix.weights[2], matrix.weights[5]};
+    matrix.weights[3] = std::numeric_limits<float>::infinity();
+    std::vector<float> weights;
+    for (const double time : {2.0, 3.0}) {
+        interpolate_weights(matrix, time, weights);
+        EXPECT_EQ(weights, last) << time;
+    }
 }
 
 }  // namespace

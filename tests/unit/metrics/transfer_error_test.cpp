@@ -78,7 +78,8 @@ TEST(TransferError, OfFlatLightIsTheRelativeFrobeniusError) {
     EXPECT_EQ(error.total(), error.error);
 }
 
-// One vertex, two poses, two bands: everything by hand. Band 1 weighs a quarter under natural light.
+// One vertex, two poses, two bands: everything by hand. Band 1 weighs a quarter under natural
+// light.
 TEST(TransferError, WeighsBandsByTheLight) {
     Animation a{{TransferKind::diffuse, 2, 1}, 1, MatrixXf(4, 2), MatrixXf(4, 2), MatrixXf(4, 2)};
     a.baked << 3, 1, 2, 0, 0, 2, 2, 0;    // ‖y‖² = 10 and 12
@@ -93,6 +94,31 @@ TEST(TransferError, WeighsBandsByTheLight) {
     EXPECT_NEAR(natural.bake_noise, std::sqrt(2.0 / 13.0), 1e-15);
     EXPECT_EQ(natural.bands[0].baked, 10.0);
     EXPECT_EQ(natural.bands[1].error_to_bake, 4.0);
+}
+
+// Bands that the bake lacks are extrapolated from what of its last band is no noise, of all
+// vertices, poses and channels. Those here end before band 3, so that the last one alone tells the
+// amplitude.
+TEST(TransferError, ExtrapolatesTheSignalOfTheLastBand) {
+    Animation a{{TransferKind::diffuse, 2, 3}, 2, MatrixXf(24, 2), MatrixXf(24, 2), {}};
+    a.noise.setZero();
+    for (Index j = 0; j < 12; ++j) {
+        const bool first_band = j % 4 == 0;
+        a.baked.middleRows(2 * j, 2).setConstant(first_band ? 5.0f : 2.0f);
+        a.noise.middleRows(2 * j, 2).setConstant(first_band ? 3.0f : 1.0f);
+    }
+    a.decoded = a.baked;
+    // Two vertices in two poses: 4 · 3 · 5² in band 0; 4 · 9 · 2² in band 1, of which 4 · 9 are
+    // noise.
+    const BandPower light{"x", {1, 0.5, 3, 2}, 0.0};
+    const TransferError error = measure(a, light, every_pose(2));
+    const double amplitude = (144.0 - 36.0) * 1.5 * 1.5;
+    const double missing = amplitude * (3.0 / (2.5 * 2.5) + 2.0 / (3.5 * 3.5));
+    // Roundings of a few numbers.
+    EXPECT_NEAR(error.missing_bands, std::sqrt(missing / (300.0 + 0.5 * 144.0)), 1e-14);
+    // Where there is nothing but noise, nothing is extrapolated.
+    a.noise *= 2.5f;
+    EXPECT_EQ(measure(a, light, every_pose(2)).missing_bands, 0.0);
 }
 
 // The definition: radiance under random lights, whose coefficients have the spectrum's variances.
@@ -252,8 +278,8 @@ TEST(TransferError, FindsTheWorstVertexAndPose) {
     EXPECT_NEAR(error.worst_pose_error_to_bake, std::sqrt(5.0 / 9.0), 1e-15);
 }
 
-// Two vertices, two poses, two bands; natural light gives band 1 a quarter of band 0. Without it, the
-// other vertex and the other pose would be the worst.
+// Two vertices, two poses, two bands; natural light gives band 1 a quarter of band 0. Without it,
+// the other vertex and the other pose would be the worst.
 TEST(TransferError, WeighsTheWorstVertexAndPoseByTheLight) {
     Animation a{{TransferKind::diffuse, 2, 1}, 2, MatrixXf(8, 2), MatrixXf::Zero(8, 2), {}};
     a.baked.setConstant(2.0f);  // ‖y‖²_w = 4 · 4 · (1 + 3/4) = 28

@@ -4,12 +4,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 
 #include "paim/base/error.h"
 #include "tests/unit/encode/quantise/random_factors.h"
 
 namespace paim {
 namespace {
+
+using Eigen::Index;
 
 constexpr uint32_t kAll = 1000;  // more components than there are
 
@@ -189,6 +193,78 @@ TEST(Quantise, SmallestStepFitsItsBits) {
         } catch (const Error& error) {
             EXPECT_EQ(error.code(), ExitCode::unsupported);
         }
+    }
+}
+
+// One plane and one component, without weights. With steps of 1, integers are the values.
+ScaledFactors few_values(std::vector<float> mean, std::vector<float> component,
+                         Eigen::Index poses) {
+    ScaledFactors factors;
+    factors.num_points = static_cast<uint32_t>(mean.size());
+    factors.num_planes = 1;
+    factors.mean = std::move(mean);
+    factors.components = {std::move(component)};
+    factors.singular_values = {1.0};
+    factors.weights = Eigen::MatrixXd::Zero(1, poses);
+    return factors;
+}
+
+// Values from −127 to 127 are stored in 8 bits, to ±32767 in 16, and larger ones are refused: the
+// types hold −128 and −32768 as well, but ranges are symmetric.
+TEST(Quantise, TakesTheFewestBitsThatHoldEveryValue) {
+    const Quantiser quantiser{1.0, kAll, {1.0}};
+    for (const float sign : {1.0f, -1.0f}) {
+        for (const bool in_mean : {true, false}) {
+            const auto quantised = [&](float value) {
+                const std::vector<float> large{sign * value, 1.0f}, small{2.0f, 1.0f};
+                ScaledFactors factors =
+                    few_values(in_mean ? large : small, in_mean ? small : large, 4);
+                factors.weights << 1, -1, 1, -1;
+                return quantise(factors, quantiser);
+            };
+            const auto values = [&](const LowRank& matrix) {
+                return in_mean ? matrix.mean : matrix.components.at(0);
+            };
+            EXPECT_TRUE(values(quantised(127.0f)).holds_i8());
+            for (const float value : {128.0f, 32767.0f}) {
+                const StoredValues stored = values(quantised(value));
+                EXPECT_FALSE(stored.holds_i8() || stored.holds_floats());
+                EXPECT_EQ(stored[0], sign * value);
+                EXPECT_EQ(stored[1], 1.0f);
+            }
+            for (const float value : {32768.0f, 65536.0f, 1e9f}) {
+                try {
+                    quantised(value);
+                    ADD_FAILURE() << value << " fits";
+                } catch (const Error& error) {
+                    EXPECT_EQ(error.code(), ExitCode::unsupported);
+                    EXPECT_NE(std::string(error.what()).find("do not fit in 16 bits"),
+                              std::string::npos);
+                }
+            }
+        }
+    }
+}
+
+// A component that moves in one pose, of values of 20000 steps: a step of its weights that costs as
+// much as one of its values is √(P / Σ q²), of which its weight is many more than 16 bits count. So
+// it is coarser.
+TEST(Quantise, WeightsFitInSixteenBits) {
+    constexpr Index kPoses = 4, kPoints = 100;
+    ScaledFactors factors = few_values(std::vector<float>(kPoints, 0.0f),
+                                       std::vector<float>(kPoints, 20000.0f), kPoses);
+    factors.weights(0, 1) = 2.0;  // of unit RMS
+    const LowRank matrix = quantise(factors, {1.0, kAll, {1.0}});
+    ASSERT_EQ(matrix.num_components, 1u);
+    const double step = matrix.weight_steps.at(0);
+    const double alike = std::sqrt(kPoses / (kPoints * 20000.0 * 20000.0));
+    ASSERT_GT(2.0 / alike, 3.0 * 32767.0) << "else this would not say much";
+    // To a float's rounding.
+    EXPECT_NEAR(step * 32767.0 / 2.0, 1.0, 0x1p-23);
+    for (Index p = 0; p < kPoses; ++p) {
+        const double weight = matrix.weights.at(static_cast<size_t>(p));
+        EXPECT_LE(std::abs(weight / step), 32767.0 * (1.0 + 0x1p-23)) << p;
+        EXPECT_NEAR(weight, factors.weights(0, p), 0.5 * step) << p;
     }
 }
 

@@ -51,6 +51,30 @@ TEST(JacobiSvd, AgreesWithEigenOnRandomMatrices) {
     }
 }
 
+// Of the two unit vectors of a singular value, the answer is the one whose largest entry is
+// positive, so that neither the signs of rows nor those of the whole matrix change it.
+TEST(JacobiSvd, ChoosesTheSignsOfVectors) {
+    std::srand(6);
+    const MatrixXd matrix = MatrixXd::Random(12, 30);
+    const SmallSvd svd = jacobi_svd(matrix);
+    for (Eigen::Index k = 0; k < 12; ++k) {
+        Eigen::Index largest = 0;
+        svd.v.col(k).cwiseAbs().maxCoeff(&largest);
+        EXPECT_GT(svd.v(largest, k), 0.0) << k;
+    }
+    MatrixXd turned = -matrix;
+    turned.row(3) *= -1.0;
+    turned.row(8) *= -1.0;
+    // Vectors are off by 2^-52 times the largest value over the gap to the next, here below 1000.
+    EXPECT_LT((jacobi_svd(turned).v - svd.v).cwiseAbs().maxCoeff(), 1e-12);
+    // So are the vectors of numbers that are known: largest entries of either sign.
+    MatrixXd known(2, 3);
+    known << 3, -4, 0, 0, 0, -2;
+    const SmallSvd of_known = jacobi_svd(known);
+    EXPECT_LT((of_known.v.col(0) - Eigen::Vector3d(-0.6, 0.8, 0)).norm(), 1e-15);
+    EXPECT_LT((of_known.v.col(1) - Eigen::Vector3d(0, 0, 1)).norm(), 1e-15);
+}
+
 TEST(JacobiSvd, KeepsTinyValuesOfGradedMatrices) {
     // Columns of length 10^-k: their relative accuracy survives, which a Gram matrix loses below
     // 1e-8.

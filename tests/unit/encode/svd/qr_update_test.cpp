@@ -45,6 +45,34 @@ TEST(FoldRows, KeepsSmallColumnsThatAGramMatrixLoses) {
     EXPECT_NEAR(std::abs(r(1, 1)) / (std::sqrt(2.0) * kSmall), 1.0, 1e-5);
 }
 
+// A reflection maps the diagonal element to the sign that is opposite to its own: to the same one,
+// their difference would be a small number of two large ones, of which rounding leaves nothing.
+// Rows that are smaller than the factor by 10^-k, for which that difference has lost 2 k digits.
+TEST(FoldRows, KeepsRowsThatAreSmallBesideTheFactor) {
+    constexpr Index kSize = 20;  // more than a panel
+    std::srand(3);
+    for (const double small : {1e-3, 1e-6, 1e-9, 1e-12}) {
+        const MatrixXd before =
+            MatrixXd(MatrixXd::Random(kSize, kSize) + 10.0 * MatrixXd::Identity(kSize, kSize))
+                .triangularView<Eigen::Upper>();
+        const MatrixXd rows = small * MatrixXd::Random(5, kSize);
+        for (const double sign : {1.0, -1.0}) {
+            MatrixXd r = sign * before, folded = rows;
+            fold_rows(r, folded);
+            ASSERT_TRUE(r.allFinite()) << small;
+            // Against the stacked matrix, whose Gram matrix has entries of about 100 and rounds
+            // them by 2^-53 a few times; R by as much, over columns of 20 entries.
+            const MatrixXd gram = before.transpose() * before + rows.transpose() * rows;
+            EXPECT_LT((r.transpose() * r - gram).cwiseAbs().maxCoeff(), 1e-13 * gram.maxCoeff())
+                << small;
+            // Diagonal elements change their signs; what is below them is what they grow by.
+            for (Index j = 0; j < kSize; ++j) {
+                EXPECT_LT(r(j, j) * sign, 0.0) << small << ' ' << j;
+            }
+        }
+    }
+}
+
 TEST(FoldRows, TakesFewRowsZerosAndNothing) {
     MatrixXd r = MatrixXd::Zero(20, 20);
     MatrixXd none(0, 20), zeros = MatrixXd::Zero(5, 20);
