@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "compressor/encode/memory/search_limits.h"
-#include "compressor/encode/quantise/clustered_quantise.h"
+#include "compressor/encode/search/cpca/clustered_quantise.h"
 #include "compressor/encode/search/matrix_cost.h"
 
 namespace paim {

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 
 #include "analysis/bench/ratio.h"
-#include "analysis/bench/synthetic_points.h"
+#include "analysis/bench/cluster/synthetic_points.h"
 #include "compressor/encode/cluster/clustered_pca.h"
 #include "paim/base/check.h"
 
