@@ -19,6 +19,13 @@ struct TransferCodec {
 // Built-in codecs first, then those that were added.
 std::span<const TransferCodec> transfer_codecs();
 
+// The codec of files without any marker. Its points are the vertices.
+const TransferCodec& plain_codec();
+
+// Transfer of that codec: of what stands still, and of whatever is coded without a search for a better
+// codec.
+CodedTransfer plain_transfer(LowRank matrix);
+
 // Lets files of another codec be read from now on. Its name and marker are its own (checked). Not to be
 // called while another thread reads files.
 void add_transfer_codec(const TransferCodec& codec);

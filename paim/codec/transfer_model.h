@@ -24,14 +24,14 @@
 
 namespace paim {
 
-struct FrameCost;       // codec/frame_cost.h
+struct FrameCost;      // codec/frame_cost.h
 class TransferPlayer;  // codec/transfer_player.h
 
 class PAIM_EXPORT TransferModel {
   public:
     virtual ~TransferModel();
 
-    // What people and files call the codec: "svd".
+    // What people and programs call the codec.
     virtual std::string_view codec_name() const = 0;
     virtual std::unique_ptr<TransferModel> clone() const = 0;
 

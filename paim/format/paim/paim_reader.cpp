@@ -9,7 +9,6 @@
 
 #include "paim/base/error.h"
 #include "paim/codec/codecs.h"
-#include "paim/codec/svd/svd_transfer.h"
 #include "paim/format/container/mesh_sections.h"
 #include "paim/format/container/metadata.h"
 #include "paim/format/container/sections.h"
@@ -62,10 +61,7 @@ CodedTransfer start_transfer(const Metadata& metadata) {
     const auto marked = std::find_if(codecs.begin(), codecs.end(), [&](const TransferCodec& codec) {
         return !codec.marker.empty() && metadata.root().contains(codec.marker);
     });
-    const auto unmarked = std::find_if(codecs.begin(), codecs.end(), [](const TransferCodec& codec) {
-        return codec.marker.empty();
-    });
-    CodedTransfer transfer = (marked != codecs.end() ? marked : unmarked)->make();
+    CodedTransfer transfer = marked != codecs.end() ? marked->make() : plain_codec().make();
     for (const NamedNumber& number : transfer->numbers()) {
         *number.value = metadata.integer(number.name, number.lowest, number.highest);
     }
@@ -91,8 +87,8 @@ CodedMesh start_moving(const Metadata& metadata) {
         metadata.integer("num_vertices", 0, std::numeric_limits<int32_t>::max());
     mesh.layout = read_layout(metadata);
     const uint32_t num_poses = metadata.integer("num_poses", 1, kMaxPoses);
-    mesh.positions = start_matrix(metadata, "geometry_components", mesh.topology.num_vertices, 3,
-                                  num_poses);
+    mesh.positions =
+        start_matrix(metadata, "geometry_components", mesh.topology.num_vertices, 3, num_poses);
     mesh.transfer = start_transfer(metadata);
     const uint32_t num_points = mesh.transfer->start(mesh.topology.num_vertices);
     mesh.transfer->matrix = start_matrix(metadata, "transfer_components", num_points,
@@ -119,14 +115,14 @@ CodedMesh start_still(const ContainerReader& reader, const TransferLayout& layou
         return matrix;
     };
     mesh.positions = start(3);
-    mesh.transfer = SvdTransfer(start(layout.num_planes()));
+    mesh.transfer = plain_transfer(start(layout.num_planes()));
     return mesh;
 }
 
 void read_indices(const Metadata& metadata, Attribute attribute, uint32_t num_components,
                   LowRank& matrix) {
-    matrix.singular_indices = read_singular_indices(metadata, attribute, num_components,
-                                                    matrix.singular_values.size());
+    matrix.singular_indices =
+        read_singular_indices(metadata, attribute, num_components, matrix.singular_values.size());
     // Those that are there.
     if (!matrix.singular_indices.empty()) matrix.singular_indices.resize(matrix.num_components);
 }
