@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <vector>
 
+#include "compressor/encode/search/transfer_encoder.h"
 #include "paim/base/error.h"
 #include "paim/cli/parse.h"
 
@@ -14,6 +16,46 @@ namespace {
 
 constexpr uint64_t kMinMemoryBytes = 64'000'000;
 
+// What `text_of` says of each encoder, with `between` them.
+template <typename TextOf>
+std::string of_encoders(const char* between, const TextOf& text_of) {
+    std::string text;
+    for (const TransferEncoderType& type : transfer_encoders()) {
+        const std::string one = text_of(type);
+        if (!text.empty() && !one.empty()) text += between;
+        text += one;
+    }
+    return text;
+}
+
+// Names of the codecs that code floats.
+std::string codecs_of_floats() {
+    return of_encoders(" or ", [](const TransferEncoderType& type) {
+        return type.codes_floats ? std::string(type.codec) : "";
+    });
+}
+
+void add_codec_options(CLI::App& app, EncodeArguments& arguments, const char* group) {
+    const std::string costs = of_encoders(", ", [](const TransferEncoderType& type) {
+        return fmt::format("{} with {}", type.words.cost, type.codec);
+    });
+    app.add_option(
+           "--max-decode-cost", arguments.max_decode_cost,
+           "Largest number of multiply-adds per vertex and frame for the lit transfer: " + costs)
+        ->type_name("N")
+        ->group(group);
+    std::vector<std::string> names{"auto"};
+    for (const TransferEncoderType& type : transfer_encoders()) names.emplace_back(type.codec);
+    const std::string codecs = of_encoders(", ", [](const TransferEncoderType& type) {
+        return fmt::format("'{}' ({})", type.codec, type.words.description);
+    });
+    cli::add_choice(app, "--codec", arguments.codec, names,
+                    fmt::format("Coding of the transfer: {}, or 'auto', the better one for the "
+                                "target",
+                                codecs))
+        ->group(group);
+}
+
 void add_target_options(CLI::App& app, CompressOptions& options, EncodeArguments& arguments) {
     constexpr const char* kGroup = "With --max-error or --max-size";
     app.add_option("--geometry-error", arguments.geometry_error,
@@ -22,18 +64,7 @@ void add_target_options(CLI::App& app, CompressOptions& options, EncodeArguments
                                1.0 / kGeometryPerTransferError))
         ->type_name("ERROR")
         ->group(kGroup);
-    app.add_option(
-           "--max-decode-cost", arguments.max_decode_cost,
-           "Largest number of multiply-adds per vertex and frame for the lit transfer: K + 4 "
-           "for each coefficient with svd, 3 (K + 1) in all with cpca")
-        ->type_name("N")
-        ->group(kGroup);
-    cli::add_choice<CodecChoice>(
-        app, "--codec", arguments.codec,
-        {{"auto", CodecChoice::automatic}, {"svd", CodecChoice::svd}, {"cpca", CodecChoice::cpca}},
-        "Coding of the transfer: 'svd' (components over the poses), 'cpca' (clusters; much "
-        "cheaper to play), or 'auto', the better one for the target")
-        ->group(kGroup);
+    add_codec_options(app, arguments, kGroup);
     cli::add_choice<Preference>(
         app, "--prefer", arguments.preference,
         {{"size", Preference::size}, {"speed", Preference::speed}},
@@ -84,8 +115,10 @@ void add_storage_options(CLI::App& app, CompressOptions& options, EncodeArgument
         {{"auto", PrecisionChoice::automatic},
          {"f32", PrecisionChoice::f32},
          {"f16", PrecisionChoice::f16}},
-        "Numbers in the file: 'f32', 'f16' (half the size), or 'auto' (integers if there is a "
-        "target, else f32). Floats are always coded as svd")
+        fmt::format(
+            "Numbers in the file: 'f32', 'f16' (half the size), or 'auto' (integers if there is a "
+            "target, else f32). Floats are always coded as {}",
+            codecs_of_floats()))
         ->group(kGroup);
 }
 
@@ -108,7 +141,7 @@ void check_without_target(const EncodeArguments& arguments, const CompressOption
     };
     needs_target(!arguments.geometry_error.empty(), "--geometry-error");
     needs_target(arguments.max_decode_cost.has_value(), "--max-decode-cost");
-    needs_target(arguments.codec != CodecChoice::automatic, "--codec");
+    needs_target(arguments.codec != EncodeArguments().codec, "--codec");
     needs_target(arguments.preference != Preference::size, "--prefer");
     needs_target(options.band_power != CompressOptions().band_power, "--light-spectrum");
 }
@@ -125,8 +158,11 @@ void check_with_target(const EncodeArguments& arguments) {
     decided(arguments.geometry_components, defaults.geometry_components, "--geometry-components");
     decided(arguments.transfer_components, defaults.transfer_components, "--transfer-components");
     decided(arguments.auto_transfer_error, defaults.auto_transfer_error, "--auto-transfer-error");
-    if (arguments.codec == CodecChoice::cpca && arguments.precision != PrecisionChoice::automatic) {
-        throw_usage("--codec cpca: needs --precision auto, as floats are coded as svd");
+    if (arguments.precision == PrecisionChoice::automatic) return;
+    for (const TransferEncoderType& type : transfer_encoders()) {
+        if (type.codec != arguments.codec || type.codes_floats) continue;
+        throw_usage("--codec {}: needs --precision auto, as floats are coded as {}", type.codec,
+                    codecs_of_floats());
     }
 }
 

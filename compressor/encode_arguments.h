@@ -17,7 +17,7 @@ struct EncodeArguments {
     std::string max_error, max_size;
     std::string geometry_error;
     std::optional<uint32_t> max_decode_cost;
-    CodecChoice codec = CodecChoice::automatic;
+    std::string codec = "auto";
     Preference preference = Preference::size;
     std::string geometry_components = "auto";
     std::string transfer_components = "auto";

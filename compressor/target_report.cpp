@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "compressor/encode/search/transfer_encoder.h"
 #include "compressor/encode_report.h"
 #include "paim/metrics/rates.h"
 
@@ -12,20 +13,54 @@ using nlohmann::ordered_json;
 
 namespace {
 
-std::string candidates_text(const std::vector<Candidate>& candidates) {
-    std::string text =
-        "    codec  components  clusters x components  transfer kB  multiply-adds per vertex\n";
-    for (const Candidate& candidate : candidates) {
-        const std::string clusters =
-            candidate.clusters == 0
-                ? "-"
-                : fmt::format("{} x {}", candidate.clusters, candidate.cluster_components);
-        text += fmt::format("  {} {:<5}  {:>10}  {:>21}  {:>11.1f}  {:>24}\n",
-                            candidate.chosen ? '>' : ' ', candidate.codec, candidate.components,
-                            clusters, static_cast<double>(candidate.bytes) / 1e3,
-                            candidate.multiply_adds);
+// The columns of codecs that choose numbers of their own, a candidate's or the heading's.
+// text_of  what a column says of an encoder
+template <typename TextOf>
+std::string codec_columns(const TextOf& text_of) {
+    std::string columns;
+    for (const TransferEncoderType& type : transfer_encoders()) {
+        const std::string_view heading = type.words.heading;
+        if (!heading.empty()) columns += fmt::format("  {:>{}}", text_of(type), heading.size());
+    }
+    return columns;
+}
+
+// "64 x 8", or "-" in the columns of other codecs.
+std::string numbers_text(const Candidate& candidate, const TransferEncoderType& type) {
+    if (candidate.codec != type.codec) return "-";
+    std::string text;
+    for (const CodecNumber& number : candidate.numbers) {
+        text += fmt::format("{}{}", text.empty() ? "" : " x ", number.value);
     }
     return text;
+}
+
+std::string candidates_text(const std::vector<Candidate>& candidates) {
+    std::string text =
+        fmt::format("    codec  components{}  transfer kB  multiply-adds per vertex\n",
+                    codec_columns([](const auto& type) { return type.words.heading; }));
+    for (const Candidate& candidate : candidates) {
+        text += fmt::format(
+            "  {} {:<5}  {:>10}{}  {:>11.1f}  {:>24}\n", candidate.chosen ? '>' : ' ',
+            candidate.codec, candidate.components,
+            codec_columns([&](const auto& type) { return numbers_text(candidate, type); }),
+            static_cast<double>(candidate.bytes) / 1e3, candidate.multiply_adds);
+    }
+    return text;
+}
+
+// With the numbers of every codec; 0 where a codec has none of that name.
+ordered_json candidate_json(const Candidate& candidate) {
+    ordered_json json;
+    json["codec"] = candidate.codec;
+    json["components"] = candidate.components;
+    for (const TransferEncoderType& type : transfer_encoders()) {
+        for (const char* const name : type.words.numbers) json[name] = candidate.number(name);
+    }
+    json["transfer_bytes"] = candidate.bytes;
+    json["multiply_adds"] = candidate.multiply_adds;
+    json["chosen"] = candidate.chosen;
+    return json;
 }
 
 std::string transfer_text(const TargetSummary& summary) {
@@ -67,10 +102,7 @@ ordered_json report_json(const TargetReport& report) {
     json["bands"] = chosen.bands;
     json["geometry_components"] = summary.geometry_components;
     json["transfer_components"] = chosen.components;
-    if (chosen.clusters > 0) {
-        json["clusters"] = chosen.clusters;
-        json["cluster_components"] = chosen.cluster_components;
-    }
+    for (const CodecNumber& number : chosen.numbers) json[number.name] = number.value;
     json["size_bytes"] = summary.size_bytes;
     json["bits_per_vertex_per_pose"] =
         bits_per_vertex_per_pose(summary.size_bytes, summary.num_vertices, summary.num_poses);
@@ -81,13 +113,7 @@ ordered_json report_json(const TargetReport& report) {
     json["measured"] = errors_json(summary.error);
     json["candidates"] = ordered_json::array();
     for (const Candidate& candidate : summary.candidates) {
-        json["candidates"].push_back({{"codec", candidate.codec},
-                                      {"components", candidate.components},
-                                      {"clusters", candidate.clusters},
-                                      {"cluster_components", candidate.cluster_components},
-                                      {"transfer_bytes", candidate.bytes},
-                                      {"multiply_adds", candidate.multiply_adds},
-                                      {"chosen", candidate.chosen}});
+        json["candidates"].push_back(candidate_json(candidate));
     }
     return json;
 }

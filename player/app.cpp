@@ -90,7 +90,7 @@ class App {
     ViewRange range() const {
         const UploadPlan& plan = renderer_->plan();
         return {scene_->asset->num_poses(), plan.geometry_components, plan.transfer_components,
-                plan.layout.in_bands, plan.cluster_components};
+                plan.layout.in_bands, plan.vertex_components};
     }
 
     // Takes what has been read since the last frame; all else of the view stays.
@@ -215,6 +215,8 @@ class App {
             static_cast<uint32_t>(scene_->asset->moving().topology.triangles.size());
         info.frame_ms = frame_ms_;
         info.cost = frame_cost(scene_->asset->moving(), view_.limits);
+        const auto* words = words_of_codec(scene_->asset->moving().transfer->codec_name());
+        if (words != nullptr) info.vertex_components = words->components;
         return info;
     }
 

@@ -14,6 +14,7 @@
 #include "paim/light/environment.h"
 #include "player/gl/check.h"
 #include "player/gl/headless_context.h"
+#include "player/render/codec_words.h"
 #include "player/render/cost.h"
 #include "player/render/scene_renderer.h"
 #include "player/report.h"
@@ -119,8 +120,9 @@ void run_bench(const Options& options, const Scene& scene) {
     const Cost cost = frame_cost(scene.asset->moving(), options.limits);
     fmt::print("{:.3f} MB of textures, {} multiply-adds a vertex, positions included",
                1e-6 * static_cast<double>(renderer.texture_bytes()), cost.multiply_adds);
-    if (cost.cpu_multiply_adds > 0) {
-        fmt::print(", {} a frame for the bases of clusters", cost.cpu_multiply_adds);
+    const CodecWords* const words = words_of_codec(scene.asset->moving().transfer->codec_name());
+    if (words != nullptr && cost.cpu_multiply_adds > 0) {
+        fmt::print(", {} a frame for {}", cost.cpu_multiply_adds, words->shared_work);
     }
     fmt::print("\n");
     print("whole frame", whole);

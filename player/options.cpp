@@ -8,6 +8,7 @@
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "paim/base/error.h"
 #include "paim/cli/parse.h"
@@ -22,7 +23,10 @@ struct RawOptions {
     std::string model;
     std::optional<std::string> environment, size, background, camera, snapshot;
     std::optional<double> pose, env_rotation, supersample, exposure, gamma;
-    std::optional<double> geometry_components, transfer_components, cluster_components, bands;
+    std::optional<double> geometry_components, transfer_components, bands;
+    // One for each of codec_words().
+    std::vector<std::optional<double>> vertex_components =
+        std::vector<std::optional<double>>(codec_words().size());
     std::optional<double> bench, frames;
 };
 
@@ -150,9 +154,10 @@ void describe_detail(CLI::App& app, RawOptions& raw, Options& options) {
     group.add("--geometry-components", raw.geometry_components, "K",
               "Number of components that vertex positions are rebuilt from, 0 or more (default: "
               "all)");
-    group.add("--cluster-components", raw.cluster_components, "K",
-              "In files with clusters: number of components of its cluster that the transfer of a "
-              "vertex is summed from, 0 or more (default: all)");
+    for (size_t j = 0; j < raw.vertex_components.size(); ++j) {
+        const CodecWords& words = codec_words()[j];
+        group.add(words.option, raw.vertex_components[j], "K", words.description);
+    }
     group.add("--bands", raw.bands, "B",
               "Number of spherical-harmonic bands of transfer and light, 1 or more; B bands are "
               "B*B coefficients (default: all)");
@@ -218,7 +223,11 @@ void convert_detail(const RawOptions& raw, Options& options) {
     WantedLimits& wanted = options.wanted;
     wanted.geometry_components = limit("--geometry-components", raw.geometry_components, 0);
     wanted.transfer_components = limit("--transfer-components", raw.transfer_components, 0);
-    wanted.cluster_components = limit("--cluster-components", raw.cluster_components, 0);
+    for (size_t j = 0; j < raw.vertex_components.size(); ++j) {
+        const CodecWords& words = codec_words()[j];
+        const auto count = limit(words.option, raw.vertex_components[j], 0);
+        if (count) wanted.vertex_components = {&words, *count};
+    }
     wanted.bands = limit("--bands", raw.bands, 1);
 }
 
@@ -228,7 +237,7 @@ DecodeLimits WantedLimits::limits() const {
     DecodeLimits limits;  // all there is
     limits.geometry_components = geometry_components.value_or(limits.geometry_components);
     limits.transfer_components = transfer_components.value_or(limits.transfer_components);
-    limits.cluster_components = cluster_components.value_or(limits.cluster_components);
+    if (vertex_components) limits.vertex_components = vertex_components->count;
     limits.bands = bands.value_or(limits.bands);
     return limits;
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "paim/image/tone.h"
+#include "player/render/codec_words.h"
 #include "player/render/frame.h"
 #include "player/ui/orbit_camera.h"
 
@@ -17,7 +18,12 @@ struct WantedLimits {
     std::optional<uint32_t> geometry_components;
     std::optional<uint32_t> transfer_components;
     std::optional<uint32_t> bands;
-    std::optional<uint32_t> cluster_components;
+    // Of the components of vertices, and whose option asked for them.
+    struct VertexComponents {
+        const CodecWords* words;
+        uint32_t count;
+    };
+    std::optional<VertexComponents> vertex_components;
 
     // The same numbers, where nothing was asked for the largest there are.
     DecodeLimits limits() const;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "paim/codec/sequence_bounds.h"
+#include "player/render/codec_words.h"
 #include "player/render/cost.h"
 #include "player/ui/orbit_camera.h"
 
@@ -42,7 +43,10 @@ nlohmann::ordered_json describe_frame(const Options& options, const Scene& scene
     json["bytes_in_use"] = cost.bytes;
     json["texture_bytes"] = renderer.texture_bytes();
     json["multiply_adds_per_vertex"] = cost.multiply_adds;
-    json["cluster_multiply_adds"] = cost.cpu_multiply_adds;
+    for (const CodecWords& words : codec_words()) {
+        const bool own = words.codec == mesh.transfer->codec_name();
+        json[words.shared_work_json] = own ? cost.cpu_multiply_adds : 0;
+    }
     json["size"] = {options.size.first, options.size.second};
     json["supersample"] = samples;
     json["renderer"] = driver;

@@ -63,9 +63,12 @@ Scene make_scene(Options& options, LoadedAsset loaded) {
     limits.transfer_components =
         limit_of("--transfer-components", "transfer components", wanted.transfer_components,
                  mesh.transfer->matrix.num_components, asset.complete);
-    limits.cluster_components =
-        limit_of("--cluster-components", "cluster components", wanted.cluster_components,
-                 mesh.transfer->num_vertex_components(), true);
+    const uint32_t vertex_components = mesh.transfer->num_vertex_components();
+    limits.vertex_components = vertex_components;
+    if (const auto& asked = wanted.vertex_components) {
+        limits.vertex_components = limit_of(asked->words->option, asked->words->components,
+                                            asked->count, vertex_components, true);
+    }
     limits.bands = limit_of("--bands", "bands", wanted.bands, mesh.layout.in_bands, true);
 
     scene.environment =

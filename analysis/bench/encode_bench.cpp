@@ -36,9 +36,9 @@ void encode(benchmark::State& state, Eigen::Index num_rows, Eigen::Index num_col
             Eigen::MatrixXd centred = matrix.cast<double>();
             const Eigen::VectorXd mean = centred.rowwise().mean();
             centred.colwise() -= mean;
-            const Eigen::BDCSVD<Eigen::MatrixXd> svd(centred,
-                                                     Eigen::ComputeThinU | Eigen::ComputeThinV);
-            reference_values = svd.singularValues();
+            const Eigen::BDCSVD<Eigen::MatrixXd> reference(
+                centred, Eigen::ComputeThinU | Eigen::ComputeThinV);
+            reference_values = reference.singularValues();
         },
         [&] {
             factor_cpu_s = timed([&] { components = principal_components(rows); }).cpu_s;

@@ -10,15 +10,15 @@
 #include <cstring>
 #include <filesystem>
 #include <numbers>
+#include <variant>
 
 #include "analysis/bench/ratio.h"
 #include "paim/base/seed.h"
 #include "paim/base/tbb_parallel.h"
+#include "paim/codec/codecs.h"
 #include "paim/format/container/container_reader.h"
 #include "paim/format/container/sections.h"
 #include "paim/format/pack/zstd_decoder.h"
-#include "paim/codec/cpca/cpca_transfer.h"
-#include "paim/codec/svd/svd_transfer.h"
 #include "paim/format/paim/paim_read.h"
 #include "paim/format/paim/paim_write.h"
 #include "paim/mesh/cache_order.h"
@@ -75,7 +75,7 @@ StoredValues waves(const CacheOrder& order, uint32_t num_sides, uint32_t num_pla
 // Amplitudes fall from a quarter of the range to about two steps.
 template <typename Integer>
 LowRank wave_matrix(const CacheOrder& order, uint32_t num_sides, uint32_t num_planes,
-                          uint32_t num_components) {
+                    uint32_t num_components) {
     LowRank matrix;
     matrix.num_points = order.topology.num_vertices;
     matrix.num_planes = num_planes;
@@ -103,25 +103,30 @@ Asset wave_model(uint32_t num_rings, uint32_t num_sides, uint32_t num_components
     asset.vertex_order = VertexOrder::cache;
     asset.moving().layout = {TransferKind::diffuse, kBands, 1};
     asset.moving().positions = wave_matrix<Integer>(order, num_sides, 3, num_components);
-    asset.moving().transfer = SvdTransfer(
+    asset.moving().transfer = plain_transfer(
         wave_matrix<Integer>(order, num_sides, asset.moving().layout.num_planes(), num_components));
     asset.name = "waves";
     asset.provenance_json = "{}";
     return asset;
 }
 
-// Means and components, as they lie in memory.
+// Calls `visit` with every array of predicted values of the codec, beyond those of the matrix.
+template <typename Visit>
+void for_each_codec_array(const Asset& asset, const Visit& visit) {
+    CodedTransfer transfer = asset.moving().transfer;  // rows name values that may be changed
+    for (const SectionRow& row : transfer->sections()) {
+        if (const auto* values = std::get_if<StoredValues*>(&row.values)) visit(**values);
+    }
+}
+
+// Means, components and what the codec adds to them, as they lie in memory.
 size_t bytes_of_values(const Asset& asset) {
     size_t bytes = 0;
     for (const LowRank* matrix : {&asset.moving().positions, &asset.moving().transfer->matrix}) {
         bytes += matrix->mean.size_bytes();
         for (const StoredValues& component : matrix->components) bytes += component.size_bytes();
     }
-    if (const CpcaTransfer* clustered = asset.moving().transfer.as<CpcaTransfer>()) {
-        for (const StoredValues& values : clustered->clusters.coefficients) {
-            bytes += values.size_bytes();
-        }
-    }
+    for_each_codec_array(asset, [&](const StoredValues& values) { bytes += values.size_bytes(); });
     return bytes;
 }
 
@@ -130,9 +135,7 @@ size_t num_values(const Asset& asset) {
     for (const LowRank* matrix : {&asset.moving().positions, &asset.moving().transfer->matrix}) {
         count += matrix->num_rows() * (1 + size_t{matrix->num_components});
     }
-    if (const CpcaTransfer* clustered = asset.moving().transfer.as<CpcaTransfer>()) {
-        for (const StoredValues& values : clustered->clusters.coefficients) count += values.size();
-    }
+    for_each_codec_array(asset, [&](const StoredValues& values) { count += values.size(); });
     return count;
 }
 

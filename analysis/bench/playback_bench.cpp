@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "paim/base/seed.h"
+#include "paim/codec/codecs.h"
 #include "paim/codec/mesh_decoder.h"
-#include "paim/codec/svd/svd_transfer.h"
 #include "paim/sh/basis.h"
 #include "paim/shade/shade.h"
 
@@ -50,7 +50,7 @@ void decode(benchmark::State& state, uint32_t num_vertices, uint32_t num_compone
     mesh.layout = {TransferKind::diffuse, kBands, 1};
     mesh.positions = random_matrix(num_vertices, 3, num_components);
     mesh.transfer =
-        SvdTransfer(random_matrix(num_vertices, mesh.layout.num_planes(), num_components));
+        plain_transfer(random_matrix(num_vertices, mesh.layout.num_planes(), num_components));
     MeshDecoder decoder(mesh);
     DecodedPose pose;
     double time = 0.0;

@@ -15,6 +15,7 @@
 #include "paim/base/file.h"
 #include "paim/cli/parse.h"
 #include "paim/cli/run_main.h"
+#include "paim/codec/frame_cost.h"
 #include "paim/format/paim/paim_read.h"
 #include "paim/format/paim/paim_write.h"
 #include "paim/metrics/rates.h"
@@ -46,15 +47,17 @@ class Study {
         target.transfer_error = error;
         target.spectrum = BandPower::flat(bake_.identity().layout.in_bands);
         const TargetSummary summary = encode_to_target(bake_, options, target, file_);
-        const AssetError measured = measure_asset(read_paim(file_), bake_, target.spectrum);
+        const Asset asset = read_paim(file_);
+        const AssetError measured = measure_asset(asset, bake_, target.spectrum);
         const Candidate& chosen = summary.chosen();
-        const std::string clusters =
-            chosen.clusters == 0 ? ""
-                                 : fmt::format("{}x{}", chosen.clusters, chosen.cluster_components);
-        // Cost of decoding, and of light of one channel.
-        const uint32_t coefficients = chosen.bands * chosen.bands;
-        const uint32_t grey = chosen.clusters == 0 ? (chosen.components + 1) * coefficients
-                                                   : chosen.cluster_components + 1;
+        std::string numbers;
+        for (const CodecNumber& number : chosen.numbers) {
+            numbers += fmt::format("{}{}", numbers.empty() ? "" : "x", number.value);
+        }
+        // Multiply-adds of decoding alone, and of light of one channel.
+        TransferLayout layout = asset.moving().layout;
+        layout.channels = 1;
+        const uint64_t grey = asset.moving().transfer->cost(layout, {}, false).decode_per_vertex;
         const double size_ratio = paper == nullptr ? 1.0
                                                    : static_cast<double>(paper->size_bytes) /
                                                          static_cast<double>(summary.size_bytes);
@@ -64,7 +67,7 @@ class Study {
                 : static_cast<double>(paper->chosen().multiply_adds) / chosen.multiply_adds;
         fmt::print(
             "{},{:g},{},{},{},{},{},{},{},{:.3f},{},{},{:.5f},{:.6f},{:.4f},{:.4f},{:.2f},{:.2f}\n",
-            name, error, setting.name, chosen.codec, chosen.bands, chosen.components, clusters,
+            name, error, setting.name, chosen.codec, chosen.bands, chosen.components, numbers,
             summary.geometry_components, summary.size_bytes,
             bits_per_vertex_per_pose(summary.size_bytes, summary.num_vertices, summary.num_poses),
             chosen.multiply_adds, grey, measured.transfer.total(), measured.geometry.relative_rms(),
@@ -93,7 +96,7 @@ int run(int argc, char** argv) {
         ->capture_default_str();
     if (const int code = cli::parse(app, argc, argv); code >= 0) return code;
     fmt::print(
-        "sequence,error,what,codec,bands,components,clusters,geometry_components,bytes,bpvf,"
+        "sequence,error,what,codec,bands,components,codec_numbers,geometry_components,bytes,bpvf,"
         "multiply_adds,multiply_adds_grey,transfer_error,geometry_error,kg_percent,e_rms,"
         "times_smaller,times_fewer\n");
     for (const auto& directory : bakes) {

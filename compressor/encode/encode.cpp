@@ -8,8 +8,8 @@
 #include <algorithm>
 
 #include "compressor/encode/data/bake_rows.h"
-#include "compressor/encode/data/still_part.h"
 #include "compressor/encode/data/provenance.h"
+#include "compressor/encode/data/still_part.h"
 #include "compressor/encode/memory/measuring_memory.h"
 #include "compressor/encode/memory/memory_plan.h"
 #include "compressor/encode/noise/component_noise.h"
@@ -18,7 +18,7 @@
 #include "compressor/encode/state_errors.h"
 #include "compressor/encode/svd/projected_blocks.h"
 #include "paim/base/file.h"
-#include "paim/codec/svd/svd_transfer.h"
+#include "paim/codec/codecs.h"
 #include "paim/format/paim/paim_write.h"
 #include "paim/metrics/singular_value_error.h"
 
@@ -50,8 +50,8 @@ struct Decomposition {
 
 // A part without its mean and components, which are streamed later.
 LowRank start_matrix(const BakeReader& bake, const RowSource& rows,
-                           const PrincipalComponents& components, uint32_t num_components,
-                           const EncodeOptions& options) {
+                     const PrincipalComponents& components, uint32_t num_components,
+                     const EncodeOptions& options) {
     LowRank matrix;
     matrix.num_points = bake.identity().num_vertices;
     matrix.num_planes = static_cast<uint32_t>(rows.num_rows() / matrix.num_points);
@@ -159,7 +159,7 @@ EncodeSummary encode_unmeasured(const BakeReader& bake, const EncodeOptions& opt
     asset.provenance_json = provenance(bake.identity(), total, summary);
     mesh.positions =
         start_matrix(bake, geometry_rows, parts.geometry, summary.geometry_components, options);
-    mesh.transfer = SvdTransfer(
+    mesh.transfer = plain_transfer(
         start_matrix(bake, transfer_rows, parts.transfer, summary.transfer_components, options));
     summary.size_bytes = paim_size_bytes(asset);
     if (options.measure) {

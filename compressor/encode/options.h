@@ -5,6 +5,8 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "paim/codec/stored_values.h"
 #include "paim/metrics/band_power.h"
@@ -41,8 +43,6 @@ struct EncodeOptions {
     std::string name;
 };
 
-enum class CodecChoice : uint32_t { automatic, svd, cpca };
-
 // Which of the files that meet a target is the best.
 enum class Preference : uint32_t {
     size,   // the smallest
@@ -55,7 +55,9 @@ struct EncodeTarget {
     std::optional<double> geometry_error;  // RMS distance by the diagonal; else from transfer_error
     std::optional<uint64_t> size_bytes;    // of the file, at most
     std::optional<uint32_t> decode_cost;   // multiply-adds per vertex and frame for lit transfer
-    CodecChoice codec = CodecChoice::automatic;
+    // The codec of the transfer, as transfer_encoders() names it (search/transfer_encoder.h); "auto" or
+    // empty: the best one.
+    std::string codec;
     Preference preference = Preference::size;
     BandPower spectrum = BandPower::flat(1);
 };
@@ -64,16 +66,29 @@ struct EncodeTarget {
 // that is a thousand pixels high then errs by 0.2 pixels at 1 % and by one pixel at 5 %.
 constexpr double kGeometryPerTransferError = 1.0 / 50.0;
 
+// A number that one codec chooses, by the name that it has in the metadata of files.
+struct CodecNumber {
+    std::string name;
+    uint32_t value = 0;
+};
+
 // One way to code the transfer that was tried.
 struct Candidate {
-    std::string codec;  // "svd" or "cpca"
+    std::string codec;
     uint32_t bands = 0;
-    uint32_t components = 0;          // over time
-    uint32_t clusters = 0;            // of cpca
-    uint32_t cluster_components = 0;  // of cpca
-    uint64_t bytes = 0;               // of the transfer, by an estimate
-    uint32_t multiply_adds = 0;       // per vertex and frame
+    uint32_t components = 0;           // over time
+    std::vector<CodecNumber> numbers;  // what else the codec chose
+    uint64_t bytes = 0;                // of the transfer, by an estimate
+    uint32_t multiply_adds = 0;        // per vertex and frame
     bool chosen = false;
+
+    // The codec's number of this name; 0 if the codec has none of it.
+    uint32_t number(std::string_view name) const {
+        for (const CodecNumber& one : numbers) {
+            if (one.name == name) return one.value;
+        }
+        return 0;
+    }
 };
 
 }  // namespace paim

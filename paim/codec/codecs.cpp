@@ -1,6 +1,8 @@
 // The codecs that files may have.
 #include "paim/codec/codecs.h"
 
+#include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "paim/base/check.h"
@@ -26,6 +28,22 @@ std::vector<TransferCodec>& codecs() {
 
 std::span<const TransferCodec> transfer_codecs() {
     return codecs();
+}
+
+const TransferCodec& plain_codec() {
+    const auto found =
+        std::find_if(codecs().begin(), codecs().end(),
+                     [](const TransferCodec& codec) { return codec.marker.empty(); });
+    PAIM_CHECK(found != codecs().end());
+    return *found;
+}
+
+CodedTransfer plain_transfer(LowRank matrix) {
+    std::unique_ptr<TransferModel> model = plain_codec().make();
+    PAIM_CHECK(model->points_are_vertices());
+    model->start(matrix.num_points);
+    model->matrix = std::move(matrix);
+    return model;
 }
 
 void add_transfer_codec(const TransferCodec& codec) {

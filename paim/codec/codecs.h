@@ -20,6 +20,12 @@ struct TransferCodec {
 // All codecs: the built-in ones, then those that were added.
 std::span<const TransferCodec> transfer_codecs();
 
+// The codec of files without any marker. Its points are the vertices.
+const TransferCodec& plain_codec();
+
+// Transfer of that codec. Still parts use it, and so do files that are encoded without a search.
+CodedTransfer plain_transfer(LowRank matrix);
+
 // Adds a codec, so that its files can be read. No other codec has its name or marker (checked).
 // Must not be called while another thread reads files.
 void add_transfer_codec(const TransferCodec& codec);

@@ -11,7 +11,8 @@ struct DecodeLimits {
     uint32_t geometry_components = std::numeric_limits<uint32_t>::max();
     uint32_t transfer_components = std::numeric_limits<uint32_t>::max();
     uint32_t bands = std::numeric_limits<uint32_t>::max();
-    uint32_t cluster_components = std::numeric_limits<uint32_t>::max();  // of each vertex
+    // That a vertex sums up itself: of codecs whose vertices share what is rebuilt over the poses.
+    uint32_t vertex_components = std::numeric_limits<uint32_t>::max();
 
     bool operator==(const DecodeLimits&) const = default;
 };

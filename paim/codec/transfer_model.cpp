@@ -28,7 +28,7 @@ class DecodingPlayer : public TransferPlayer {
         points_.decode(model_.matrix, layout_, time, limits, layout, values_);
         transfer.resize(size_t{layout.num_planes()} * model_.num_vertices());
         model_.vertices_from_points(
-            values_, std::min(limits.cluster_components, model_.num_vertex_components()), transfer);
+            values_, std::min(limits.vertex_components, model_.num_vertex_components()), transfer);
     }
 
     void light(double time, const DecodeLimits& limits, const LightCoefficients& light,

@@ -34,11 +34,11 @@ Cost frame_cost(const CodedMesh& mesh, const DecodeLimits& limits) {
     Cost cost{};
     cost.geometry_components = std::min(limits.geometry_components, mesh.positions.num_components);
     cost.transfer_components = std::min(limits.transfer_components, transfer.matrix.num_components);
-    cost.cluster_components = std::min(limits.cluster_components, transfer.num_vertex_components());
+    cost.vertex_components = std::min(limits.vertex_components, transfer.num_vertex_components());
     cost.bands = layout.in_bands;
     cost.bytes = matrix_bytes(mesh.positions, 3, cost.geometry_components) +
                  matrix_bytes(transfer.matrix, layout.num_planes(), cost.transfer_components) +
-                 transfer.vertex_bytes(cost.cluster_components);
+                 transfer.vertex_bytes(cost.vertex_components);
     const FrameCost of_transfer = transfer.cost(mesh.layout, limits, true);
     cost.multiply_adds =
         positions_cost(cost.geometry_components).per_vertex() + of_transfer.per_vertex();

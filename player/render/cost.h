@@ -17,7 +17,7 @@ struct Cost {
     uint64_t cpu_multiply_adds;
     uint32_t geometry_components;  // in use
     uint32_t transfer_components;
-    uint32_t cluster_components;
+    uint32_t vertex_components;
     uint32_t bands;
 };
 

@@ -14,7 +14,7 @@ UploadPlan plan_upload(const CodedMesh& mesh, const DecodeLimits& limits, int ma
     plan.layout = mesh.layout.with_bands(limits.bands);
     plan.geometry_components = std::min(limits.geometry_components, mesh.positions.num_components);
     plan.transfer_components = std::min(limits.transfer_components, transfer.matrix.num_components);
-    plan.cluster_components = std::min(limits.cluster_components, transfer.num_vertex_components());
+    plan.vertex_components = std::min(limits.vertex_components, transfer.num_vertex_components());
 
     const int64_t geometry = geometry_texels(mesh, plan.geometry_components);
     require_fit("geometry", plan.geometry_components, geometry, max_texture_size);

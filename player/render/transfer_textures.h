@@ -3,12 +3,14 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "paim/codec/asset.h"
 #include "paim/light/light.h"
 #include "player/gl/program.h"
+#include "player/render/codec_words.h"
 #include "player/render/frame.h"
 #include "player/render/upload_plan.h"
 
@@ -35,6 +37,8 @@ struct TransferUploader {
     int64_t (*largest_texture)(const CodedMesh& mesh, const UploadPlan& plan, int max_texture_size);
     // Uploads the transfer as planned. Keeps a reference to the mesh for everything that changes.
     std::unique_ptr<TransferTextures> (*upload)(const CodedMesh& mesh, const UploadPlan& plan);
+    // If vertices have components of their own.
+    std::optional<CodecWords> words = {};
 };
 
 // Of the mesh's codec. Error (unsupported) if this player does not draw it. transfer_textures.cpp is

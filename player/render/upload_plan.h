@@ -20,7 +20,7 @@ struct UploadPlan {
     TransferLayout layout;             // of what can be shown: bands as limited
     uint32_t geometry_components = 0;  // that are uploaded
     uint32_t transfer_components = 0;  // likewise, over the poses
-    uint32_t cluster_components = 0;   // likewise, of every vertex
+    uint32_t vertex_components = 0;    // likewise, of every vertex
     int width_log2 = 0;                // of all textures
 
     uint32_t groups_per_channel() const { return groups_of(layout); }

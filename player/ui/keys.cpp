@@ -6,61 +6,75 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <vector>
+
+#include "player/render/codec_words.h"
 
 namespace paim::player {
 
 namespace {
 
-constexpr std::array kKeys = {
-    KeyRow{"Space", "play or pause", {GLFW_KEY_SPACE, false, Command::play_pause}},
-    KeyRow{"Left, Right",
-           "one pose back, forth",
-           {GLFW_KEY_LEFT, false, Command::previous_pose},
-           {GLFW_KEY_RIGHT, false, Command::next_pose}},
-    KeyRow{"Home, End",
-           "first, last pose",
-           {GLFW_KEY_HOME, false, Command::first_pose},
-           {GLFW_KEY_END, false, Command::last_pose}},
-    KeyRow{"[  ]",
-           "fewer, more transfer components",
-           {GLFW_KEY_LEFT_BRACKET, false, Command::fewer_transfer_components},
-           {GLFW_KEY_RIGHT_BRACKET, false, Command::more_transfer_components}},
-    KeyRow{"Shift+[  ]",
-           "fewer, more cluster components",
-           {GLFW_KEY_LEFT_BRACKET, true, Command::fewer_cluster_components},
-           {GLFW_KEY_RIGHT_BRACKET, true, Command::more_cluster_components}},
-    KeyRow{";  '",
-           "fewer, more geometry components",
-           {GLFW_KEY_SEMICOLON, false, Command::fewer_geometry_components},
-           {GLFW_KEY_APOSTROPHE, false, Command::more_geometry_components}},
-    KeyRow{"Shift+B, B",
-           "fewer, more bands",
-           {GLFW_KEY_B, true, Command::fewer_bands},
-           {GLFW_KEY_B, false, Command::more_bands}},
-    KeyRow{"Shift+E, E",
-           "exposure down, up by 1/4 stop",
-           {GLFW_KEY_E, true, Command::lower_exposure},
-           {GLFW_KEY_E, false, Command::raise_exposure}},
-    KeyRow{"Shift+G, G",
-           "gamma down, up; below 1 is sRGB",
-           {GLFW_KEY_G, true, Command::lower_gamma},
-           {GLFW_KEY_G, false, Command::raise_gamma}},
-    KeyRow{",  .",
-           "turn the light by 5 degrees",
-           {GLFW_KEY_COMMA, false, Command::turn_light_clockwise},
-           {GLFW_KEY_PERIOD, false, Command::turn_light_counter_clockwise}},
-    KeyRow{"L", "keep the light turning", {GLFW_KEY_L, false, Command::auto_turn}},
-    KeyRow{"K",
-           "next background: environment, black, grey, white",
-           {GLFW_KEY_K, false, Command::next_background}},
-    KeyRow{"F", "show the whole animation", {GLFW_KEY_F, false, Command::frame_all}},
-    KeyRow{"S", "save the view as a PNG file", {GLFW_KEY_S, false, Command::snapshot}},
-    KeyRow{"Tab", "hide or show the panels", {GLFW_KEY_TAB, false, Command::toggle_panel}},
-    KeyRow{"H", "hide or show this help", {GLFW_KEY_H, false, Command::toggle_help}},
-    KeyRow{"Esc", "quit", {GLFW_KEY_ESCAPE, false, Command::quit}},
-};
+// What codecs call the components that vertices sum up themselves.
+std::string vertex_components() {
+    std::string names;
+    for (const CodecWords& words : codec_words()) {
+        names += fmt::format("{}{}", names.empty() ? "" : " or ", words.components);
+    }
+    return names;
+}
+
+const std::vector<KeyRow>& keys() {
+    static const std::vector<KeyRow> rows = {
+        KeyRow{"Space", "play or pause", {GLFW_KEY_SPACE, false, Command::play_pause}},
+        KeyRow{"Left, Right",
+               "one pose back, forth",
+               {GLFW_KEY_LEFT, false, Command::previous_pose},
+               {GLFW_KEY_RIGHT, false, Command::next_pose}},
+        KeyRow{"Home, End",
+               "first, last pose",
+               {GLFW_KEY_HOME, false, Command::first_pose},
+               {GLFW_KEY_END, false, Command::last_pose}},
+        KeyRow{"[  ]",
+               "fewer, more transfer components",
+               {GLFW_KEY_LEFT_BRACKET, false, Command::fewer_transfer_components},
+               {GLFW_KEY_RIGHT_BRACKET, false, Command::more_transfer_components}},
+        KeyRow{"Shift+[  ]",
+               "fewer, more " + vertex_components(),
+               {GLFW_KEY_LEFT_BRACKET, true, Command::fewer_vertex_components},
+               {GLFW_KEY_RIGHT_BRACKET, true, Command::more_vertex_components}},
+        KeyRow{";  '",
+               "fewer, more geometry components",
+               {GLFW_KEY_SEMICOLON, false, Command::fewer_geometry_components},
+               {GLFW_KEY_APOSTROPHE, false, Command::more_geometry_components}},
+        KeyRow{"Shift+B, B",
+               "fewer, more bands",
+               {GLFW_KEY_B, true, Command::fewer_bands},
+               {GLFW_KEY_B, false, Command::more_bands}},
+        KeyRow{"Shift+E, E",
+               "exposure down, up by 1/4 stop",
+               {GLFW_KEY_E, true, Command::lower_exposure},
+               {GLFW_KEY_E, false, Command::raise_exposure}},
+        KeyRow{"Shift+G, G",
+               "gamma down, up; below 1 is sRGB",
+               {GLFW_KEY_G, true, Command::lower_gamma},
+               {GLFW_KEY_G, false, Command::raise_gamma}},
+        KeyRow{",  .",
+               "turn the light by 5 degrees",
+               {GLFW_KEY_COMMA, false, Command::turn_light_clockwise},
+               {GLFW_KEY_PERIOD, false, Command::turn_light_counter_clockwise}},
+        KeyRow{"L", "keep the light turning", {GLFW_KEY_L, false, Command::auto_turn}},
+        KeyRow{"K",
+               "next background: environment, black, grey, white",
+               {GLFW_KEY_K, false, Command::next_background}},
+        KeyRow{"F", "show the whole animation", {GLFW_KEY_F, false, Command::frame_all}},
+        KeyRow{"S", "save the view as a PNG file", {GLFW_KEY_S, false, Command::snapshot}},
+        KeyRow{"Tab", "hide or show the panels", {GLFW_KEY_TAB, false, Command::toggle_panel}},
+        KeyRow{"H", "hide or show this help", {GLFW_KEY_H, false, Command::toggle_help}},
+        KeyRow{"Esc", "quit", {GLFW_KEY_ESCAPE, false, Command::quit}},
+    };
+    return rows;
+}
 
 constexpr float kExposureStep = 0.25f;
 constexpr float kGammaStep = 0.2f;
@@ -145,11 +159,11 @@ bool change_limits(Command command, DecodeLimits& limits, const ViewRange& range
             limits.transfer_components =
                 more(limits.transfer_components, range.transfer_components);
             return true;
-        case Command::fewer_cluster_components:
-            limits.cluster_components = fewer(limits.cluster_components, 0);
+        case Command::fewer_vertex_components:
+            limits.vertex_components = fewer(limits.vertex_components, 0);
             return true;
-        case Command::more_cluster_components:
-            limits.cluster_components = more(limits.cluster_components, range.cluster_components);
+        case Command::more_vertex_components:
+            limits.vertex_components = more(limits.vertex_components, range.vertex_components);
             return true;
         case Command::fewer_geometry_components:
             limits.geometry_components = fewer(limits.geometry_components, 0);
@@ -213,17 +227,17 @@ bool change_display(Command command, ViewState& view) {
 }  // namespace
 
 std::span<const KeyRow> key_table() {
-    return kKeys;
+    return keys();
 }
 
 std::string keys_help() {
     std::string text = "Keys in the window:\n";
-    for (const KeyRow& row : kKeys) text += fmt::format("  {:<12}  {}\n", row.keys, row.meaning);
+    for (const KeyRow& row : keys()) text += fmt::format("  {:<12}  {}\n", row.keys, row.meaning);
     return text;
 }
 
 Command command_of_key(int glfw_key, bool shift) {
-    for (const KeyRow& row : kKeys) {
+    for (const KeyRow& row : keys()) {
         for (const KeyBinding& binding : {row.first, row.second}) {
             if (binding.command == Command::none) continue;
             if (binding.glfw_key == glfw_key && binding.shift == shift) return binding.command;

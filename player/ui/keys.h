@@ -17,8 +17,8 @@ enum class Command {
     last_pose,
     fewer_transfer_components,
     more_transfer_components,
-    fewer_cluster_components,
-    more_cluster_components,
+    fewer_vertex_components,
+    more_vertex_components,
     fewer_geometry_components,
     more_geometry_components,
     fewer_bands,
@@ -48,7 +48,7 @@ struct KeyBinding {
 // One line of the help with the bindings of its keys.
 struct KeyRow {
     const char* keys;
-    const char* meaning;
+    std::string meaning;
     KeyBinding first;
     KeyBinding second = {};  // of a pair of keys
 };

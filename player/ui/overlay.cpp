@@ -58,9 +58,9 @@ void draw_settings(const OverlayInfo& info, const ViewRange& range, ViewState& v
         ImGui::PushItemWidth(12.0f * ImGui::GetFontSize());
         count_slider("transfer components", view.limits.transfer_components, 0,
                      range.transfer_components);
-        if (range.cluster_components > 0) {
-            count_slider("cluster components", view.limits.cluster_components, 0,
-                         range.cluster_components);
+        if (range.vertex_components > 0) {
+            count_slider(info.vertex_components.c_str(), view.limits.vertex_components, 0,
+                         range.vertex_components);
         }
         count_slider("geometry components", view.limits.geometry_components, 0,
                      range.geometry_components);

@@ -20,6 +20,7 @@ struct OverlayInfo {
     uint32_t num_triangles = 0;
     double frame_ms = 0.0;
     Cost cost{};
+    std::string vertex_components;  // what the codec calls them, if there are any
 };
 
 // Between begin_frame() and end_frame(). Sliders change the view.

@@ -23,8 +23,8 @@ void follow(ViewState& view, const ViewRange& before, const ViewRange& now,
                  wanted.geometry_components);
     follow_limit(limits.transfer_components, before.transfer_components, now.transfer_components,
                  wanted.transfer_components);
-    follow_limit(limits.cluster_components, before.cluster_components, now.cluster_components,
-                 wanted.cluster_components);
+    follow_limit(limits.vertex_components, before.vertex_components, now.vertex_components,
+                 wanted.vertex_components);
     follow_limit(limits.bands, before.bands, now.bands, wanted.bands);
     view.time = std::min(view.time, static_cast<double>(now.num_poses));
 }

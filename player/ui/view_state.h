@@ -27,7 +27,7 @@ struct ViewRange {
     uint32_t geometry_components = 0;
     uint32_t transfer_components = 0;
     uint32_t bands = 1;
-    uint32_t cluster_components = 0;
+    uint32_t vertex_components = 0;
 };
 
 // The model has become another: what showed all there was shows all there is now, up to what was

@@ -65,12 +65,14 @@ TEST(PlayOptions, LimitWhatIsAskedForAndNothingElse) {
     EXPECT_EQ(options.wanted.geometry_components, 0u);
     EXPECT_FALSE(options.wanted.transfer_components);
     EXPECT_EQ(options.wanted.bands, 4u);
-    EXPECT_EQ(options.wanted.cluster_components, 1000000000u);
+    ASSERT_TRUE(options.wanted.vertex_components);
+    EXPECT_EQ(options.wanted.vertex_components->count, 1000000000u);
+    EXPECT_EQ(options.wanted.vertex_components->words->codec, "cpca");
     const DecodeLimits limits = options.wanted.limits();
     EXPECT_EQ(limits.geometry_components, 0u);
     EXPECT_EQ(limits.transfer_components, std::numeric_limits<uint32_t>::max());
     EXPECT_EQ(limits.bands, 4u);
-    EXPECT_EQ(limits.cluster_components, 1000000000u);
+    EXPECT_EQ(limits.vertex_components, 1000000000u);
     EXPECT_EQ(parse({"a.paim", "--transfer-components", "3"}).wanted.limits().transfer_components,
               3u);
 }

@@ -101,16 +101,16 @@ TEST(PlanUpload, HoldsClusters) {
     };
     set_clusters(20);
     const UploadPlan plan = plan_upload(mesh, {}, 16);
-    EXPECT_EQ(plan.cluster_components, 6u);
+    EXPECT_EQ(plan.vertex_components, 6u);
     EXPECT_EQ(plan.width_log2, 4);
     EXPECT_EQ(largest_texture({}), 100 * 2);  // of coefficients
-    EXPECT_EQ(largest_texture({.cluster_components = 4}), 100);
+    EXPECT_EQ(largest_texture({.vertex_components = 4}), 100);
     EXPECT_NE(refusal(mesh, {}, 14).find("6 components of 20 clusters and 100 vertices need 200"),
               std::string::npos);
-    EXPECT_EQ(refusal(mesh, {.cluster_components = 4}, 14), "");
+    EXPECT_EQ(refusal(mesh, {.vertex_components = 4}, 14), "");
     set_clusters(36);
     EXPECT_EQ(largest_texture({}), 36 * 7);  // of radiance
-    EXPECT_EQ(largest_texture({.cluster_components = 4}), 36 * 4);
+    EXPECT_EQ(largest_texture({.vertex_components = 4}), 36 * 4);
     set_clusters(40);
     EXPECT_NE(refusal(mesh, {}, 16).find("need 280 texels"), std::string::npos);
 }

@@ -37,7 +37,7 @@ using Limits = std::array<uint32_t, 4>;
 Limits limits_of(const ViewState& view) {
     const DecodeLimits& limits = view.limits;
     return {limits.geometry_components, limits.transfer_components, limits.bands,
-            limits.cluster_components};
+            limits.vertex_components};
 }
 
 TEST(ViewState, FollowsAnAssetThatGetsMoreComponents) {
@@ -80,13 +80,13 @@ TEST(Keys, ChangeLimitsWithinTheAsset) {
     EXPECT_EQ(view.limits.transfer_components, 0u);
 
     press(GLFW_KEY_RIGHT_BRACKET, true, view);
-    EXPECT_EQ(view.limits.cluster_components, 2u);
+    EXPECT_EQ(view.limits.vertex_components, 2u);
     for (const uint32_t expected : {1u, 0u, 0u}) {
         press(GLFW_KEY_LEFT_BRACKET, true, view);
-        EXPECT_EQ(view.limits.cluster_components, expected);
+        EXPECT_EQ(view.limits.vertex_components, expected);
     }
     press(GLFW_KEY_RIGHT_BRACKET, true, view);
-    EXPECT_EQ(view.limits.cluster_components, 1u);
+    EXPECT_EQ(view.limits.vertex_components, 1u);
     EXPECT_EQ(view.limits.transfer_components, 0u);
 
     press(GLFW_KEY_APOSTROPHE, false, view);
@@ -340,10 +340,10 @@ TEST(FrameCost, CountsWhatClustersDo) {
                              + (2 + 2 * 2 + 3 * 1) * 25 * 63 + 4 * 25 + 5 * 4 * 6  // bases
                              + (2 + 2 + 5 * 1) * num_vertices + 4 * 63);           // vertices
     const Cost some =
-        frame_cost(mesh, {.transfer_components = 2, .bands = 3, .cluster_components = 1});
+        frame_cost(mesh, {.transfer_components = 2, .bands = 3, .vertex_components = 1});
     EXPECT_EQ(some.multiply_adds, 3u * 4 + 3u * 2);
     EXPECT_EQ(some.cpu_multiply_adds, 63u * (9 * 2 + 3 * 9));
-    EXPECT_EQ(some.cluster_components, 1u);
+    EXPECT_EQ(some.vertex_components, 1u);
     EXPECT_EQ(some.bytes, (2 + 2 * 2 + 1) * 3 * num_vertices + 4 * 3 + 3 * 4 * 6 +
                               (2 + 2 * 2) * 9 * 63 + 4 * 9 + 2 * 4 * 6 + (2 + 2) * num_vertices +
                               4 * 9 * 2);

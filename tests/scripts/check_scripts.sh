@@ -5,7 +5,7 @@
 set -euo pipefail
 root=$1
 scripts=(demo check .ci/run scripts/install-packages scripts/figures/make tests/scripts/check_scripts.sh
-    tests/scripts/check_links.sh)
+    tests/scripts/check_codec_names.sh tests/scripts/check_links.sh)
 
 fail() {
     echo "check_scripts: $*" >&2

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "paim/base/check.h"
-#include "paim/codec/svd/svd_transfer.h"
+#include "paim/codec/codecs.h"
 
 namespace paim {
 
@@ -27,7 +27,7 @@ std::optional<CodedMesh> still_part(const BakeReader& bake, uint32_t bands) {
             baked.pose.transfer.begin() + static_cast<ptrdiff_t>(plane * num_vertices);
         transfer.insert(transfer.end(), first, first + static_cast<ptrdiff_t>(num_vertices));
     }
-    mesh.transfer = SvdTransfer(LowRank::still(mesh.layout.num_planes(), std::move(transfer)));
+    mesh.transfer = plain_transfer(LowRank::still(mesh.layout.num_planes(), std::move(transfer)));
     return mesh;
 }
 

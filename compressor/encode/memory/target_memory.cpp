@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "compressor/encode/cluster/clustered_pca.h"
 #include "compressor/encode/memory/search_limits.h"
 #include "compressor/encode/quantise/quantise.h"
 #include "compressor/encode/svd/tsqr.h"
@@ -21,26 +20,24 @@ constexpr uint64_t kFloat = sizeof(float), kDouble = sizeof(double);
 // The largest integers of a quantised matrix.
 constexpr uint64_t kInteger = sizeof(int16_t);
 
-// The shape of the points that clusters are made of, without their values.
-class Dimensions : public PointSource {
-  public:
-    Dimensions(const TargetSize& size)
-        : num_points_(static_cast<uint32_t>(size.streamed.num_vertices)),
-          num_planes_(size.num_planes),
-          num_columns_(size.transfer_components + 1) {}
-
-    uint32_t num_points() const override { return num_points_; }
-    uint32_t num_planes() const override { return num_planes_; }
-    uint32_t num_columns() const override { return num_columns_; }
-    void read(uint32_t, Eigen::Ref<Eigen::MatrixXf>) const override {}
-
-  private:
-    uint32_t num_points_, num_planes_, num_columns_;
-};
+// Codecs are searched one after the other. What one keeps and what its best coding holds stay while the
+// next ones prepare.
+CodecMemory memory_of_all(const TargetSize& size) {
+    CodecMemory all;
+    for (const SearchedCodec& codec : size.codecs) {
+        const CodecMemory one = codec.memory(size);
+        all.num_points = std::max(all.num_points, one.num_points);
+        all.kept_bytes += one.kept_bytes;
+        all.preparing_bytes = std::max(all.preparing_bytes, all.coding_bytes + one.preparing_bytes);
+        all.coding_bytes += one.coding_bytes;
+    }
+    return all;
+}
 
 // V and P are below 2^28 and 2^20, planes below 2^10, so that no product of these overflows.
 struct Need {
     const TargetSize& size;
+    CodecMemory codecs = memory_of_all(size);
 
     uint64_t vertices() const { return size.streamed.num_vertices; }
     uint64_t poses() const { return size.streamed.num_poses; }
@@ -54,6 +51,10 @@ struct Need {
     }
     uint64_t transfer_values() const {
         return size.num_planes * vertices() * (size.transfer_components + uint64_t{1});
+    }
+    // The same of a codec whose points are not the vertices.
+    uint64_t point_values() const {
+        return codecs.num_points * size.num_planes * (size.transfer_components + uint64_t{1});
     }
     uint64_t weights() const {
         return (size.geometry_components + uint64_t{size.transfer_components}) * poses();
@@ -72,14 +73,14 @@ struct Need {
     // Integers of both parts, twice: the best model and the one that is tried. One column is
     // rounded at a time, as floats.
     uint64_t models() const {
-        return 2 * (kInteger * (geometry_values() + std::max(transfer_values(), basis_values())) +
+        return 2 * (kInteger * (geometry_values() + std::max(transfer_values(), point_values())) +
                     weights() * kFloat) +
-               std::max(vertices(), basis_rows()) * size.num_planes * kFloat;
+               std::max(vertices(), codecs.num_points) * size.num_planes * kFloat;
     }
 
     uint64_t measuring() const {
-        return measure_part_bytes(vertices(), poses(), most_components(), basis_rows(),
-                                       size.streamed.num_threads);
+        return measure_part_bytes(vertices(), poses(), most_components(), codecs.num_points,
+                                  size.streamed.num_threads);
     }
 
     // Floats of everything, to find the error that these components leave.
@@ -97,45 +98,18 @@ struct Need {
     // Sections while they are compressed, one on each thread.
     uint64_t packing() const {
         const uint64_t section =
-            std::max(vertices(), basis_rows()) * std::max(3u, size.num_planes) * kInteger;
+            std::max(vertices(), codecs.num_points) * std::max(3u, size.num_planes) * kInteger;
         return size.streamed.num_threads * encode_planes_scratch_bytes(section);
-    }
-
-    uint64_t clusters() const {
-        return std::min<uint64_t>(kClusterCounts.back(), most_clusters(vertices()));
-    }
-    uint64_t basis_rows() const {
-        if (!size.clusters) return 0;
-        return std::min(2 * vertices(), clusters() * (kMaxSearchedComponents + 1));
-    }
-    uint64_t basis_values() const {
-        return basis_rows() * size.num_planes * (size.transfer_components + uint64_t{1});
-    }
-
-    // All clusterings that were tried stay, for the next target.
-    uint64_t kept_clusterings() const {
-        if (!size.clusters) return 0;
-        return kMaxClusterings *
-               ClusteredPca::held_bytes(vertices(), clusters(), kMaxSearchedComponents);
-    }
-
-    uint64_t clustering() const {
-        if (!size.clusters) return 0;
-        ClusteringOptions options;
-        options.num_clusters = static_cast<uint32_t>(clusters());
-        options.assumed_components = kMaxAssumedComponents;
-        options.max_components = kMaxSearchedComponents;
-        return clustered_pca_memory_bytes(Dimensions(size), options);
     }
 
     uint64_t factors() const {
         return (geometry_values() + transfer_values()) * kFloat + weights() * kDouble;
     }
-    uint64_t held() const { return factors() + mesh() + kept_clusterings(); }
+    uint64_t held() const { return factors() + mesh() + codecs.kept_bytes; }
 
     uint64_t searching() const {
         const uint64_t refining = models() + std::max({trying(), measuring(), packing()});
-        return std::max(clustering(), basis_values() * kFloat + refining);
+        return std::max(codecs.preparing_bytes, codecs.coding_bytes + refining);
     }
 };
 
@@ -155,16 +129,20 @@ uint64_t target_memory_bytes(const TargetSize& size) {
                     target_held_bytes(size) + std::max(need.best_achievable(), need.searching()));
 }
 
-void check_target_memory(const TargetSize& size, uint64_t limit_bytes, const std::string& what) {
+void check_target_memory(const TargetSize& size, const std::vector<SearchedCodec>& codecs,
+                         uint64_t limit_bytes, const std::string& what) {
     const uint64_t least = target_memory_bytes(size);
     if (least <= limit_bytes) return;
-    TargetSize svd = size;
-    svd.clusters = false;
-    const uint64_t least_of_svd = target_memory_bytes(svd);
-    const std::string instead =
-        size.clusters && least_of_svd <= limit_bytes
-            ? fmt::format(" (--codec svd alone takes {})", memory_text(least_of_svd))
-            : "";
+    std::string instead;
+    uint64_t least_of_one = limit_bytes + 1;
+    for (const SearchedCodec& codec : codecs) {
+        TargetSize alone = size;
+        alone.codecs = {codec};
+        const uint64_t bytes = target_memory_bytes(alone);
+        if (bytes >= least_of_one) continue;
+        least_of_one = bytes;
+        instead = fmt::format(" (--codec {} alone takes {})", codec.name, memory_text(bytes));
+    }
     throw_unsupported(
         "{}: {} poses of {} vertices in {} bands, with {} and {} components in memory, need {} to "
         "be encoded to a target, but --memory allows {}{}",

@@ -8,7 +8,8 @@
 
 #include "compressor/encode/data/provenance.h"
 #include "compressor/encode/search/quantise_still.h"
-#include "paim/codec/svd/svd_transfer.h"
+#include "paim/codec/codecs.h"
+#include "paim/codec/frame_cost.h"
 
 namespace paim {
 
@@ -37,7 +38,7 @@ uint64_t EncodedFiles::overhead_bytes(double transfer_error) {
         return matrix;
     };
     mesh.positions = nothing(3);
-    mesh.transfer = SvdTransfer(nothing(mesh.layout.num_planes()));
+    mesh.transfer = plain_transfer(nothing(mesh.layout.num_planes()));
     shell.provenance_json = bake_provenance(problem_.bake.identity(), problem_.statistics);
     return PackedFile(shell, Effort::fast).size_bytes();
 }
@@ -77,7 +78,7 @@ std::optional<EncodedFile> EncodedFiles::meet(double transfer_error, std::string
 }
 
 std::optional<EncodedFile> EncodedFiles::meet(double transfer_error, Draft draft,
-                                            std::string& reason) {
+                                              std::string& reason) {
     const Targets targets = this->targets(transfer_error);
     auto refined = refine(problem_, still_of(targets), std::move(draft.coding), targets);
     if (!refined) return meet(transfer_error, reason);
@@ -85,8 +86,8 @@ std::optional<EncodedFile> EncodedFiles::meet(double transfer_error, Draft draft
 }
 
 std::optional<EncodedFile> EncodedFiles::pack(const Targets& targets,
-                                            std::vector<Candidate> candidates, RefinedAsset refined,
-                                            std::string& reason) const {
+                                              std::vector<Candidate> candidates,
+                                              RefinedAsset refined, std::string& reason) const {
     Asset& asset = refined.asset;
     const CodedMesh& mesh = asset.moving();
     const auto cost =
@@ -113,11 +114,11 @@ std::optional<EncodedFile> EncodedFiles::pack(const Targets& targets,
         nlohmann::ordered_json::parse(error_statement_json(refined.error, target_.spectrum));
     asset.provenance_json = provenance.dump();
     return EncodedFile{PackedFile(asset),
-                      refined.error,
-                      targets,
-                      std::move(candidates),
-                      mesh.positions.num_components,
-                      std::move(refined.coding)};
+                       refined.error,
+                       targets,
+                       std::move(candidates),
+                       mesh.positions.num_components,
+                       std::move(refined.coding)};
 }
 
 }  // namespace paim

@@ -11,7 +11,8 @@
 #include "compressor/encode/memory/target_memory.h"
 #include "compressor/encode/noise/component_noise.h"
 #include "compressor/encode/quantise/float_matrix.h"
-#include "paim/codec/svd/svd_transfer.h"
+#include "compressor/encode/search/transfer_encoder.h"
+#include "paim/codec/codecs.h"
 #include "paim/metrics/vertex_match.h"
 
 namespace paim {
@@ -109,7 +110,7 @@ AssetError measure_best(const EncodeProblem& problem) {
     Asset best = problem.shell;
     best.moving().positions =
         float_matrix(problem.geometry, problem.geometry.num_components(), Precision::f32);
-    best.moving().transfer = SvdTransfer(
+    best.moving().transfer = plain_transfer(
         float_matrix(problem.transfer, problem.transfer.num_components(), Precision::f32));
     return measure_asset(best, problem.bake, problem.spectrum);
 }
@@ -118,6 +119,8 @@ AssetError measure_best(const EncodeProblem& problem) {
 
 EncodeProblem read_problem(const BakeReader& bake, const EncodeOptions& options,
                            const EncodeTarget& target) {
+    const std::vector<SearchedCodec> codecs =
+        searched_codecs(encoders_to_try(target.codec, options.precision));
     uint32_t in_flight = choose_num_in_flight(encode_size(bake, options), options.memory_bytes,
                                               bake.directory().string());
     const BakeIdentity& identity = bake.identity();
@@ -149,8 +152,9 @@ EncodeProblem read_problem(const BakeReader& bake, const EncodeOptions& options,
     size.transfer_components = components_for(
         noise.num_above_noise, kDroppedShare * kDroppedShare * asked * asked * energy * num_values,
         [&](uint32_t k) { return noise.signal_of(static_cast<Eigen::Index>(k)); });
-    size.clusters = target.codec != CodecChoice::svd && is_integer(options.precision);
-    check_target_memory(size, options.memory_bytes, bake.directory().string());
+    size.codecs = codecs;
+    check_target_memory(size, searched_codecs(encoders_to_try("", options.precision)),
+                        options.memory_bytes, bake.directory().string());
     problem.spare_bytes = options.memory_bytes - target_held_bytes(size);
     problem.unneeded_bytes = options.memory_bytes - target_memory_bytes(size);
     in_flight = choose_target_in_flight(size, options.memory_bytes);

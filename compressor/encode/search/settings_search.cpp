@@ -86,11 +86,7 @@ std::string CodingSearch::missed_transfer(double target) {
                fmt::format("cannot be met with {} multiply-adds a vertex", *target_.decode_cost) +
                (least ? fmt::format("; with {} it can", *least) : "");
     }
-    if (target_.codec == CodecChoice::cpca) {
-        return asked +
-               "cannot be met by clusters of as many components as are tried: use --codec auto";
-    }
-    return asked + "needs values of more than 16 bits: use --precision f32";
+    return asked + encoders_to_try(target_.codec, options_.precision).front()->words.missed;
 }
 
 // Triangles, colours, table, and the still part, whose integers take about an eighth of its floats.

@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include "compressor/encode/memory/target_memory.h"
 #include "compressor/encode/search/transfer_coding.h"
 
 namespace paim {
@@ -29,14 +31,41 @@ class TransferEncoder {
                              std::vector<TransferCoding>& codings) = 0;
 };
 
-// How the search for a codec is started.
+// What people are told about a codec.
+struct EncoderWords {
+    const char* description = "";  // what vertices are made of: "components over the poses"
+    const char* cost = "";         // multiply-adds per vertex and frame: "3 (K + 1) in all"
+    // After "a transfer error of 1 % …": why this codec alone may not meet it, and what to do.
+    const char* missed = "";
+    // Names of the Candidate::numbers that this codec chooses, and the heading of their column.
+    std::vector<const char*> numbers = {};
+    const char* heading = "";
+};
+
+// How a codec is searched.
 struct TransferEncoderType {
     std::string_view codec;
     bool codes_floats;  // else integers alone
     std::unique_ptr<TransferEncoder> (*make)(const TransferSearchTask& task);
+    CodecMemory (*memory)(const TargetSize& size);
+    EncoderWords words;
 };
 
-// In the order of the search. transfer_encoders.cpp is the one place that names them.
+// In the order of the search; those that were added come last. transfer_encoders.cpp is the one place
+// that names them.
 const std::vector<TransferEncoderType>& transfer_encoders();
+
+// Lets searches try another codec from now on. Its name is its own (checked). Not to be called while a
+// search runs.
+void add_transfer_encoder(TransferEncoderType type);
+
+// Those that a target lets a search try.
+// codec      of EncodeTarget; one that does not code floats leaves them to those that do
+// Error (usage), with the names that there are, if no encoder has that name.
+std::vector<const TransferEncoderType*> encoders_to_try(std::string_view codec,
+                                                        Precision precision);
+
+// What check_target_memory() and its like ask of these.
+std::vector<SearchedCodec> searched_codecs(const std::vector<const TransferEncoderType*>& types);
 
 }  // namespace paim

@@ -1,15 +1,65 @@
 // The codecs that a search tries.
+#include <fmt/format.h>
+
+#include <utility>
+
 #include "compressor/encode/search/cpca/cpca_encoder.h"
 #include "compressor/encode/search/svd/svd_encoder.h"
 #include "compressor/encode/search/transfer_encoder.h"
+#include "paim/base/check.h"
+#include "paim/base/error.h"
 
 namespace paim {
 
+namespace {
+
+std::vector<TransferEncoderType>& types() {
+    static std::vector<TransferEncoderType> all{svd_encoder_type(), cpca_encoder_type()};
+    return all;
+}
+
+bool is_any(std::string_view codec) {
+    return codec.empty() || codec == "auto";
+}
+
+void check_codec(std::string_view codec) {
+    if (is_any(codec)) return;
+    std::string names = "auto";
+    for (const TransferEncoderType& type : types()) {
+        if (type.codec == codec) return;
+        names += fmt::format(", {}", type.codec);
+    }
+    throw_usage("codec: expected one of {}, got '{}'", names, codec);
+}
+
+}  // namespace
+
 const std::vector<TransferEncoderType>& transfer_encoders() {
-    static const std::vector<TransferEncoderType> types{
-        {SvdTransfer::kName, true, make_svd_encoder},
-        {CpcaTransfer::kName, false, make_cpca_encoder}};
-    return types;
+    return types();
+}
+
+void add_transfer_encoder(TransferEncoderType type) {
+    PAIM_CHECK(!is_any(type.codec));
+    for (const TransferEncoderType& other : types()) PAIM_CHECK(type.codec != other.codec);
+    types().push_back(std::move(type));
+}
+
+std::vector<const TransferEncoderType*> encoders_to_try(std::string_view codec,
+                                                        Precision precision) {
+    check_codec(codec);
+    std::vector<const TransferEncoderType*> able, named;
+    for (const TransferEncoderType& type : types()) {
+        if (!is_integer(precision) && !type.codes_floats) continue;
+        able.push_back(&type);
+        if (type.codec == codec) named.push_back(&type);
+    }
+    return named.empty() ? able : named;
+}
+
+std::vector<SearchedCodec> searched_codecs(const std::vector<const TransferEncoderType*>& types) {
+    std::vector<SearchedCodec> codecs;
+    for (const TransferEncoderType* type : types) codecs.push_back({type->codec, type->memory});
+    return codecs;
 }
 
 }  // namespace paim

@@ -7,22 +7,11 @@
 
 namespace paim {
 
-namespace {
-
-bool is_allowed(CodecChoice choice, std::string_view codec) {
-    return choice == CodecChoice::automatic ||
-           codec == (choice == CodecChoice::svd ? "svd" : "cpca");
-}
-
-}  // namespace
-
 TransferSearch::TransferSearch(const EncodeProblem& problem, const EncodeOptions& options,
                                const EncodeTarget& target)
     : bands_(problem.layout.in_bands), decode_cost_(target.decode_cost) {
-    const bool floats = !is_integer(options.precision);
-    for (const TransferEncoderType& type : transfer_encoders()) {
-        const bool can = floats ? type.codes_floats : is_allowed(target.codec, type.codec);
-        if (can) encoders_.push_back(type.make({problem, options, target}));
+    for (const TransferEncoderType* type : encoders_to_try(target.codec, options.precision)) {
+        encoders_.push_back(type->make({problem, options, target}));
     }
 }
 

@@ -76,7 +76,7 @@ void CpcaPlayer::decode(double time, const DecodeLimits& limits, TransferLayout&
     table_.assign(values_, transfer_.clusters.scales);
     transfer.resize(size_t{layout.num_planes()} * transfer_.num_vertices());
     sum_all(transfer_.clusters, table_,
-            std::min(limits.cluster_components, transfer_.clusters.num_components), transfer);
+            std::min(limits.vertex_components, transfer_.clusters.num_components), transfer);
 }
 
 // Rebuilds the pose before it applies the light. With K components over time and C coefficients, a
@@ -118,17 +118,17 @@ void CpcaPlayer::basis_radiance(double time, const DecodeLimits& limits,
                                         Vec3f(rows.sums[0][j], rows.sums[1][j], rows.sums[2][j]);
         }
     });
-    if (limits.cluster_components >= clusters.num_components) return;
+    if (limits.vertex_components >= clusters.num_components) return;
     const uint32_t stride = clusters.rows_per_cluster();
     for (size_t r = 0; r < basis_radiance.size(); ++r) {
-        if (r % stride > limits.cluster_components) basis_radiance[r].setZero();
+        if (r % stride > limits.vertex_components) basis_radiance[r].setZero();
     }
 }
 
 void CpcaPlayer::light(double time, const DecodeLimits& limits, const LightCoefficients& light,
                        const Albedo& albedo, std::vector<Vec3f>& radiance) {
     basis_radiance(time, limits, light, radiance_);
-    shade_clusters(transfer_.clusters, radiance_, limits.cluster_components, albedo, radiance);
+    shade_clusters(transfer_.clusters, radiance_, limits.vertex_components, albedo, radiance);
 }
 
 void shade_clusters(const VertexClusters& clusters, std::span<const Vec3f> basis_radiance,

@@ -50,7 +50,7 @@ FrameCost CpcaTransfer::cost(const TransferLayout& layout, const DecodeLimits& l
     const auto of = [&](uint32_t num_components) {
         return cpca_cost(used, clusters.num_clusters, num_components, over_time, coloured_light);
     };
-    FrameCost cost = of(std::min(limits.cluster_components, clusters.num_components));
+    FrameCost cost = of(std::min(limits.vertex_components, clusters.num_components));
     // All components of the bases are lit, even if vertices use only some of them.
     cost.cpu_per_frame = of(clusters.num_components).cpu_per_frame;
     return cost;
@@ -104,7 +104,7 @@ std::vector<Eigen::MatrixXd> CpcaTransfer::point_metrics() const {
 std::vector<NamedNumber> CpcaTransfer::numbers() {
     return {{"clusters", &clusters.num_clusters, 1, kMaxClusters, nullptr},
             {"cluster_components", &clusters.num_components, 0, kMaxClusterComponents,
-             &DecodeLimits::cluster_components}};
+             &DecodeLimits::vertex_components}};
 }
 
 uint32_t CpcaTransfer::start(uint32_t num_vertices) {

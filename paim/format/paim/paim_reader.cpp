@@ -9,7 +9,6 @@
 
 #include "paim/base/error.h"
 #include "paim/codec/codecs.h"
-#include "paim/codec/svd/svd_transfer.h"
 #include "paim/format/container/mesh_sections.h"
 #include "paim/format/container/metadata.h"
 #include "paim/format/container/sections.h"
@@ -62,10 +61,7 @@ CodedTransfer start_transfer(const Metadata& metadata) {
     const auto marked = std::find_if(codecs.begin(), codecs.end(), [&](const TransferCodec& codec) {
         return !codec.marker.empty() && metadata.root().contains(codec.marker);
     });
-    const auto unmarked =
-        std::find_if(codecs.begin(), codecs.end(),
-                     [](const TransferCodec& codec) { return codec.marker.empty(); });
-    CodedTransfer transfer = (marked != codecs.end() ? marked : unmarked)->make();
+    CodedTransfer transfer = marked != codecs.end() ? marked->make() : plain_codec().make();
     for (const NamedNumber& number : transfer->numbers()) {
         *number.value = metadata.integer(number.name, number.lowest, number.highest);
     }
@@ -120,7 +116,7 @@ CodedMesh start_still(const ContainerReader& reader, const TransferLayout& layou
         return matrix;
     };
     mesh.positions = start(3);
-    mesh.transfer = SvdTransfer(start(layout.num_planes()));
+    mesh.transfer = plain_transfer(start(layout.num_planes()));
     return mesh;
 }
 

@@ -26,8 +26,19 @@ const VertexClusters& clusters_of(const CodedMesh& mesh) {
     return transfer->clusters;
 }
 
+constexpr CodecWords kWords{
+    .codec = CpcaTransfer::kName,
+    .option = "--cluster-components",
+    .components = "cluster components",
+    .description =
+        "In files with clusters: number of components of its cluster that the transfer of a "
+        "vertex is summed from, 0 or more (default: all)",
+    .shared_work = "the bases of clusters",
+    .shared_work_json = "cluster_multiply_adds",
+};
+
 uint32_t cluster_groups(const UploadPlan& plan) {
-    return (plan.cluster_components + kGroupSize - 1) / kGroupSize;
+    return (plan.vertex_components + kGroupSize - 1) / kGroupSize;
 }
 
 // Texels of the radiance of a cluster's basis: its mean, then the red, green and blue of every four
@@ -47,15 +58,15 @@ int64_t largest_texture(const CodedMesh& mesh, const UploadPlan& plan, int max_t
     if (largest > texel_capacity(max_texture_size)) {
         throw_unsupported(
             "{} components of {} clusters and {} vertices need {} texels, this driver's largest "
-            "texture (GL_MAX_TEXTURE_SIZE {}) holds {}: lower --cluster-components",
-            plan.cluster_components, num_clusters, num_vertices, largest, max_texture_size,
-            texel_capacity(max_texture_size));
+            "texture (GL_MAX_TEXTURE_SIZE {}) holds {}: lower {}",
+            plan.vertex_components, num_clusters, num_vertices, largest, max_texture_size,
+            texel_capacity(max_texture_size), kWords.option);
     }
     return largest;
 }
 
 std::span<const StoredValues> arrays_of(const VertexClusters& clusters, const UploadPlan& plan) {
-    return std::span(clusters.coefficients).first(plan.cluster_components);
+    return std::span(clusters.coefficients).first(plan.vertex_components);
 }
 
 FormatSplit split_of(const VertexClusters& clusters, const UploadPlan& plan) {
@@ -93,7 +104,8 @@ TransferUploader cpca_uploader() {
     return {CpcaTransfer::kName, largest_texture,
             [](const CodedMesh& mesh, const UploadPlan& plan) -> std::unique_ptr<TransferTextures> {
                 return std::make_unique<CpcaTextures>(mesh, plan);
-            }};
+            },
+            kWords};
 }
 
 CpcaTextures::CpcaTextures(const CodedMesh& mesh, const UploadPlan& plan)
@@ -131,7 +143,7 @@ void CpcaTextures::update_basis_radiance(const Frame& frame, const LightCoeffici
         const Vec3f* rows = row_radiance_.data() + c * stride;
         float* to = scratch_.data() + c * basis_texels(plan_) * kGroupSize;
         std::copy_n(rows[0].data(), 3, to);
-        for (uint32_t j = 0; j < plan_.cluster_components; ++j) {
+        for (uint32_t j = 0; j < plan_.vertex_components; ++j) {
             float* group = to + (1 + 3 * (j / kGroupSize)) * kGroupSize + j % kGroupSize;
             for (uint32_t channel = 0; channel < 3; ++channel) {
                 group[channel * kGroupSize] = rows[1 + j][channel];
@@ -148,7 +160,7 @@ int CpcaTextures::bind(const gl::Program& program, int unit, const Frame& frame,
     program.set_texture("coefficients_int16", unit++, int16_.handle());
     program.set_texture("coefficients_int8", unit++, int8_.handle());
     program.set_texture("basis_radiance", unit++, basis_radiance_.handle());
-    const uint32_t components = std::min(frame.limits.cluster_components, plan_.cluster_components);
+    const uint32_t components = std::min(frame.limits.vertex_components, plan_.vertex_components);
     const uint32_t groups = (components + kGroupSize - 1) / kGroupSize;
     const uint32_t int16_groups = std::min(groups, num_int16_groups_);
     program.set("product_texels", static_cast<int>(basis_texels(plan_)));

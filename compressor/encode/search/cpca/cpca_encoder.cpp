@@ -8,9 +8,10 @@
 #include <set>
 #include <utility>
 
-#include "compressor/encode/memory/search_limits.h"
-#include "compressor/encode/quantise/clustered_quantise.h"
+#include "compressor/encode/search/cpca/clustered_quantise.h"
+#include "compressor/encode/search/cpca/cpca_memory.h"
 #include "compressor/encode/search/matrix_cost.h"
+#include "paim/codec/cpca/cpca_transfer.h"
 
 namespace paim {
 
@@ -24,6 +25,10 @@ uint64_t stored_bytes(const VertexClusters& clusters, const PlanePredictor& vert
     columns.components = clusters.coefficients;
     return stored_bytes(columns, vertices, Effort::fast) + clusters.scales.size() * sizeof(float);
 }
+
+// As CpcaTransfer::numbers() has them.
+constexpr const char* kClusters = "clusters";
+constexpr const char* kClusterComponents = "cluster_components";
 
 class CpcaSettings : public CodecSettings {
   public:
@@ -117,8 +122,8 @@ class CpcaEncoder : public TransferEncoder {
     // Points are assigned to subspaces of about as many components as will be kept.
     std::shared_ptr<const ClusteredPca> choose_clusters(uint32_t num_clusters, double most_error) {
         uint32_t dimension = kFirstAssumedComponents;
-        const uint32_t needed = fewest_components(*clusters(num_clusters, dimension),
-                                                  kUsualShare * most_error);
+        const uint32_t needed =
+            fewest_components(*clusters(num_clusters, dimension), kUsualShare * most_error);
         if (needed > kMaxSearchedComponents) return nullptr;
         if (needed > dimension + dimension / 2) {
             dimension = kMaxAssumedComponents;
@@ -162,9 +167,9 @@ class CpcaEncoder : public TransferEncoder {
         if (coding.quantiser.step == 0.0) return;
         const ClusteredMatrix quantised = quantise_clusters(bases, coding.quantiser);
         coding.candidate.codec = CpcaTransfer::kName;
-        coding.candidate.cluster_components = num_components;
         coding.candidate.components = quantised.matrix.num_components;
-        coding.candidate.clusters = pca->num_clusters;
+        coding.candidate.numbers = {{kClusters, pca->num_clusters},
+                                    {kClusterComponents, num_components}};
         coding.candidate.multiply_adds = cost;
         coding.candidate.bytes = stored_bytes(quantised.matrix, PlanePredictor(), Effort::fast) +
                                  stored_bytes(quantised.clusters, problem_.predictor);
@@ -201,8 +206,18 @@ class CpcaEncoder : public TransferEncoder {
 
 }  // namespace
 
-std::unique_ptr<TransferEncoder> make_cpca_encoder(const TransferSearchTask& task) {
-    return std::make_unique<CpcaEncoder>(task);
+TransferEncoderType cpca_encoder_type() {
+    EncoderWords words;
+    words.description = "clusters; much cheaper to play";
+    words.cost = "3 (K + 1) in all";
+    words.missed = "cannot be met by clusters of as many components as are tried: use --codec auto";
+    words.numbers = {kClusters, kClusterComponents};
+    words.heading = "clusters x components";
+    return {CpcaTransfer::kName, false,
+            [](const TransferSearchTask& task) -> std::unique_ptr<TransferEncoder> {
+                return std::make_unique<CpcaEncoder>(task);
+            },
+            cpca_memory, words};
 }
 
 }  // namespace paim

@@ -4,10 +4,9 @@
 #include <memory>
 
 #include "compressor/encode/search/transfer_encoder.h"
-#include "paim/codec/cpca/cpca_transfer.h"
 
 namespace paim {
 
-std::unique_ptr<TransferEncoder> make_cpca_encoder(const TransferSearchTask& task);
+TransferEncoderType cpca_encoder_type();
 
 }  // namespace paim

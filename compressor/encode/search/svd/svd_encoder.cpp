@@ -5,6 +5,7 @@
 
 #include "compressor/encode/quantise/float_matrix.h"
 #include "compressor/encode/search/part_search.h"
+#include "paim/codec/svd/svd_transfer.h"
 
 namespace paim {
 
@@ -91,8 +92,17 @@ class SvdEncoder : public TransferEncoder {
 
 }  // namespace
 
-std::unique_ptr<TransferEncoder> make_svd_encoder(const TransferSearchTask& task) {
-    return std::make_unique<SvdEncoder>(task);
+TransferEncoderType svd_encoder_type() {
+    EncoderWords words;
+    words.description = "components over the poses";
+    words.cost = "K + 4 for each coefficient";
+    words.missed = "needs values of more than 16 bits: use --precision f32";
+    return {SvdTransfer::kName, true,
+            [](const TransferSearchTask& task) -> std::unique_ptr<TransferEncoder> {
+                return std::make_unique<SvdEncoder>(task);
+            },
+            // Its points are the vertices, and it holds nothing beside the factors.
+            [](const TargetSize&) { return CodecMemory(); }, words};
 }
 
 }  // namespace paim

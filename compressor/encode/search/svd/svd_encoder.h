@@ -4,10 +4,9 @@
 #include <memory>
 
 #include "compressor/encode/search/transfer_encoder.h"
-#include "paim/codec/svd/svd_transfer.h"
 
 namespace paim {
 
-std::unique_ptr<TransferEncoder> make_svd_encoder(const TransferSearchTask& task);
+TransferEncoderType svd_encoder_type();
 
 }  // namespace paim

@@ -85,7 +85,7 @@ TEST(CpcaPlayer, KeepsWithinLimits) {
     CpcaPlayer player(cpca_of(mesh), mesh.layout);
     std::vector<Vec3f> products;
     const LightCoefficients light = make_light(3);
-    const DecodeLimits limits{.transfer_components = 1, .bands = 2, .cluster_components = 1};
+    const DecodeLimits limits{.transfer_components = 1, .bands = 2, .vertex_components = 1};
     player.basis_radiance(3.0, limits, light, products);
     for (uint32_t row = 0; row < 6; ++row) {
         const Sum expected = row_product(mesh, row, 1, 3, 2, 1, light);
@@ -165,13 +165,13 @@ TEST(CpcaPlayer, EqualsDecodingAndShading) {
             DecodedPose pose;
             for (const DecodeLimits limits :
                  {DecodeLimits{}, DecodeLimits{.transfer_components = 1, .bands = 1},
-                  DecodeLimits{.transfer_components = 0, .cluster_components = 2}}) {
+                  DecodeLimits{.transfer_components = 0, .vertex_components = 2}}) {
                 for (const uint32_t light_bands : {1u, 2u, 3u}) {
                     const LightCoefficients light = make_light(light_bands);
                     decoder.decode(1.6, limits, pose);
                     shade(pose.layout, pose.transfer, mesh.albedo, light, expected);
                     player.basis_radiance(1.6, limits, light, products);
-                    shade_clusters(cpca_of(mesh).clusters, products, limits.cluster_components,
+                    shade_clusters(cpca_of(mesh).clusters, products, limits.vertex_components,
                                    mesh.albedo, radiance);
                     ASSERT_EQ(radiance.size(), expected.size());
                     float largest = 0.0f, off = 0.0f;
@@ -194,7 +194,7 @@ TEST(CpcaPlayer, GivesTheSameBytesInAnyOrderOfFrames) {
     const LightCoefficients light = make_light(2);
     CpcaPlayer reused(cpca_of(mesh), mesh.layout);
     std::vector<Vec3f> products, radiance, again;
-    reused.basis_radiance(3.5, {.cluster_components = 1}, make_light(1), products);
+    reused.basis_radiance(3.5, {.vertex_components = 1}, make_light(1), products);
     for (const double time : {4.0, 0.0, 2.25}) {
         reused.basis_radiance(time, {}, light, products);
         shade_clusters(clusters, products, 3, mesh.albedo, radiance);

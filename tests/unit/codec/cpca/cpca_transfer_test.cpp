@@ -32,7 +32,7 @@ double vertex_value(const CodedMesh& mesh, uint32_t plane, uint32_t v, uint32_t 
     const uint32_t used = std::min(limits.transfer_components, matrix.num_components);
     const uint32_t first = clusters.cluster[v] * clusters.rows_per_cluster();
     double value = clusters.scales[first] * basis_value(matrix, plane, first, p, used);
-    for (uint32_t j = 0; j < std::min(limits.cluster_components, clusters.num_components); ++j) {
+    for (uint32_t j = 0; j < std::min(limits.vertex_components, clusters.num_components); ++j) {
         const uint32_t row = first + 1 + j;
         value += static_cast<double>(clusters.coefficients[j][v]) * clusters.scales[row] *
                  basis_value(matrix, plane, row, p, used);
@@ -45,8 +45,8 @@ TEST(CpcaTransfer, IsTheSumItStandsFor) {
         const Asset asset = make_clustered_example(3, 3, 2, integers);
         MeshDecoder decoder(asset.moving());
         for (const DecodeLimits limits :
-             {DecodeLimits{}, DecodeLimits{.transfer_components = 1, .cluster_components = 1},
-              DecodeLimits{.cluster_components = 0}}) {
+             {DecodeLimits{}, DecodeLimits{.transfer_components = 1, .vertex_components = 1},
+              DecodeLimits{.vertex_components = 0}}) {
             DecodedPose pose;
             decoder.decode(2.0, limits, pose);
             ASSERT_EQ(pose.transfer.size(), 27u * 4);

@@ -5,14 +5,25 @@
 
 #include <bit>
 
+#include "compressor/encode/search/transfer_encoder.h"
 #include "compressor/encode/svd/tsqr.h"
 #include "paim/base/error.h"
 
 namespace paim {
 namespace {
 
+// Of all codecs of integers.
+const std::vector<SearchedCodec> kAll = searched_codecs(encoders_to_try("", Precision::i16));
+
 // 10000 vertices, 48 poses, 5 bands, 2 threads.
-constexpr TargetSize kOctopus{{19996, 10000, 48, 48, 2, 10000, 5}, 25, 12, 20, true};
+const TargetSize kOctopus{{19996, 10000, 48, 48, 2, 10000, 5}, 25, 12, 20, kAll};
+
+// The same with svd alone, which holds nothing but the factors.
+TargetSize octopus_of_svd() {
+    TargetSize size = kOctopus;
+    size.codecs = searched_codecs(encoders_to_try("svd", Precision::i16));
+    return size;
+}
 
 TEST(TargetMemory, GrowsWithEveryDimension) {
     const uint64_t least = target_memory_bytes(kOctopus);
@@ -32,9 +43,7 @@ TEST(TargetMemory, GrowsWithEveryDimension) {
     more = kOctopus;
     more.streamed.num_threads *= 2;
     EXPECT_GT(target_memory_bytes(more), least);
-    more = kOctopus;
-    more.clusters = false;
-    EXPECT_LT(target_memory_bytes(more), least);
+    EXPECT_LT(target_memory_bytes(octopus_of_svd()), least);
 }
 
 TEST(TargetMemory, HoldsTheFactors) {
@@ -57,12 +66,10 @@ TEST(TargetMemory, DoesNotOverflow) {
 
 TEST(TargetMemory, RefusesAndSaysWhatItNeeds) {
     const uint64_t least = target_memory_bytes(kOctopus);
-    TargetSize svd = kOctopus;
-    svd.clusters = false;
-    const uint64_t of_svd = target_memory_bytes(svd);
-    EXPECT_NO_THROW(check_target_memory(kOctopus, least, "x.bake"));
+    const uint64_t of_svd = target_memory_bytes(octopus_of_svd());
+    EXPECT_NO_THROW(check_target_memory(kOctopus, kAll, least, "x.bake"));
     try {
-        check_target_memory(kOctopus, least - 1, "x.bake");
+        check_target_memory(kOctopus, kAll, least - 1, "x.bake");
         FAIL() << "not refused";
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ExitCode::unsupported);
@@ -76,13 +83,12 @@ TEST(TargetMemory, RefusesAndSaysWhatItNeeds) {
 }
 
 TEST(TargetMemory, NamesSvdWhereThatWouldFit) {
-    TargetSize svd = kOctopus;
-    svd.clusters = false;
+    const TargetSize svd = octopus_of_svd();
     const uint64_t least = target_memory_bytes(svd);
     ASSERT_LT(least, target_memory_bytes(kOctopus));
     const auto refusal = [](const TargetSize& size, uint64_t limit) {
         try {
-            check_target_memory(size, limit, "x.bake");
+            check_target_memory(size, kAll, limit, "x.bake");
         } catch (const Error& error) {
             return std::string(error.what());
         }
@@ -93,6 +99,29 @@ TEST(TargetMemory, NamesSvdWhereThatWouldFit) {
     EXPECT_EQ(refusal(kOctopus, least - 1).find("--codec svd"), std::string::npos);
     EXPECT_EQ(refusal(svd, least - 1).find("--codec svd"), std::string::npos);
     EXPECT_EQ(refusal(svd, least), "not refused");
+}
+
+// Numbers that are easy to tell apart.
+CodecMemory made_up_memory(const TargetSize& size) {
+    CodecMemory memory;
+    memory.kept_bytes = uint64_t{1} << 40;
+    memory.coding_bytes = uint64_t{1} << 42;
+    memory.preparing_bytes = uint64_t{1} << 44;
+    memory.num_points = 2 * size.streamed.num_vertices;
+    return memory;
+}
+
+TEST(TargetMemory, AddsUpOverCodecs) {
+    TargetSize size = octopus_of_svd();
+    const uint64_t held = target_held_bytes(size);
+    size.codecs.push_back({"one", made_up_memory});
+    EXPECT_EQ(target_held_bytes(size), held + (uint64_t{1} << 40));
+    EXPECT_EQ(target_memory_bytes(size), target_held_bytes(size) + (uint64_t{1} << 44));
+    // The coding of the first stays while the second prepares.
+    size.codecs.push_back({"two", made_up_memory});
+    EXPECT_EQ(target_held_bytes(size), held + (uint64_t{2} << 40));
+    EXPECT_EQ(target_memory_bytes(size),
+              target_held_bytes(size) + (uint64_t{1} << 42) + (uint64_t{1} << 44));
 }
 
 TEST(TargetMemory, ReadsAsMuchAtOnceAsFits) {

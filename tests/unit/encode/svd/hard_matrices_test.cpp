@@ -2,8 +2,8 @@
 // vectors, and that they give the matrix back.
 #include <gtest/gtest.h>
 
-#include "analysis/study/hard_matrices.h"
-#include "analysis/study/reference_svd.h"
+#include "analysis/study/svd/hard_matrices.h"
+#include "analysis/study/svd/reference_svd.h"
 #include "compressor/encode/svd/left_singular_vectors.h"
 #include "compressor/encode/svd/projected_blocks.h"
 #include "paim/metrics/singular_value_error.h"

@@ -3,8 +3,8 @@
 // projected.
 #include <Eigen/Core>
 
+#include "analysis/bench/cluster/synthetic_points.h"
 #include "analysis/bench/ratio.h"
-#include "analysis/bench/synthetic_points.h"
 #include "compressor/encode/cluster/clustered_pca.h"
 #include "paim/base/check.h"
 

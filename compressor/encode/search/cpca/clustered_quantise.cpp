@@ -1,5 +1,5 @@
 // Clustered PCA of an animation's transfer, quantised.
-#include "compressor/encode/quantise/clustered_quantise.h"
+#include "compressor/encode/search/cpca/clustered_quantise.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,8 +4,8 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "analysis/study/hard_matrices.h"
-#include "analysis/study/reference_svd.h"
+#include "analysis/study/svd/hard_matrices.h"
+#include "analysis/study/svd/reference_svd.h"
 #include "compressor/encode/svd/left_singular_vectors.h"
 #include "paim/base/tbb_parallel.h"
 

@@ -1,5 +1,5 @@
 // Quantised clusters against the factors, vertex by vertex.
-#include "compressor/encode/quantise/clustered_quantise.h"
+#include "compressor/encode/search/cpca/clustered_quantise.h"
 
 #include <gtest/gtest.h>
 

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/bench/synthetic_points.h"
+#include "analysis/bench/cluster/synthetic_points.h"
 #include "compressor/encode/cluster/clustered_pca.h"
 #include "compressor/encode/cluster/clustering.h"
 #include "compressor/encode/cluster/point_projection.h"

@@ -1,0 +1,33 @@
+// How far the search for clusters goes, and how much memory it takes.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "compressor/encode/memory/target_memory.h"
+
+namespace paim {
+
+// With fewer vertices per cluster than this, the bases are as large as the vertices' own values.
+constexpr uint32_t kMinPerCluster = 8;
+// Numbers of clusters that are tried, if there are enough vertices for them.
+constexpr std::array<uint32_t, 6> kClusterCounts{32, 64, 128, 256, 512, 1024};
+// Components of one cluster that are kept, at most.
+constexpr uint32_t kMaxSearchedComponents = 32;
+// Components of the subspaces that vertices are assigned to: at first these, then half or twice as
+// many if about that number of components will be kept.
+constexpr uint32_t kFirstAssumedComponents = 8;
+constexpr uint32_t kMaxAssumedComponents = 2 * kFirstAssumedComponents;
+// Clusterings that are kept: for each number of clusters that of the first and of the second search.
+constexpr uint32_t kMaxClusterings = 2 * kClusterCounts.size();
+
+// The most clusters that are tried.
+constexpr uint64_t most_clusters(uint64_t num_vertices) {
+    return std::max<uint64_t>(1, num_vertices / kMinPerCluster);
+}
+
+// V is below 2^28, planes below 2^10, components below 2^20, so that nothing overflows.
+CodecMemory cpca_memory(const TargetSize& size);
+
+}  // namespace paim
