@@ -3,13 +3,11 @@
 
 #include <algorithm>
 
+#include "compressor/io/digit.h"
+
 namespace paim {
 
 namespace {
-
-bool is_digit(char c) {
-    return c >= '0' && c <= '9';
-}
 
 // Removes the digits at the front of the text, and returns them without leading zeros.
 std::string_view take_number(std::string_view& text) {

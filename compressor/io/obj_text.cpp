@@ -9,6 +9,7 @@
 #include <limits>
 #include <system_error>
 
+#include "compressor/io/digit.h"
 #include "paim/base/error.h"
 
 namespace paim {
@@ -21,10 +22,6 @@ constexpr int kSafeDigits = 38;
 constexpr size_t kMaxNumberLength = 128;
 // Smaller values are 0 as floats; the smallest positive float is 1.4e-45.
 constexpr double kTiny = 1e-60;
-
-bool is_digit(char c) {
-    return static_cast<unsigned char>(c - '0') < 10;
-}
 
 enum class Number { finite, zero, too_large, none };
 

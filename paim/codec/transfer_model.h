@@ -31,7 +31,7 @@ class PAIM_EXPORT TransferModel {
   public:
     virtual ~TransferModel();
 
-    // The name of the codec in files and messages, such as "svd".
+    // The name of the codec in files and messages.
     virtual std::string_view codec_name() const = 0;
     virtual std::unique_ptr<TransferModel> clone() const = 0;
 

@@ -21,7 +21,7 @@ namespace {
 constexpr Index kRowsAtOnce = 256;
 constexpr Index kBlocksAtOnce = 64;
 
-double ratio(double part, double whole) {
+double root_ratio(double part, double whole) {
     if (whole > 0.0) return std::sqrt(part / whole);
     return part > 0.0 ? std::numeric_limits<double>::infinity() : std::sqrt(part);
 }
@@ -187,21 +187,21 @@ TransferError TransferErrorMeter::result() const {
         expected += weight * band.expected();
         true_energy.push_back(std::max(0.0, band.baked - band.noise));
     }
-    result.error_to_bake = ratio(error_to_bake, baked);
-    result.bake_noise = ratio(noise, baked);
-    result.error = ratio(expected, baked);
+    result.error_to_bake = root_ratio(error_to_bake, baked);
+    result.bake_noise = root_ratio(noise, baked);
+    result.error = root_ratio(expected, baked);
 
-    result.missing_bands = ratio(missing_band_energy(true_energy, spectrum_), baked);
+    result.missing_bands = root_ratio(missing_band_energy(true_energy, spectrum_), baked);
 
     const size_t vertex = find_worst(vertex_error_to_bake_);
     result.worst_vertex = static_cast<uint32_t>(vertex);
     result.worst_vertex_error_to_bake =
-        ratio(vertex_error_to_bake_[vertex], baked / static_cast<double>(num_vertices_));
+        root_ratio(vertex_error_to_bake_[vertex], baked / static_cast<double>(num_vertices_));
     const std::span<const double> poses(pose_error_to_bake_.data(),
                                         static_cast<size_t>(num_poses_));
     const size_t pose = find_worst(poses);
     result.worst_pose = static_cast<uint32_t>(pose);
-    result.worst_pose_error_to_bake = ratio(poses[pose], baked / static_cast<double>(num_poses_));
+    result.worst_pose_error_to_bake = root_ratio(poses[pose], baked / static_cast<double>(num_poses_));
     return result;
 }
 

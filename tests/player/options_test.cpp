@@ -51,7 +51,9 @@ TEST(PlayOptions, HaveDefaults) {
     EXPECT_FALSE(options.environment_path || options.supersample || options.bench_frames ||
                  options.window_frames || options.json || options.play_prefix);
     EXPECT_EQ(options.background.kind, Background::Kind::environment);
+    EXPECT_EQ(options.tone_curve.exposure_ev, 0.0f);
     EXPECT_EQ(options.tone_curve.gamma, 0.0f);
+    EXPECT_EQ(options.env_rotation_rad, 0.0);
     EXPECT_TRUE(options.opens_window());
     EXPECT_FALSE(parse({"a.paim", "--bench", "7"}).opens_window());
     EXPECT_EQ(parse({"a.paim", "--bench", "7"}).bench_frames, 7);

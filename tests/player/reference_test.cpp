@@ -7,6 +7,7 @@
 
 #include "compressor/bake/bake_sequence.h"
 #include "compressor/encode/encode.h"
+#include "compressor/encode/search/target_encode.h"
 #include "paim/codec/mesh_decoder.h"
 #include "paim/codec/sequence_bounds.h"
 #include "paim/format/paim/paim_read.h"
@@ -41,6 +42,31 @@ Image make_two_lamps() {
         }
     }
     return image;
+}
+
+// Pixels at edges may show either side of the edge. Elsewhere both pictures agree to two steps of
+// eight bits.
+void expect_same_picture(const Image& expected, const Image& drawn, const std::string& what) {
+    const ToneCurve curve;
+    size_t covered = 0, off = 0;
+    for (size_t j = 0; j < expected.pixels.size(); ++j) {
+        if (expected.pixels[j].isZero(0.0f) && drawn.pixels[j].isZero(0.0f)) continue;
+        ++covered;
+        for (int channel = 0; channel < 3; ++channel) {
+            const int difference =
+                curve.apply(expected.pixels[j][channel]) - curve.apply(drawn.pixels[j][channel]);
+            if (std::abs(difference) > 2) {
+                ++off;
+                break;
+            }
+        }
+    }
+    const double error = compare_images(drawn, expected).visual_error();
+    const double share = static_cast<double>(off) / static_cast<double>(covered);
+    EXPECT_GT(covered, 5000u) << what;  // the octopus is in the picture
+    EXPECT_LE(error, 1e-3) << what;
+    // Of the octopus's own pixels, which is stricter than of the image's.
+    EXPECT_LE(share, 5e-3) << what;
 }
 
 class Pictures : public testing::Test {
@@ -103,7 +129,6 @@ class Reference : public Pictures {
 TEST_F(Reference, PlayerAgreesInThreePosesUnderTwoLights) {
     write_exr(directory_ / "lamps.exr", make_two_lamps());
     const std::string lamps = (directory_ / "lamps.exr").string();
-    const ToneCurve curve;
     for (const double time : {0.0, 2.0, 4.5}) {
         for (const bool use_sky : {true, false}) {
             const double turn_deg = 40.0 * time;
@@ -111,34 +136,60 @@ TEST_F(Reference, PlayerAgreesInThreePosesUnderTwoLights) {
             if (!use_sky) arguments.insert(arguments.end(), {"--env", lamps});
             const Image expected =
                 reference(time, use_sky ? make_sky() : read_exr(lamps), turn_deg * kPi / 180.0);
-            const Image drawn = snapshot(time, arguments);
-            size_t covered = 0, off = 0;
-            for (size_t j = 0; j < expected.pixels.size(); ++j) {
-                if (expected.pixels[j].isZero(0.0f) && drawn.pixels[j].isZero(0.0f)) continue;
-                ++covered;
-                for (int channel = 0; channel < 3; ++channel) {
-                    const int difference = curve.apply(expected.pixels[j][channel]) -
-                                           curve.apply(drawn.pixels[j][channel]);
-                    if (std::abs(difference) > 2) {
-                        ++off;
-                        break;
-                    }
-                }
-            }
-            const double error = compare_images(drawn, expected).visual_error();
-            const double share = static_cast<double>(off) / static_cast<double>(covered);
-            RecordProperty(fmt::format("error_{}_{}", time, use_sky), std::to_string(error));
-            RecordProperty(fmt::format("off_{}_{}", time, use_sky), std::to_string(share));
-            EXPECT_GT(covered, 5000u);  // the octopus is in the picture
-            EXPECT_LE(error, 1e-3) << time << (use_sky ? " sky" : " lamps");
-            // Of the octopus's own pixels, which is stricter than of the image's.
-            EXPECT_LE(share, 5e-3) << time << (use_sky ? " sky" : " lamps");
+            expect_same_picture(expected, snapshot(time, arguments),
+                                fmt::format("{} {}", time, use_sky ? "sky" : "lamps"));
         }
     }
 }
 
+// Which types of integers matrices hold.
+struct IntegerTypes {
+    bool i8 = false, i16 = false;
+
+    void add(const StoredValues& values) {
+        if (values.holds_floats()) return;
+        (values.holds_i8() ? i8 : i16) = true;
+    }
+    void add(const LowRank& matrix) {
+        add(matrix.mean);
+        for (const StoredValues& component : matrix.components) add(component);
+    }
+};
+
+// Files of both codecs that meet a coarse and a fine target: integers of 8 and of 16 bits.
+TEST_F(Reference, PlayerAgreesOnIntegersOfBothCodecs) {
+    const BakeReader bake(directory_ / "x.bake");
+    EncodeOptions options;
+    options.precision = Precision::i16;
+    for (const std::string codec : {"svd", "cpca"}) {
+        IntegerTypes of_transfer, of_positions;
+        for (const double error : {0.2, 0.03}) {  // the noise of this bake leaves 0.0285
+            EncodeTarget target;
+            target.transfer_error = error;
+            target.codec = codec;
+            target.spectrum = BandPower::flat(bake.identity().layout.in_bands);
+            encode_to_target(bake, options, target, directory_ / "x.paim");
+            asset_ = read_paim(directory_ / "x.paim");
+            const CodedMesh& moving = asset_.moving();
+            EXPECT_EQ(moving.transfer->codec_name(), codec);
+            for (const CodedMesh& part : asset_.parts) {
+                of_positions.add(part.positions);
+                of_transfer.add(part.transfer->matrix);
+            }
+            for (const double time : {1.0, 4.5}) {
+                expect_same_picture(
+                    reference(time, make_sky(), 0.0), snapshot(time, {}),
+                    fmt::format("{} {} {}", moving.transfer->codec_name(), error, time));
+            }
+        }
+        EXPECT_TRUE(of_positions.i8 && of_positions.i16) << codec;
+        EXPECT_TRUE(of_transfer.i8 && of_transfer.i16) << codec;
+    }
+}
+
 // The same poses at other sizes through bake, encoder, player and reference renderer. Powers of two
-// scale exactly; what the encoder rounds differently shows in no picture of eight bits beyond a step.
+// scale exactly; what the encoder rounds differently shows in no picture of eight bits beyond a
+// step.
 TEST_F(Pictures, DoNotDependOnTheSize) {
     const PoseSet octopus = poses::make_octopus(1000, 2);
     std::vector<std::array<uint8_t, 3>> first_drawn, first_expected;

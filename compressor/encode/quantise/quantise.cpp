@@ -22,7 +22,7 @@ namespace {
 constexpr float kDeadZone = 0.6f;
 
 // Points whose least squares are summed at once: few, so that they stay in the cache.
-constexpr Index kPointsAtOnce = 512;
+constexpr Index kPointsSummed = 512;
 
 float plane_step(const Quantiser& quantiser, uint32_t plane) {
     return static_cast<float>(quantiser.step / std::sqrt(quantiser.plane_weight[plane]));
@@ -57,8 +57,8 @@ Normal normal_of_plane(const ScaledFactors& factors, const Quantiser& quantiser,
     const float step = plane_step(quantiser, j);
     Normal normal{MatrixXd::Zero(kept, kept), MatrixXd::Zero(kept, 1 + all), 0.0};
     MatrixXd exact, rounded;
-    for (Index first = 0; first < num_points; first += kPointsAtOnce) {
-        const Index count = std::min(kPointsAtOnce, num_points - first);
+    for (Index first = 0; first < num_points; first += kPointsSummed) {
+        const Index count = std::min(kPointsSummed, num_points - first);
         const auto steps = [&](const std::vector<float>& values) {
             return Eigen::Map<const Eigen::VectorXf>(factors.plane(values, j).data() + first,
                                                      count) /
@@ -191,7 +191,7 @@ uint64_t least_squares_bytes(uint64_t num_planes, uint64_t num_components, uint6
     // The sum, its copy with the ridge, the decomposition and the solution.
     constexpr uint64_t kSolving = 4;
     return ((num_planes + kSolving) * num_components * columns +
-            num_threads * uint64_t{kPointsAtOnce} * (columns + 1)) *
+            num_threads * static_cast<uint64_t>(kPointsSummed) * (columns + 1)) *
            sizeof(double);
 }
 

@@ -60,8 +60,9 @@ const std::vector<TransferEncoderType>& transfer_encoders();
 void add_transfer_encoder(TransferEncoderType type);
 
 // Those that a target lets a search try.
-// codec      of EncodeTarget; one that does not code floats leaves them to those that do
-// Error (usage), with the names that there are, if no encoder has that name.
+// codec      of EncodeTarget
+// Error (usage): no encoder has that name (the message lists the names), or it does not code floats and
+// the precision is one of floats.
 std::vector<const TransferEncoderType*> encoders_to_try(std::string_view codec,
                                                         Precision precision);
 

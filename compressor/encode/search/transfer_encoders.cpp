@@ -47,13 +47,13 @@ void add_transfer_encoder(TransferEncoderType type) {
 std::vector<const TransferEncoderType*> encoders_to_try(std::string_view codec,
                                                         Precision precision) {
     check_codec(codec);
-    std::vector<const TransferEncoderType*> able, named;
+    std::vector<const TransferEncoderType*> able;
     for (const TransferEncoderType& type : types()) {
-        if (!is_integer(precision) && !type.codes_floats) continue;
-        able.push_back(&type);
-        if (type.codec == codec) named.push_back(&type);
+        if (!is_any(codec) && type.codec != codec) continue;
+        if (is_integer(precision) || type.codes_floats) able.push_back(&type);
     }
-    return named.empty() ? able : named;
+    if (able.empty()) throw_usage("codec {}: codes integers, but floats are asked for", codec);
+    return able;
 }
 
 std::vector<SearchedCodec> searched_codecs(const std::vector<const TransferEncoderType*>& types) {

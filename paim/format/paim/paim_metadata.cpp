@@ -16,28 +16,28 @@ constexpr const char* kSingularIndices[2] = {"geometry_singular_indices",
 
 std::string paim_metadata(const Asset& asset) {
     const CodedMesh& mesh = asset.moving();
-    nlohmann::ordered_json json;
-    json["name"] = asset.name;
-    json["num_vertices"] = mesh.topology.num_vertices;
-    json["num_poses"] = asset.num_poses();
-    json["frames_per_second"] = asset.frames_per_second;
-    if (const Vec3d& o = asset.origin; !o.isZero(0.0)) json["origin"] = {o.x(), o.y(), o.z()};
-    json["transfer_kind"] = "diffuse";
-    json["bands"] = mesh.layout.in_bands;
-    json["channels"] = mesh.layout.channels;
-    if (asset.vertex_order == VertexOrder::cache) json["vertex_order"] = "local";
+    nlohmann::ordered_json root;
+    root["name"] = asset.name;
+    root["num_vertices"] = mesh.topology.num_vertices;
+    root["num_poses"] = asset.num_poses();
+    root["frames_per_second"] = asset.frames_per_second;
+    if (const Vec3d& o = asset.origin; !o.isZero(0.0)) root["origin"] = {o.x(), o.y(), o.z()};
+    root["transfer_kind"] = "diffuse";
+    root["bands"] = mesh.layout.in_bands;
+    root["channels"] = mesh.layout.channels;
+    if (asset.vertex_order == VertexOrder::cache) root["vertex_order"] = "local";
     for (const NamedNumber& number : mesh.transfer->numbers()) {
-        json[number.name] = *number.value;
+        root[number.name] = *number.value;
     }
-    json["geometry_components"] = mesh.positions.num_components;
-    json["transfer_components"] = mesh.transfer->matrix.num_components;
+    root["geometry_components"] = mesh.positions.num_components;
+    root["transfer_components"] = mesh.transfer->matrix.num_components;
     for (const Attribute attribute : {Attribute::geometry, Attribute::transfer}) {
         const std::vector<uint32_t>& indices = mesh.attribute(attribute).singular_indices;
-        if (!indices.empty()) json[kSingularIndices[static_cast<size_t>(attribute)]] = indices;
+        if (!indices.empty()) root[kSingularIndices[static_cast<size_t>(attribute)]] = indices;
     }
-    json["provenance"] =
+    root["provenance"] =
         nlohmann::ordered_json::parse(asset.provenance_json.empty() ? "{}" : asset.provenance_json);
-    return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+    return root.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 std::vector<uint32_t> read_singular_indices(const Metadata& metadata, Attribute attribute,

@@ -48,7 +48,7 @@ uint32_t basis_texels(const UploadPlan& plan) {
 }
 
 // Of the largest texture that transfer takes.
-int64_t largest_texture(const CodedMesh& mesh, const UploadPlan& plan, int max_texture_size) {
+int64_t largest_cpca_texture(const CodedMesh& mesh, const UploadPlan& plan, int max_texture_size) {
     // Textures hold clusters' numbers in 16 bits.
     const uint32_t num_clusters = clusters_of(mesh).num_clusters;
     PAIM_CHECK_LE(num_clusters, kMaxClusters);
@@ -101,7 +101,7 @@ DataTexture upload_coefficients(const VertexClusters& clusters, const UploadPlan
 }  // namespace
 
 TransferUploader cpca_uploader() {
-    return {CpcaTransfer::kName, largest_texture,
+    return {CpcaTransfer::kName, largest_cpca_texture,
             [](const CodedMesh& mesh, const UploadPlan& plan) -> std::unique_ptr<TransferTextures> {
                 return std::make_unique<CpcaTextures>(mesh, plan);
             },

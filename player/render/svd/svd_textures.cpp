@@ -16,7 +16,7 @@ PlaneGroups groups_of(const CodedMesh& mesh, const UploadPlan& plan) {
 }
 
 // Of the largest texture that transfer takes.
-int64_t largest_texture(const CodedMesh& mesh, const UploadPlan& plan, int max_texture_size) {
+int64_t largest_svd_texture(const CodedMesh& mesh, const UploadPlan& plan, int max_texture_size) {
     const int64_t components =
         svd_transfer_texels(mesh, plan.transfer_components, plan.layout.in_bands);
     const int64_t mean = int64_t{plan.num_groups()} * mesh.topology.num_vertices;
@@ -33,7 +33,7 @@ int64_t largest_texture(const CodedMesh& mesh, const UploadPlan& plan, int max_t
 }  // namespace
 
 TransferUploader svd_uploader() {
-    return {SvdTransfer::kName, largest_texture,
+    return {SvdTransfer::kName, largest_svd_texture,
             [](const CodedMesh& mesh, const UploadPlan& plan) -> std::unique_ptr<TransferTextures> {
                 return std::make_unique<SvdTextures>(mesh, plan);
             }};
