@@ -49,7 +49,7 @@ std::vector<std::unique_ptr<DirectionSampler>> make_batches(const BakeOptions& o
 // â_l / π for each coefficient, [bands²]. The transfer of an unoccluded vertex is this times
 // y_i(n).
 std::vector<double> cosine_lobe_by_coefficient(uint32_t bands) {
-    std::vector<double> lobe(size_t{bands} * bands);
+    std::vector<double> lobe(TransferLayout{TransferKind::diffuse, bands}.num_coefficients());
     for (size_t i = 0; i < lobe.size(); ++i) {
         lobe[i] = sh::cosine_lobe(sh::band_of(static_cast<int>(i)));
     }

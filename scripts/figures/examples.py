@@ -192,7 +192,7 @@ half-difference (t_A − t_B) / 2 = {rays.half_difference[0]:.4f}     error: {nu
                     f"{100 * bake['relative_noise']:.2f} %",
                 ],
                 [
-                    f"`auto`: {report['components']} components, shrunk, expected",
+                    f"`auto`: {report['components']} components, shrunk, predicted error",
                     f"{100 * report['expected_error']:.2f} %",
                 ],
                 [

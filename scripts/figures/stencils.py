@@ -1,4 +1,4 @@
-# The two predictions of codec 3 at one vertex of the octopus, with its values in steps.
+# The two predictions of section coding 3 at one vertex of the octopus, with its values in steps.
 #   stencils.py DATA SVG      DATA is made by scripts/figures/make
 # Vertices are in the bake's order here; files have them in cache order.
 # Based on: paim/format/pack/plane_predictor.*

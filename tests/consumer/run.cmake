@@ -1,6 +1,6 @@
-# Installs the build into empty prefixes, builds the programs of tests/consumer against them and runs
-# these on every codec, precision and prefix that the installed tools write. The same programs also run
-# against a shared runtime that is built without the tools' libraries.
+# Installs the build into empty prefixes, builds the programs of tests/consumer and of docs/embedding.md
+# against them and runs those of tests/consumer on every codec, precision and prefix that the installed
+# tools write. These also run against a shared runtime that is built without the tools' libraries.
 #   cmake -DBUILD_DIR= -DPAIM_SOURCE_DIR= -DSOURCE_DIR= -DWORK_DIR= -DBIN_DIR= -DGENERATOR= -DMAKE_PROGRAM=
 #         -DCXX_COMPILER= -DCXX_COMPILER_LAUNCHER= -DNM= -DCXX_FLAGS= -DBUILD_TYPE= -P run.cmake
 cmake_minimum_required(VERSION 3.22)
@@ -76,7 +76,6 @@ include(${CMAKE_CURRENT_LIST_DIR}/runtime_only.cmake)
 # Everything.
 set(prefix ${WORK_DIR}/all)
 run(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${prefix})
-build_against_install(${SOURCE_DIR}/tools ${WORK_DIR}/build_tools)
 set(tools ${prefix}/${BIN_DIR})
 
 # C++ and C, with the static runtime and with the shared one.
@@ -160,9 +159,10 @@ foreach(bake alone among)
     endforeach()
 endforeach()
 
-# Baked and encoded from memory, and played.
-run(${WORK_DIR}/build_tools/paim_bake ${WORK_DIR}/memory.bake ${WORK_DIR}/memory.paim)
+# The programs of the documents: one bakes and encodes from memory, the others play.
+include(${CMAKE_CURRENT_LIST_DIR}/documents.cmake)
 play(${WORK_DIR}/memory.paim)
+play_documents(${WORK_DIR}/x.paim)
 
 # A file that is no .paim must end in Paim's error, thrown across the library's border.
 foreach(program IN LISTS programs)

@@ -3,7 +3,7 @@
 # what it is asked before it does anything.
 #   check_scripts.sh SOURCE_DIR
 set -euo pipefail
-root=$1
+root=$(realpath "$1")
 scripts=(demo check .ci/run scripts/install-packages scripts/figures/make tests/scripts/check_scripts.sh
     tests/scripts/check_codec_names.sh tests/scripts/check_links.sh)
 

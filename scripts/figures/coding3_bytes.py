@@ -1,5 +1,5 @@
-# Codec 3 as bytes: two planes of six residuals, their symbols and escapes, and the frame.
-#   codec3_bytes.py SVG
+# Section coding 3 as bytes: two planes of six residuals, their symbols and escapes, and the frame.
+#   coding3_bytes.py SVG
 # The test PlanePacking.PacksTheExampleOfTheDocuments holds the encoder to the same bytes.
 import sys
 from pathlib import Path
@@ -108,7 +108,7 @@ def main(svg):
             assert not plane[part] or text in test.read_text(), f"{test.name} has no {part} {text}"
 
     figure = Figure(
-        900, 470, "Codec 3: residuals become symbols and escapes, and then bytes", "codec3_bytes.py"
+        900, 470, "Section coding 3: residuals become symbols and escapes, and then bytes", "coding3_bytes.py"
     )
     draw_plane(figure, 14, 0, PLANES[0])
     draw_plane(figure, 164, 1, PLANES[1])

@@ -1,5 +1,5 @@
-# Weights before light (svd) and light before weights (cpca), as matrix products with their sizes.
-#   light_first.py DATA SVG      DATA is made by scripts/figures/make
+# When svd and cpca apply pose weights, light and coefficients, as matrix products with their sizes.
+#   light_order.py DATA SVG      DATA is made by scripts/figures/make
 # Sizes are those of the two best candidates for an error of 5 % of the octopus.
 import json
 import sys
@@ -42,11 +42,11 @@ def main(data, svg):
     figure = Figure(
         900,
         640,
-        "Weights before light, and light before weights, as matrix products",
-        "light_first.py",
+        "When svd and cpca apply pose weights, light and coefficients, as matrix products",
+        "light_order.py",
     )
-    figure.text(20, 28, "svd: weights before light", 15, bold=True)
-    figure.text(250, 28, "in every vertex, every frame", 14, colour=SOFT)
+    figure.text(20, 28, "svd: pose weights, then light", 15, bold=True)
+    figure.text(320, 28, "in every vertex, every frame", 14, colour=SOFT)
     middle = 150
     x = matrix(
         figure, 40, middle, 90, 130, LIGHT_BLUE, BLUE, "components", f"[{coefficients}][{k + 1}]"
@@ -72,7 +72,7 @@ def main(data, svg):
     )
 
     figure.line(20, 282, 880, 282, "#d0d0d0")
-    figure.text(20, 314, "cpca: light before weights", 15, bold=True)
+    figure.text(20, 314, "cpca: pose weights, then light, then the coefficients of each vertex", 15, bold=True)
     figure.text(40, 346, "once a frame, for all clusters", 14, colour=SOFT)
     middle = 450
     x = matrix(
@@ -87,11 +87,11 @@ def main(data, svg):
     figure.text(
         40,
         536,
-        f"{clusters} clusters × ({j} + 1) rows = {bases} rows; each row is itself a",
+        f"{clusters} clusters × ({j} + 1) rows = {bases} rows; pose weights make",
         13,
         colour=SOFT,
     )
-    figure.text(40, 556, f"weighted sum of {over_time} components over time:", 13, colour=SOFT)
+    figure.text(40, 556, f"each row of {over_time} components, then light meets it:", 13, colour=SOFT)
     figure.text(
         40,
         584,
