@@ -36,8 +36,7 @@ class PAIM_EXPORT TransferModel {
     virtual std::unique_ptr<TransferModel> clone() const = 0;
 
     virtual uint32_t num_vertices() const = 0;
-    // Components of each vertex in addition to those over the poses, such as those of its cluster;
-    // 0 if there are none.
+    // Components of each vertex in addition to those over the poses; 0 if the codec has none.
     virtual uint32_t num_vertex_components() const { return 0; }
 
     // Computes the values of all vertices from those of the points, on all threads. It is not

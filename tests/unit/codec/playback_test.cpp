@@ -119,7 +119,7 @@ TEST(Playback, ComputesAnewWhatChanged) {
         expect_as_decoded(playback, 0, 3.25, {}, light);
         for (const DecodeLimits& limits :
              {DecodeLimits{.geometry_components = 1}, DecodeLimits{.transfer_components = 1},
-              DecodeLimits{.bands = 2}, DecodeLimits{.cluster_components = 1}, DecodeLimits{}}) {
+              DecodeLimits{.bands = 2}, DecodeLimits{.vertex_components = 1}, DecodeLimits{}}) {
             playback.update(3.25, limits);
             expect_as_decoded(playback, 0, 3.25, limits, light);
         }

@@ -1,4 +1,5 @@
-// Clustered PCA of an animation's transfer, quantised: light before weights.
+// Clustered PCA of an animation's transfer, quantised. A player lights the bases of
+// a cluster, and then combines the results with the coefficients of each vertex.
 // Based on: Sloan, Hall, Hart and Snyder, Clustered Principal Components for Precomputed Radiance
 //           Transfer, 2003; Sattler, Sarlette and Klein, Simple and Efficient Compression of
 //           Animation Sequences, 2005

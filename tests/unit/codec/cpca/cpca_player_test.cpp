@@ -1,4 +1,4 @@
-// Light before weights against the definition, and against decoding and shading.
+// Light before the coefficients of vertices, against the definition, and against decoding and shading.
 #include "paim/codec/cpca/cpca_player.h"
 
 #include <gtest/gtest.h>
