@@ -10,8 +10,8 @@ namespace paim::player {
 // Error(unsupported) where there is no display, which says to use --snapshot.
 void run_app(const Options& options, Scene scene);
 
-// Plays a file that is still being written. Waits, with a note on stderr, for a prefix of it that can
-// be played; shows more detail when the prefix has become longer. Errors as load_scene()'s and
+// Plays a file that is still being written. Waits, with a note on stderr, for a prefix of it that
+// can be played; shows more detail when the prefix has become longer. Errors as load_scene()'s and
 // PrefixLoader's.
 void run_app_from_prefix(Options& options);
 

@@ -28,7 +28,8 @@ std::string progress_text(const LoadProgress& progress);
 // A prefix of a file, at the moment when it was looked at.
 struct FilePrefix {
     uint64_t size_bytes = 0;
-    // Those of the whole file that can be played; empty: header and section table are not there yet.
+    // Those of the whole file that can be played; empty: header and section table are not there
+    // yet.
     std::vector<Prefix> prefixes;
     std::vector<uint64_t> checksums;  // of the sections: another animation has others
     uint64_t inode = 0;               // another file has another

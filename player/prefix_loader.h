@@ -1,5 +1,5 @@
-// Reads a .paim that is still being written, on a thread of its own: a coarse animation from the first
-// prefix that can be played, then one with more components from every longer prefix.
+// Reads a .paim that is still being written, on a thread of its own: a coarse animation from the
+// first prefix that can be played, then one with more components from every longer prefix.
 #pragma once
 
 #include <chrono>
@@ -39,16 +39,16 @@ class PrefixLoader {
     // The newest asset since the last call, if there is one; never waits.
     std::optional<LoadedAsset> take();
 
-    // The error since the last call, or empty. Earlier assets stay valid, and longer prefixes are still
-    // read.
+    // The error since the last call, or empty. Earlier assets stay valid, and longer prefixes are
+    // still read.
     std::string take_error();
 
     // Bytes as of the last look, components as of the last reading.
     LoadProgress progress() const;
 
-    // Waits for the end of a look at the file that begins after this call: what the file held at the
-    // call has been read by then. Returns at once where no more looks come (the asset is complete, or
-    // there will be none).
+    // Waits for the end of a look at the file that begins after this call: what the file held at
+    // the call has been read by then. Returns at once where no more looks come (the asset is
+    // complete, or there will be none).
     void wait_for_look();
 
   private:

@@ -66,8 +66,10 @@ Scene make_scene(Options& options, LoadedAsset loaded) {
     const uint32_t vertex_components = mesh.transfer->num_vertex_components();
     limits.vertex_components = vertex_components;
     if (const auto& asked = wanted.vertex_components) {
-        limits.vertex_components = limit_of(asked->words->option, asked->words->components,
-                                            asked->count, vertex_components, true);
+        const bool own = asked->words->codec == mesh.transfer->codec_name();
+        const uint32_t limit = limit_of(asked->words->option, asked->words->components,
+                                        asked->count, own ? vertex_components : 0, true);
+        if (own) limits.vertex_components = limit;
     }
     limits.bands = limit_of("--bands", "bands", wanted.bands, mesh.layout.in_bands, true);
 

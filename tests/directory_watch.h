@@ -28,8 +28,8 @@ class DirectoryWatch {
     DirectoryWatch(const DirectoryWatch&) = delete;
     DirectoryWatch& operator=(const DirectoryWatch&) = delete;
 
-    // Waits until a file of this name appears, unless it did before the call. False if nothing at all
-    // appears for five minutes: only a test that fails takes so long.
+    // Waits until a file of this name appears, unless it did before the call. False if nothing at
+    // all appears for five minutes: only a test that fails takes so long.
     bool wait_for(const std::string& name) {
         for (;;) {
             while (next_ < end_) {

@@ -1,4 +1,5 @@
-// The identity of a bake whose numbers were made up: of two rays, with everything as it is by default.
+// The identity of a bake whose numbers were made up: of two rays, with everything as it is by
+// default.
 #pragma once
 
 #include <utility>

@@ -1,5 +1,6 @@
 // Encodes a .bake directory as a .paim file, row by row.
-// Based on: Cardoso and Kry, Error Analysis of Precomputed Radiance Transfer for Deforming Geometry,
+// Based on: Cardoso and Kry, Error Analysis of Precomputed Radiance Transfer for Deforming
+// Geometry,
 //           2012
 #include "compressor/encode/encode.h"
 

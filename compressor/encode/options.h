@@ -55,8 +55,8 @@ struct EncodeTarget {
     std::optional<double> geometry_error;  // RMS distance by the diagonal; else from transfer_error
     std::optional<uint64_t> size_bytes;    // of the file, at most
     std::optional<uint32_t> decode_cost;   // multiply-adds per vertex and frame for lit transfer
-    // The codec of the transfer, as transfer_encoders() names it (search/transfer_encoder.h); "auto" or
-    // empty: the best one.
+    // The codec of the transfer, as transfer_encoders() names it (search/transfer_encoder.h);
+    // "auto" or empty: the best one. Some code integers alone (EncodeOptions::precision i16).
     std::string codec;
     Preference preference = Preference::size;
     BandPower spectrum = BandPower::flat(1);

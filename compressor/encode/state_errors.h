@@ -9,8 +9,8 @@
 
 namespace paim {
 
-// Measures the file against the bake that it was made from and rewrites it, all or nothing, with the
-// errors in its provenance ("measured"). Holds the whole model in memory.
+// Measures the file against the bake that it was made from and rewrites it, all or nothing, with
+// the errors in its provenance ("measured"). Holds the whole model in memory.
 // Errors: unsupported as check_measuring_memory() (the file stays as it is); output failed.
 AssetError state_errors(const std::filesystem::path& file, const BakeReader& bake,
                         const BandPower& spectrum, uint64_t memory_bytes);

@@ -1,4 +1,5 @@
-// XXH3 checksums through xxHash, compiled in: programs that link the runtime need no library for them.
+// XXH3 checksums through xxHash, compiled in: programs that link the runtime need no library for
+// them.
 #include "paim/base/hash.h"
 
 #define XXH_INLINE_ALL

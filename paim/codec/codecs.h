@@ -27,7 +27,9 @@ const TransferCodec& plain_codec();
 CodedTransfer plain_transfer(LowRank matrix);
 
 // Adds a codec, so that its files can be read. No other codec has its name or marker (checked).
-// Must not be called while another thread reads files.
+// Must be called before any other thread uses Paim. Invalidates what transfer_codecs() and
+// plain_codec() returned.
+// codec  whose name and marker live as long as the program
 void add_transfer_codec(const TransferCodec& codec);
 
 }  // namespace paim

@@ -58,8 +58,8 @@ struct VectorKernels {
     void (*add)(const Columns& columns, const float* weights, float* to, size_t count);
     // values[j] *= factor
     void (*scale)(float factor, float* values, size_t count);
-    // sums[v][i] += Σ_j coefficients[j][v] · row(v, first_row + j)[i] for the planes i of a tile, in
-    // order of j. With first_row = 1 sums start from row(v, 0)[i] instead of their old values.
+    // sums[v][i] += Σ_j coefficients[j][v] · row(v, first_row + j)[i] for the planes i of a tile,
+    // in order of j. With first_row = 1 sums start from row(v, 0)[i] instead of their old values.
     void (*sum_narrow)(const RowBlock& block, float* sums);
     void (*sum_wide)(const RowBlock& block, float* sums);
     void (*sum_widest)(const RowBlock& block, float* sums);

@@ -201,7 +201,8 @@ TransferError TransferErrorMeter::result() const {
                                         static_cast<size_t>(num_poses_));
     const size_t pose = find_worst(poses);
     result.worst_pose = static_cast<uint32_t>(pose);
-    result.worst_pose_error_to_bake = root_ratio(poses[pose], baked / static_cast<double>(num_poses_));
+    result.worst_pose_error_to_bake =
+        root_ratio(poses[pose], baked / static_cast<double>(num_poses_));
     return result;
 }
 

@@ -18,8 +18,8 @@ namespace paim::player::gl {
 
 namespace {
 
-// The unit where a texture is bound to be written. Programs read from lower units, whose bindings stay
-// as they are. OpenGL 3.3 and OpenGL ES 3.0 have 32 units at least.
+// The unit where a texture is bound to be written. Programs read from lower units, whose bindings
+// stay as they are. OpenGL 3.3 and OpenGL ES 3.0 have 32 units at least.
 constexpr GLenum kUploadUnit = GL_TEXTURE31;
 
 struct Format {

@@ -38,8 +38,9 @@ class DataTexture {
     // says what it holds.
     DataTexture(std::string name, TexelFormat format, int width_log2, int64_t num_texels);
 
-    // Fills all texels, a few rows at a time; the rest of the last row becomes zero. Values are of the
-    // format's own type (checked): integers as wide as its own, or floats, for half floats as well.
+    // Fills all texels, a few rows at a time; the rest of the last row becomes zero. Values are of
+    // the format's own type (checked): integers as wide as its own, or floats, for half floats as
+    // well.
     void upload(const Fill<float>& fill) const { upload_as(fill); }
     void upload(const Fill<int16_t>& fill) const { upload_as(fill); }
     void upload(const Fill<int8_t>& fill) const { upload_as(fill); }

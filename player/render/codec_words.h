@@ -1,4 +1,5 @@
-// What the player calls the things that only one codec has: on its command line, in its panels and reports.
+// What the player calls the things that only one codec has: on its command line, in its panels and
+// reports.
 #pragma once
 
 #include <span>
@@ -18,7 +19,8 @@ struct CodecWords {
     const char* shared_work_json;
 };
 
-// Of every codec that has such components. transfer_textures.cpp is the one place that names codecs.
+// Of every codec that has such components. transfer_textures.cpp is the one place that names
+// codecs.
 std::span<const CodecWords> codec_words();
 
 // Of the codec of this name; nullptr if its vertices have no components of their own.

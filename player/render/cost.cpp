@@ -16,8 +16,8 @@ uint64_t value_bytes(const StoredValues& values, Precision precision) {
 }
 
 uint64_t matrix_bytes(const LowRank& matrix, uint64_t planes, uint32_t num_components) {
-    uint64_t row_bytes = value_bytes(
-        matrix.mean, Precision::f32);  // the mean is of floats where components are half floats
+    // The mean is of floats where components are half floats.
+    uint64_t row_bytes = value_bytes(matrix.mean, Precision::f32);
     for (uint32_t k = 0; k < num_components; ++k) {
         row_bytes += value_bytes(matrix.components[k], matrix.precision);
     }

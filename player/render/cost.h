@@ -13,7 +13,8 @@ struct Cost {
     uint64_t bytes;
     // Per vertex and frame, positions and transfer under coloured light (codec/frame_cost.h).
     uint64_t multiply_adds;
-    // Per frame in addition to these, on the CPU: rebuilding and lighting bases that vertices share.
+    // Per frame in addition to these, on the CPU: rebuilding and lighting bases that vertices
+    // share.
     uint64_t cpu_multiply_adds;
     uint32_t geometry_components;  // in use
     uint32_t transfer_components;

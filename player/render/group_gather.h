@@ -15,8 +15,8 @@ struct Lane {
     size_t first = 0;  // that of vertex 0
 };
 
-// Writes the texels first … first + out.size() / 4 − 1, in steps; texel group · V + v is vertex v of a
-// group.
+// Writes the texels first … first + out.size() / 4 − 1, in steps; texel group · V + v is vertex v
+// of a group.
 // num_vertices  V, at least 1
 // lane_of       of lane 0 … 3 of a group
 // Value         float, int16_t or int8_t; holds every value exactly

@@ -16,8 +16,8 @@ namespace paim::player {
 
 class MeshRenderer {
   public:
-    // Uploads the mesh within the limits; frames cannot show more. Keeps a reference to the mesh for
-    // everything that changes with time and light. Throws Error(unsupported) if it does not fit
+    // Uploads the mesh within the limits; frames cannot show more. Keeps a reference to the mesh
+    // for everything that changes with time and light. Throws Error(unsupported) if it does not fit
     // (render/upload_plan.h).
     MeshRenderer(const CodedMesh& mesh, const DecodeLimits& limits);
 

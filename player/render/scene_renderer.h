@@ -19,8 +19,8 @@ namespace paim::player {
 class SceneRenderer {
   public:
     // Keeps a reference to the asset; the environment is copied. Nothing beyond the limits is
-    // uploaded. Errors (unsupported): the asset does not fit into this driver's textures, or this player
-    // does not draw its codec.
+    // uploaded. Errors (unsupported): the asset does not fit into this driver's textures, or this
+    // player does not draw its codec.
     // environment  lat-long, linear radiance; Error(bad input) if a value is negative or not finite
     SceneRenderer(const Asset& asset, const Image& environment, const DecodeLimits& limits);
 

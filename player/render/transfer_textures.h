@@ -24,8 +24,9 @@ class TransferTextures {
     virtual std::string defines() const = 0;
     virtual uint64_t size_bytes() const = 0;
 
-    // Uploads everything that changes with time and light, hands textures and counts to the program,
-    // which is in use, and returns the first texture unit that is free after those from `unit`.
+    // Uploads everything that changes with time and light, hands textures and counts to the
+    // program, which is in use, and returns the first texture unit that is free after those from
+    // `unit`.
     virtual int bind(const gl::Program& program, int unit, const Frame& frame,
                      const LightCoefficients& light) = 0;
 };
@@ -33,7 +34,8 @@ class TransferTextures {
 // How a codec's transfer gets into textures.
 struct TransferUploader {
     std::string_view codec;
-    // Texels of the largest texture. Throws Error(unsupported) if the driver's cannot hold that many.
+    // Texels of the largest texture. Throws Error(unsupported) if the driver's cannot hold that
+    // many.
     int64_t (*largest_texture)(const CodedMesh& mesh, const UploadPlan& plan, int max_texture_size);
     // Uploads the transfer as planned. Keeps a reference to the mesh for everything that changes.
     std::unique_ptr<TransferTextures> (*upload)(const CodedMesh& mesh, const UploadPlan& plan);
@@ -41,8 +43,8 @@ struct TransferUploader {
     std::optional<CodecWords> words = {};
 };
 
-// Of the mesh's codec. Error (unsupported) if this player does not draw it. transfer_textures.cpp is
-// the one place that names codecs.
+// Of the mesh's codec. Error (unsupported) if this player does not draw it. transfer_textures.cpp
+// is the one place that names codecs.
 const TransferUploader& find_uploader(const CodedMesh& mesh);
 
 }  // namespace paim::player

@@ -9,9 +9,9 @@
 
 namespace paim::player {
 
-// How a list of arrays is shared out between two textures: one of 8-bit integers for the last arrays,
-// as far as these hold such, and one of 16-bit integers, or of floats, for those before. Components
-// are stored in order of weight, so that small integers are mostly at the end.
+// How a list of arrays is shared out between two textures: one of 8-bit integers for the last
+// arrays, as far as these hold such, and one of 16-bit integers, or of floats, for those before.
+// Components are stored in order of weight, so that small integers are mostly at the end.
 struct FormatSplit {
     uint32_t num_int16;     // arrays in the first texture
     gl::TexelFormat int16;  // its format: 32-bit floats where floats and integers meet

@@ -58,7 +58,7 @@ void draw_settings(const OverlayInfo& info, const ViewRange& range, ViewState& v
         ImGui::PushItemWidth(12.0f * ImGui::GetFontSize());
         count_slider("transfer components", view.limits.transfer_components, 0,
                      range.transfer_components);
-        if (range.vertex_components > 0) {
+        if (range.vertex_components > 0 && !info.vertex_components.empty()) {
             count_slider(info.vertex_components.c_str(), view.limits.vertex_components, 0,
                          range.vertex_components);
         }

@@ -40,8 +40,8 @@ TEST(Bounces, OctopusInAWhiteFurnaceTurnsWhite) {
     const PoseSet octopus = poses::make_octopus(1000, 1);
     const size_t num_vertices = octopus.topology().num_vertices;
     // What is missing from 1, e_N = K e_(N-1), where K is a matrix of weights whose rows sum up to
-    // the occluded attribute, e_0 (closed surface: no back is seen). So e_N(v) <= e_0(v) max e_(N-1), and
-    // as K has no negative entries the largest ratio of e_N to e_(N-1) never grows.
+    // the occluded attribute, e_0 (closed surface: no back is seen). So e_N(v) <= e_0(v) max
+    // e_(N-1), and as K has no negative entries the largest ratio of e_N to e_(N-1) never grows.
     std::vector<std::vector<double>> missing[2];
     for (const uint32_t bounces : {0u, 1u, 2u, 3u, 4u, 8u}) {
         const TransferBaker baker(make_options(1, 256, bounces), kWhite);

@@ -79,9 +79,9 @@ TEST(BakeNoise, NeedsAFractionOfTheRaysOfPlainSamplers) {
         const double sobol = cosine / error(SamplerKind::uniform_sobol, 1.25 * rays);
         RecordProperty(fmt::format("of_random_{}", rays), std::to_string(random));
         RecordProperty(fmt::format("of_sobol_{}", rays), std::to_string(sobol));
-        // Both factors are observed, not derived: with 64 and 256 rays, errors were 0.87 and 0.63 of
-        // those of random directions, 0.50 and 0.68 of those of low-discrepancy ones. Each is an RMS
-        // over 2000 vertices of unequal noise, known to about 2 %.
+        // Both factors are observed, not derived: with 64 and 256 rays, errors were 0.87 and 0.63
+        // of those of random directions, 0.50 and 0.68 of those of low-discrepancy ones. Each is an
+        // RMS over 2000 vertices of unequal noise, known to about 2 %.
         EXPECT_LT(random, 1.0) << rays;
         EXPECT_LT(sobol, 1.0) << rays;
     }
@@ -182,7 +182,8 @@ TEST(BakeNoise, IsTakenOutAgainByEncoding) {
     EXPECT_LT(truth.error(decoded), truth.error(plain.transfer));
 }
 
-// Six poses of plates are three different ones, there and back: two components. More would be noise.
+// Six poses of plates are three different ones, there and back: two components. More would be
+// noise.
 TEST(BakeNoise, IsNeverTakenForSignal) {
     const PoseSet plates = poses::make_pose_set(*poses::make_plates_sequence(1000), 6);
     for (uint64_t seed = 1; seed <= 6; ++seed) {
@@ -208,8 +209,8 @@ TEST(BakeNoise, LeavesTheErrorThatTheEncoderExpects) {
         const BakedMatrices baked =
             bake_matrices(octopus, options(SamplerKind::cosine, 64, 1), num_poses);
         const double expected = expected_error(baked, 5);
-        // Observed: off by -1.3, -1.6 and +1.0 % here, by up to 3.5 % on real meshes. The model behind
-        // it is one, so that no bound can be derived; an RMS over 2000 vertices adds 2 %.
+        // Observed: off by -1.3, -1.6 and +1.0 % here, by up to 3.5 % on real meshes. The model
+        // behind it is one, so that no bound can be derived; an RMS over 2000 vertices adds 2 %.
         const double ratio = expected / truth.error(encoded(baked, 5));
         RecordProperty(fmt::format("expected_{}", num_poses), std::to_string(ratio));
         EXPECT_NEAR(ratio, 1.0, 0.05) << num_poses;
@@ -227,8 +228,10 @@ TEST(BakeNoise, MeetsTheErrorAskedFor) {
         bake.transfer_error = target;
         const BakedMatrices baked = bake_matrices(octopus, bake, 1);
         const double error = (baked.transfer - reference.transfer).norm() / open;
-        // Batches grow by a third to a half, and errors fall by up to 1.5^0.75 with the last one: to
-        // 0.74 of the target, and to less at vertices that have hardly any noise. Observed: 0.76 and
+        // Batches grow by a third to a half, and errors fall by up to 1.5^0.75 with the last one:
+        // to
+        // 0.74 of the target, and to less at vertices that have hardly any noise. Observed: 0.76
+        // and
         // 0.88 of the target.
         RecordProperty(fmt::format("of_target_{}", target), std::to_string(error / target));
         EXPECT_LT(error, target);
@@ -255,9 +258,9 @@ TEST(BakeNoise, MeetsTheErrorAskedFor) {
                            error_power(SamplerKind::cosine), target_norm * target_norm, all)
             .size();
     RecordProperty("above_expected", std::to_string(expected));
-    // A vertex is judged by its neighbours' noise, which six others are judged by too: counts scatter
-    // by at most √(1000 · 0.25 · 7) = 42, differences of two by √2 times that, and three times those
-    // are 180. Vertices that an earlier batch acquitted by luck are fewer than that.
+    // A vertex is judged by its neighbours' noise, which six others are judged by too: counts
+    // scatter by at most √(1000 · 0.25 · 7) = 42, differences of two by √2 times that, and three
+    // times those are 180. Vertices that an earlier batch acquitted by luck are fewer than that.
     EXPECT_NEAR(pose.statistics.above_target, static_cast<double>(expected), 180.0);
     EXPECT_LE(pose.statistics.rays, 128u * 1000u);
 }

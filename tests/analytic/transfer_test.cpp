@@ -179,8 +179,8 @@ TEST(Transfer, NoiseEstimateIsTheErrorAgainstManyRays) {
         error += difference * difference;
         noise += double{few.noise[r]} * few.noise[r];
     }
-    // 25,000 differences between the halves estimate it to well below 10 %; the reference adds 1 % in
-    // quadrature.
+    // 25,000 differences between the halves estimate it to well below 10 %; the reference adds 1 %
+    // in quadrature.
     EXPECT_NEAR(std::sqrt(noise / error), 1.0, 0.1);
 }
 

@@ -1,5 +1,5 @@
-// A bake whose process dies at a place that is known beforehand: what `paim-compress bake` does with
-// these files and options until then, without a chance to tidy up.
+// A bake whose process dies at a place that is known beforehand: what `paim-compress bake` does
+// with these files and options until then, without a chance to tidy up.
 //   interrupted_bake POSES OUTPUT.bake RAYS BANDS after P     killed once pose P is finished
 //                                                 reading P   killed as soon as pose P is read,
 //                                                             while the one before is being baked

@@ -1,6 +1,6 @@
-// What --memory promises: a bound of the peak memory, and the same bytes. A peak is that of the tool
-// alone, on two threads, less the peak of the same tool when it has next to nothing to do. So code,
-// libraries and threads do not count; --memory reserves kProgramBytes for them.
+// What --memory promises: a bound of the peak memory, and the same bytes. A peak is that of the
+// tool alone, on two threads, less the peak of the same tool when it has next to nothing to do. So
+// code, libraries and threads do not count; --memory reserves kProgramBytes for them.
 #include "analysis/bench/synthetic_bake.h"
 #include "compressor/encode/memory/memory_plan.h"
 #include "tests/cli/tool_test.h"

@@ -82,8 +82,8 @@ TEST_F(Prefixes, HaveTheErrorsThatAreListed) {
         const double rms = error.geometry.rms();
         EXPECT_NEAR(entry["position_rms"], rms, 1e-4 * rms + 1e-6);
         const double total = error.transfer.total();
-        // 16 rays: noise is 14 % of this transfer. Shrinkage leaves what is missing nearly, not quite,
-        // orthogonal to the rest of the error: 0.6 % off at most when this was written.
+        // 16 rays: noise is 14 % of this transfer. Shrinkage leaves what is missing nearly, not
+        // quite, orthogonal to the rest of the error: 0.6 % off at most when this was written.
         EXPECT_NEAR(entry["transfer_error"], total, 0.02 * total);
     }
 }

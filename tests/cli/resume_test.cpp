@@ -1,5 +1,5 @@
-// A bake that several processes share, or that is interrupted and resumed, has the same bytes as one made
-// in a single run.
+// A bake that several processes share, or that is interrupted and resumed, has the same bytes as
+// one made in a single run.
 #include <map>
 
 #include "tests/cli/tool_test.h"

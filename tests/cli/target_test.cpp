@@ -1,5 +1,6 @@
-// From an error to a file: every file is within the error that was asked for, measured again by another
-// tool. An error that cannot be met is refused with a message that names the best possible one.
+// From an error to a file: every file is within the error that was asked for, measured again by
+// another tool. An error that cannot be met is refused with a message that names the best possible
+// one.
 #include <cmath>
 
 #include "tests/cli/tool_test.h"

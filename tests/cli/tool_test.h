@@ -90,9 +90,9 @@ class BackgroundTool {
     void kill() const { ::kill(child_, SIGKILL); }
 
     // The exit code, -N if signal N ended it.
-    int wait(rusage* usage = nullptr) {
+    int wait() {
         int status = 0;
-        ::wait4(child_, &status, 0, usage);
+        ::waitpid(child_, &status, 0);
         child_ = 0;
         return WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status);
     }

@@ -1,4 +1,5 @@
-// paim-analyze --verify: files that are as good as they say, files that are not, and files that cannot be told.
+// paim-analyze --verify: files that are as good as they say, files that are not, and files that
+// cannot be told.
 #include <cmath>
 #include <functional>
 

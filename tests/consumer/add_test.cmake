@@ -18,4 +18,4 @@ add_test(NAME consumer
         -DCXX_FLAGS=${consumer_flags}
         -DBUILD_TYPE=$<CONFIG>
         -P ${CMAKE_CURRENT_LIST_DIR}/run.cmake)
-set_tests_properties(consumer PROPERTIES TIMEOUT 600)
+set_tests_properties(consumer PROPERTIES TIMEOUT 3600)

@@ -6,6 +6,12 @@ foreach(package OpenEXR TBB embree CLI11 PkgConfig GTest benchmark glfw3)
     list(APPEND without_tools -DCMAKE_DISABLE_FIND_PACKAGE_${package}=ON)
 endforeach()
 
+# The sanitizers' own functions come from the program.
+set(no_undefined "-Wl,--no-undefined")
+if(CXX_FLAGS MATCHES "-fsanitize")
+    set(no_undefined "")
+endif()
+
 # Not optimised, which builds fastest and leaves the most symbols that could be visible by mistake. The
 # results are the same: they depend on neither compiler options nor the number of threads.
 run(${CMAKE_COMMAND} -S ${PAIM_SOURCE_DIR} -B ${WORK_DIR}/runtime_only -G ${GENERATOR}
@@ -15,7 +21,8 @@ run(${CMAKE_COMMAND} -S ${PAIM_SOURCE_DIR} -B ${WORK_DIR}/runtime_only -G ${GENE
     -DCMAKE_CXX_FLAGS=${CXX_FLAGS}
     -DCMAKE_BUILD_TYPE=None
     -DBUILD_SHARED_LIBS=ON
-    "-DCMAKE_SHARED_LINKER_FLAGS=-Wl,--no-undefined -Wl,-z,defs"
+    -DCMAKE_UNITY_BUILD=ON
+    -DCMAKE_SHARED_LINKER_FLAGS=${no_undefined}
     ${without_tools})
 file(STRINGS ${WORK_DIR}/runtime_only/CMakeCache.txt searched REGEX "^STB_INCLUDE_DIR")
 if(searched)

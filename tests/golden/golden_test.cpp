@@ -1,8 +1,8 @@
 // The bytes of the file format, version by version. A version's files stay readable for ever, and
 // what is written today is exactly the newest golden file.
 //
-// PAIM_UPDATE_GOLDEN=1 writes the newest file again; a change of format adds a file and leaves the old
-// ones alone.
+// PAIM_UPDATE_GOLDEN=1 writes the newest file again; a change of format adds a file and leaves the
+// old ones alone.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -121,7 +121,8 @@ TEST(Golden, WritesIntegersByteForByteButForTheirFrames) {
         if (section.codec == SectionCodec::indices) continue;  // meshoptimizer's
         EXPECT_EQ(contents_of(written, ours), contents_of(golden, section)) << name;
     }
-    // Two means and three components each, two coefficients of vertices and their clusters, a still mesh.
+    // Two means and three components each, two coefficients of vertices and their clusters, a still
+    // mesh.
     EXPECT_GE(num_planes, 10u);
 }
 

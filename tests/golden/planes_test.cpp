@@ -1,6 +1,6 @@
 // What planes of integers are packed into before Zstandard, whose version must not matter: kind by
-// kind, as hexadecimal numbers in planes_v1.txt. Files are smaller or larger if this changes, but are
-// read all the same: a change is to be seen and meant, not forbidden.
+// kind, as hexadecimal numbers in planes_v1.txt. Files are smaller or larger if this changes, but
+// are read all the same: a change is to be seen and meant, not forbidden.
 //
 // PAIM_UPDATE_GOLDEN=1 writes the file again.
 #include <fmt/format.h>

@@ -108,8 +108,8 @@ TEST_F(PrefixPlayTest, TakesAPrefixOnlyWhenAsked) {
     EXPECT_NE(nothing.err.find("that can be played"), std::string::npos) << nothing.err;
 }
 
-// The window is opened on a file that is not there yet. When the whole file is, the window shows its
-// picture, at the pose where it was stopped.
+// The window is opened on a file that is not there yet. When the whole file is, the window shows
+// its picture, at the pose where it was stopped.
 TEST_F(PrefixPlayTest, WindowSharpensToTheWholeFilesPicture) {
     const XServer server(PAIM_XVFB);
     ToolResult result;

@@ -46,8 +46,8 @@ Asset make_asset(Precision precision) {
     return asset;
 }
 
-// Coordinates near zero may have lost digits where they were scaled down: they were rounded to 2^-149
-// at 2^-90 of their size, and all that is added up has fewer than eight terms.
+// Coordinates near zero may have lost digits where they were scaled down: they were rounded to
+// 2^-149 at 2^-90 of their size, and all that is added up has fewer than eight terms.
 void expect_same(const std::vector<float>& a, const std::vector<float>& b) {
     ASSERT_EQ(a.size(), b.size());
     for (size_t j = 0; j < a.size(); ++j) ASSERT_NEAR(a[j], b[j], 8.0 * 0x1p-59) << j;

@@ -13,8 +13,8 @@ namespace paim::player {
 
 class WindowKeys {
   public:
-    // Waits until a window with this title is shown. Throws std::runtime_error if no window is shown
-    // for five minutes: only a test that fails takes so long.
+    // Waits until a window with this title is shown. Throws std::runtime_error if no window is
+    // shown for five minutes: only a test that fails takes so long.
     explicit WindowKeys(const std::string& title) : display_(::XOpenDisplay(nullptr)) {
         if (display_ == nullptr) throw std::runtime_error("no display");
         const ::Window root = ::XDefaultRootWindow(display_);

@@ -33,7 +33,7 @@ is_allowed() {
 cd "$root"
 found=()
 while IFS= read -r -d '' file; do
-    if sed -E "s#$mathematics##g" "$file" | grep -qE "$names"; then found+=("$file"); fi
+    if sed -E "s#$mathematics##g" "$file" | grep -E "$names" >/dev/null; then found+=("$file"); fi
 done < <(find paim compressor player analysis poses \( -name '*.cpp' -o -name '*.h' -o -name '*.inc' \) \
     -not -path '*/svd/*' -not -path '*/cpca/*' -not -path '*/cluster/*' -print0 | sort -z)
 

@@ -1,5 +1,5 @@
-// A third codec, made for the tests in this folder and known to nobody outside it: vertices share points
-// and each has a gain of its own.
+// A third codec, made for the tests in this folder and known to nobody outside it: vertices share
+// points and each has a gain of its own.
 #pragma once
 
 #include <memory>

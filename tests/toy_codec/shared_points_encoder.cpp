@@ -61,6 +61,8 @@ class Encoder : public TransferEncoder {
 
 TransferEncoderType encoder_type() {
     EncoderWords words;
+    words.description = "points that vertices share";
+    words.cost = "K + 2 for each coefficient";
     words.missed = "cannot be met by toys";
     words.numbers = {kSharedPoints};
     words.heading = "shared points";
@@ -70,6 +72,8 @@ TransferEncoderType encoder_type() {
             },
             [](const TargetSize& size) {
                 CodecMemory memory;
+                // The trial coding is no larger than the models that every search makes of so many
+                // points. kKeptBytes is made up, so that a test sees it refused.
                 memory.num_points = size.streamed.num_vertices;
                 memory.kept_bytes = kKeptBytes;
                 return memory;

@@ -1,5 +1,5 @@
-// A codec is one folder: one that nobody outside this folder knows is written, read, played, cut short
-// and measured like those that come with the library.
+// A codec is one folder: one that nobody outside this folder knows is written, read, played, cut
+// short and measured like those that come with the library.
 #include <gtest/gtest.h>
 
 #include "paim/base/error.h"

@@ -1,5 +1,5 @@
-// A search tries a codec that nobody outside this folder knows, adds up its memory, measures its files
-// and reports its numbers.
+// A search tries a codec that nobody outside this folder knows, adds up its memory, measures its
+// files and reports its numbers.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,9 +20,14 @@ using toy::SharedPoints;
 
 class ToyEncoder : public testing::Test {
   protected:
+    // Once, however often the tests are repeated.
     static void SetUpTestSuite() {
-        add_transfer_codec(toy::codec());
-        add_transfer_encoder(toy::encoder_type());
+        static const bool added = [] {
+            add_transfer_codec(toy::codec());
+            add_transfer_encoder(toy::encoder_type());
+            return true;
+        }();
+        ASSERT_TRUE(added);
     }
 
     ToyEncoder() {

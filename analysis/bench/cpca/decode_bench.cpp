@@ -8,8 +8,8 @@ namespace paim::bench {
 
 namespace {
 
-// 256 clusters of 8 components. Vertices come in runs of a dozen of one cluster, as they do along the
-// surface of a mesh.
+// 256 clusters of 8 components. Vertices come in runs of a dozen of one cluster, as they do along
+// the surface of a mesh.
 CodedMesh clustered_mesh(uint32_t num_vertices, uint32_t num_components, Precision precision) {
     CodedMesh mesh = random_mesh(num_vertices, num_components, precision);
     VertexClusters clusters;
@@ -33,8 +33,8 @@ void decode_clusters(benchmark::State& state, uint32_t num_vertices, uint32_t nu
     measure_decoding(state, clustered_mesh(num_vertices, num_components, precision));
 }
 
-// A frame as clustered transfer is played: positions, and the light before the weights, so that what
-// is left of the transfer is each vertex's radiance.
+// A frame as clustered transfer is played: positions, and the light before the coefficients of
+// vertices, so that what is left of the transfer is each vertex's radiance.
 void light_clusters(benchmark::State& state, uint32_t num_vertices, uint32_t num_components,
                     Precision precision) {
     const CodedMesh mesh = clustered_mesh(num_vertices, num_components, precision);

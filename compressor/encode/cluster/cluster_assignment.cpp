@@ -24,7 +24,8 @@ class Assignment {
     Assignment(const MatrixXf& points, const ClusterSubspaces& subspaces)
         : points_(points), subspaces_(subspaces) {}
 
-    // |x − m|² − |Bᵀ(x − m)|² less |x|² for the points of a block and all clusters: [points][clusters]
+    // |x − m|² − |Bᵀ(x − m)|² less |x|² for the points of a block and all clusters:
+    // [points][clusters]
     MatrixXf factors(Index first, Index count) const {
         const Index step = static_cast<Index>(subspaces_.num_components()) + 1;
         const Index num_clusters = static_cast<Index>(subspaces_.num_clusters());

@@ -84,8 +84,8 @@ uint32_t fill_empty_clusters(const Eigen::MatrixXf& points,
             size[empty] = static_cast<uint32_t>(half.size());
             size[worst] -= size[empty];
             --num_empty;
-            // The errors of the two halves are not known yet: assume that together they are half as large,
-            // and that each has its share by its number of points.
+            // The errors of the two halves are not known yet: assume that together they are half as
+            // large, and that each has its share by its number of points.
             const double per_point = 0.5 * error[worst] / static_cast<double>(members.size());
             error[empty] = per_point * size[empty];
             error[worst] = per_point * size[worst];

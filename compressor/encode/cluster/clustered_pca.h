@@ -33,8 +33,8 @@ struct ClusteredPca {
                num_clusters * (num_components + 3) * sizeof(double);
     }
 
-    // Sum of squares of what num_components leave of all points, exactly what for_each_basis_plane()
-    // gives back but for the rounding of floats.
+    // Sum of squares of what num_components leave of all points, exactly what
+    // for_each_basis_plane() gives back but for the rounding of floats.
     double squared_error(uint32_t num_components) const;
 };
 

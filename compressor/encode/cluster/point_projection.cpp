@@ -36,7 +36,8 @@ void for_blocks(Index num_points, Body&& body) {
     });
 }
 
-// Subtracts the mean over the points from each column, so that rounding is relative to what differs.
+// Subtracts the mean over the points from each column, so that rounding is relative to what
+// differs.
 void centre_columns(MatrixXf& plane) {
     parallel_for(static_cast<size_t>(plane.cols()), 8, [&](size_t begin, size_t end) {
         for (auto c = static_cast<Index>(begin); c < static_cast<Index>(end); ++c) {

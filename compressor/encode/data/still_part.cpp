@@ -1,4 +1,4 @@
-// What stands still in a bake, as a part of an asset.
+// The still meshes of a bake, as one part of an asset.
 #include "compressor/encode/data/still_part.h"
 
 #include <vector>

@@ -1,4 +1,4 @@
-// What stands still in a bake, as a part of an asset.
+// The still meshes of a bake, as one part of an asset.
 #pragma once
 
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace paim {
 
-// Floats, with the first bands of the transfer; nothing if nothing in the bake stands still.
+// Floats, with the first bands of the transfer; nothing if the bake has no still meshes.
 // bands  1 … the bake's
 std::optional<CodedMesh> still_part(const BakeReader& bake, uint32_t bands);
 

@@ -63,7 +63,8 @@ uint64_t mesh_bytes(uint64_t num_triangles, uint64_t num_colours) {
 uint64_t encode_memory_bytes(const EncodeSize& size, uint32_t num_in_flight) {
     // P and K are below 2^20 and threads below 2^10, so that nothing here overflows.
     const uint64_t poses = size.num_poses, components = size.num_components;
-    // The bake and the model hold the mesh and the still mesh; each part keeps its V and its weights.
+    // The bake and the model hold the mesh and the still mesh; each part keeps its V and its
+    // weights.
     const uint64_t held =
         2 * mesh_bytes(size.num_triangles, size.num_colours) + 2 * size.still_mesh_bytes +
         kPoseNameBytes * poses +

@@ -1,4 +1,4 @@
-// How far the search for a coding goes, which decides how much memory it takes.
+// How many values a search looks at, which decides how much memory it takes.
 #pragma once
 
 #include <cstddef>

@@ -20,8 +20,8 @@ constexpr uint64_t kFloat = sizeof(float), kDouble = sizeof(double);
 // The largest integers of a quantised matrix.
 constexpr uint64_t kInteger = sizeof(int16_t);
 
-// Codecs are searched one after the other. What one keeps and what its best coding holds stay while the
-// next ones prepare.
+// Codecs are searched one after the other. What one keeps and what its best coding holds stay while
+// the next ones prepare.
 CodecMemory memory_of_all(const TargetSize& size) {
     CodecMemory all;
     for (const SearchedCodec& codec : size.codecs) {

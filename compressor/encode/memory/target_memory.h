@@ -44,8 +44,8 @@ uint64_t target_held_bytes(const TargetSize& size);
 uint64_t target_memory_bytes(const TargetSize& size);
 
 // Error (unsupported), naming `what` and the memory that is needed, if that is more than
-// limit_bytes. If one of these codecs alone needs no more than the limit, the error names the one that
-// needs the least.
+// limit_bytes. If one of these codecs alone needs no more than the limit, the error names the one
+// that needs the least.
 void check_target_memory(const TargetSize& size, const std::vector<SearchedCodec>& codecs,
                          uint64_t limit_bytes, const std::string& what);
 

@@ -1,5 +1,6 @@
 // How much of the principal components of a bake's transfer is noise.
-// Based on: Marchenko and Pastur, Distribution of Eigenvalues for Some Sets of Random Matrices, 1967;
+// Based on: Marchenko and Pastur, Distribution of Eigenvalues for Some Sets of Random Matrices,
+// 1967;
 //           Gavish and Donoho, The Optimal Hard Threshold for Singular Values Is 4/√3, 2014
 #include "compressor/encode/noise/component_noise.h"
 
@@ -64,7 +65,8 @@ class Measurement {
     }
 
   private:
-    // Adds squared factors by band, appends squared rows; returns the energy of the mean, once a column.
+    // Adds squared factors by band, appends squared rows; returns the energy of the mean, once a
+    // column.
     double project(uint64_t first, const MatrixXf& values, MatrixXd& by_band,
                    std::vector<double>& by_row) const {
         double mean_energy = 0.0;
@@ -103,7 +105,8 @@ double ComponentNoise::num_independent() const {
     double squares = 0.0;
     for (size_t v = 0; v < num_vertices; ++v) {
         double of_vertex = 0.0;
-        for (size_t l = 0; l < layout.in_bands; ++l) of_vertex += vertex_noise[l * num_vertices + v];
+        for (size_t l = 0; l < layout.in_bands; ++l)
+            of_vertex += vertex_noise[l * num_vertices + v];
         sum += of_vertex;
         squares += of_vertex * of_vertex;
     }

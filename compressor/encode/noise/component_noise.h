@@ -13,8 +13,9 @@ namespace paim {
 
 // Energies are sums of squares; l is a band, k a component of all up to the rank, not only of those
 // that are kept.
-// The noise along a component is measured with the bake's noise matrix, which has the variance of the
-// transfer's error and is uncorrelated with it. The symbols are those of docs/algorithms/noise.md.
+// The noise along a component is measured with the bake's noise matrix, which has the variance of
+// the transfer's error and is uncorrelated with it. The symbols are those of
+// docs/algorithms/noise.md.
 struct ComponentNoise {
     TransferLayout layout;
     uint32_t num_vertices = 0;
@@ -24,9 +25,9 @@ struct ComponentNoise {
     std::vector<double> vertex_energy;  // [bands][V] of X′ in a vertex's rows of a band, ε_vl
     std::vector<double> vertex_noise;   // [bands][V] the noise in it, η_vl
     double mean_noise = 0.0;            // the noise of the mean over the poses, counted once a pose
-    // The components, from the first on, that stand out from noise: s_k² above the noise along it times
-    // (1 + √((P − 1) / num_independent()))², the edge of Marchenko and Pastur up to which the spectrum
-    // of pure noise spreads.
+    // The components, from the first on, that stand out from noise: s_k² above the noise along it
+    // times (1 + √((P − 1) / num_independent()))², the edge of Marchenko and Pastur up to which the
+    // spectrum of pure noise spreads.
     uint32_t num_above_noise = 0;
 
     // Expected noise of component k over all bands.
@@ -34,8 +35,8 @@ struct ComponentNoise {
     // s_k² without its noise, at least 0.
     double signal_of(Eigen::Index k) const;
 
-    // ν, how many vertices' worth of noise there is: (Σ η_v)² / Σ η_v². Rays of different vertices are
-    // independent. 0 without noise.
+    // ν, how many vertices' worth of noise there is: (Σ η_v)² / Σ η_v². Rays of different vertices
+    // are independent. 0 without noise.
     double num_independent() const;
 };
 

@@ -65,11 +65,11 @@ void Shrinkage::apply(uint64_t first, std::vector<std::vector<float>>& component
     });
 }
 
-// Stein's unbiased estimate of the squared error of a factor w that depends on the data: with e the energy
-// of a component here, n its noise and d the values it has,
+// Stein's unbiased estimate of the squared error of a factor w that depends on the data: with e the
+// energy of a component here, n its noise and d the values it has,
 //     (1 − w)² e + (2w − 1) n + 4/d (e ∂w/∂e) n − 2 Cov(w, n),
-// the last because the noise too is an estimate. With e = signal + n in w that is w n and two corrections;
-// where w = 0 as there seems to be less than no signal, e − n.
+// the last because the noise too is an estimate. With e = signal + n in w that is w n and two
+// corrections; where w = 0 as there seems to be less than no signal, e − n.
 // Based on: Stein, Estimation of the Mean of a Multivariate Normal Distribution, 1981
 double Shrinkage::risk(uint32_t band, size_t v, Index num_components) const {
     const double all_noise = noise_[band * num_vertices_ + v];
@@ -83,7 +83,8 @@ double Shrinkage::risk(uint32_t band, size_t v, Index num_components) const {
     for (Index k = 0; k < num_components; ++k) {
         const double share = signal_share_(l, k);
         if (all_signal <= 0.0) {
-            // Beyond those that stand out from noise, what is above it elsewhere is not counted either.
+            // Beyond those that stand out from noise, what is above it elsewhere is not counted
+            // either.
             if (k < num_above_noise_) sum += all_signal * noise_share_(l, k);
             continue;
         }

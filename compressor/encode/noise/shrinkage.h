@@ -1,5 +1,6 @@
 // Scales components down by what of them is noise.
-// Based on: Wiener, Extrapolation, Interpolation, and Smoothing of Stationary Time Series, 1949; Efron
+// Based on: Wiener, Extrapolation, Interpolation, and Smoothing of Stationary Time Series, 1949;
+// Efron
 //           and Morris, Stein's Estimation Rule and Its Competitors: An Empirical Bayes Approach, 1973
 #pragma once
 
@@ -20,10 +21,10 @@ struct EncodedError {
 // The same if nothing is shrunk.
 EncodedError expected_error_unshrunk(const ComponentNoise& noise, uint32_t num_components);
 
-// Each row of component k is multiplied by signal / (signal + noise), the Wiener factor, which has the
-// least mean square error. Both differ much between vertices (open ones have no noise, still ones no
-// signal) and bands (high ones have more noise); so their energies are modelled as a product of what
-// the vertex has in the band and the share of the component in the band:
+// Each row of component k is multiplied by signal / (signal + noise), the Wiener factor, which has
+// the least mean square error. Both differ much between vertices (open ones have no noise, still
+// ones no signal) and bands (high ones have more noise); so their energies are modelled as a
+// product of what the vertex has in the band and the share of the component in the band:
 //
 //     signal(v, l, k) = max(0, ε_vl − η_vl) · φ_lk      φ_lk = max(0, ε_lk − η_lk) / Σ_k max(0, ε_lk − η_lk)
 //     noise (v, l, k) = η_vl · ψ_lk                     ψ_lk = η_lk / Σ_v η_vl

@@ -18,8 +18,7 @@ double root_mean_square(const std::vector<float>& values) {
 
 }  // namespace
 
-LowRank float_matrix(const ScaledFactors& factors, uint32_t num_components,
-                         Precision precision) {
+LowRank float_matrix(const ScaledFactors& factors, uint32_t num_components, Precision precision) {
     LowRank matrix;
     matrix.num_points = factors.num_points;
     matrix.num_planes = factors.num_planes;

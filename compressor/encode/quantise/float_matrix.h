@@ -8,8 +8,8 @@
 
 namespace paim {
 
-// The first components in f32, or rounded to f16; each with unit RMS, its weights scaled accordingly.
-LowRank float_matrix(const ScaledFactors& factors, uint32_t num_components,
-                         Precision precision);
+// The first components in f32, or rounded to f16; each with unit RMS, its weights scaled
+// accordingly.
+LowRank float_matrix(const ScaledFactors& factors, uint32_t num_components, Precision precision);
 
 }  // namespace paim

@@ -95,9 +95,9 @@ Normal normal_equations(const ScaledFactors& factors, const Quantiser& quantiser
 // (ĈᵀĈ)⁻¹ Ĉᵀ [m − m̂, C], with zeros for components that are nothing but zero.
 MatrixXd fit(const Normal& normal) {
     if (normal.gram.rows() == 0) return normal.cross;
-    // Few integers are often multiples of each other, and what rounding then leaves of a pivot would
-    // make weights of any size. This much more of every square is far above rounding and costs less
-    // than 1e-10 of the energy.
+    // Few integers are often multiples of each other, and what rounding then leaves of a pivot
+    // would make weights of any size. This much more of every square is far above rounding and
+    // costs less than 1e-10 of the energy.
     constexpr double kRidge = 1e-10;
     MatrixXd gram = normal.gram;
     for (Index k = 0; k < gram.rows(); ++k) {

@@ -23,8 +23,8 @@ struct Quantiser {
 // cost the same everywhere, and components weaker than the step vanish by themselves. Values nearer
 // to zero than 0.6 steps become zero (others round to nearest), since a zero is cheap and its error
 // small. Afterwards weights are fitted to the integers by least squares and quantised so that
-// one of their steps costs as much error as one of a component's. Components whose values or weights
-// are nothing but zero are dropped, the others say which singular value they have.
+// one of their steps costs as much error as one of a component's. Components whose values or
+// weights are nothing but zero are dropped, the others say which singular value they have.
 // Error (unsupported) if a step is so small that values do not fit in 16 bits.
 LowRank quantise(const ScaledFactors& factors, const Quantiser& quantiser);
 

@@ -37,7 +37,8 @@ ScaledFactors read_factors(const RowSource& rows, const PrincipalComponents& com
                            uint32_t num_components, const Shrinkage* shrinkage,
                            std::span<const uint32_t> old_vertex, uint32_t num_in_flight);
 
-// Every n-th point, so that about `num_values` of all values are left: what searches try settings on.
+// Every n-th point, so that about `num_values` of all values are left: what searches try settings
+// on.
 ScaledFactors sample(const ScaledFactors& factors, size_t num_values);
 
 }  // namespace paim

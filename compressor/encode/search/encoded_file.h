@@ -22,7 +22,7 @@ struct EncodedFile {
 class EncodedFiles {
   public:
     EncodedFiles(const EncodeProblem& problem, const EncodeOptions& options,
-                const EncodeTarget& target)
+                 const EncodeTarget& target)
         : problem_(problem),
           options_(options),
           target_(target),
@@ -50,7 +50,7 @@ class EncodedFiles {
 
   private:
     std::optional<EncodedFile> pack(const Targets& targets, std::vector<Candidate> candidates,
-                                   RefinedAsset refined, std::string& reason) const;
+                                    RefinedAsset refined, std::string& reason) const;
     const QuantisedStill& still_of(const Targets& targets);
     std::string bake_name() const { return problem_.bake.directory().string(); }
 

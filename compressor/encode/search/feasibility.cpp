@@ -16,7 +16,7 @@ namespace {
 // best   the smallest error that the part can have
 // whose  part of the bake it is
 void check_part(const EncodeProblem& problem, const TransferError& best, const char* whose,
-                 double transfer_error) {
+                double transfer_error) {
     if (best.total() < transfer_error) return;
     const std::string asked =
         fmt::format("{}: a transfer error of {:.3g} % is asked for, but {}",
@@ -29,11 +29,13 @@ void check_part(const EncodeProblem& problem, const TransferError& best, const c
             asked, baked, 100.0 * best.missing_bands, 100.0 * best.total()));
     }
     if (problem.layout.in_bands < baked) {
-        throw_infeasible(fmt::format("{}{} of its {} bands leave {:.3g} % at best: keep more --bands",
-                                 asked, problem.layout.in_bands, baked, 100.0 * best.total()));
+        throw_infeasible(
+            fmt::format("{}{} of its {} bands leave {:.3g} % at best: keep more --bands", asked,
+                        problem.layout.in_bands, baked, 100.0 * best.total()));
     }
-    throw_infeasible(fmt::format("{}the bake's noise leaves {:.3g} % at best: bake with more --rays",
-                             asked, 100.0 * best.total()));
+    throw_infeasible(
+        fmt::format("{}the bake's noise leaves {:.3g} % at best: bake with more --rays", asked,
+                    100.0 * best.total()));
 }
 
 }  // namespace

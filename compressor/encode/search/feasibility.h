@@ -8,7 +8,8 @@ namespace paim {
 // Error (threshold exceeded): the bake's file for this error.
 [[noreturn]] void throw_infeasible(const std::string& message);
 
-// Refuses transfer errors below what noise and bands of the bake leave, with the best that there is.
+// Refuses transfer errors below what noise and bands of the bake leave, with the best that there
+// is.
 void check_feasible(const EncodeProblem& problem, double transfer_error);
 
 }  // namespace paim

@@ -16,8 +16,8 @@ struct PartChoice {
     uint64_t bytes = 0;           // stored_bytes() with fast effort
 };
 
-// Several numbers of components, ascending, each with the largest step that meets the error; none if no
-// step is small enough.
+// Several numbers of components, ascending, each with the largest step that meets the error; none
+// if no step is small enough.
 // plane_weight     of squared errors
 // most_error       weighted, Σ over rows and poses
 // most_components  of the factors that may be kept

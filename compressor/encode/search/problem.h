@@ -19,19 +19,20 @@ struct EncodeProblem {
     PoseStatistics statistics;
     // Everything but positions and transfer of the part that moves; vertices in cache order.
     Asset shell = {};
-    PlanePredictor predictor = {};     // of the part that moves
-    ScaledFactors geometry = {}, transfer = {};  // as many components as can matter; noise taken out
+    PlanePredictor predictor = {};  // of the part that moves
+    ScaledFactors geometry = {},
+                  transfer = {};            // as many components as can matter; noise taken out
     std::vector<double> plane_weight = {};  // [planes of layout] of squared transfer errors
     // Of these components, not quantised: no file of this bake has smaller errors.
     AssetError best_achievable = {};
-    double transfer_energy = 0.0;      // weighted ‖y‖² of the whole bake
-    uint64_t spare_bytes = 0;          // of options.memory_bytes, without what is held throughout
-    uint64_t unneeded_bytes = 0;       // of these, without all that can be needed
+    double transfer_energy = 0.0;  // weighted ‖y‖² of the whole bake
+    uint64_t spare_bytes = 0;      // of options.memory_bytes, without what is held throughout
+    uint64_t unneeded_bytes = 0;   // of these, without all that can be needed
 
-    // Transfer error that noise and bands of the bake leave at best, in the part where it is larger.
+    // Transfer error that noise and bands of the bake leave at best, in the part where it is
+    // larger.
     double least_error() const {
-        const double still =
-            best_achievable.still ? best_achievable.still->transfer.total() : 0.0;
+        const double still = best_achievable.still ? best_achievable.still->transfer.total() : 0.0;
         return std::max(best_achievable.transfer.total(), still);
     }
 };

@@ -1,4 +1,4 @@
-// The part that stands still as integers.
+// The still part as integers.
 #include "compressor/encode/search/quantise_still.h"
 
 #include <algorithm>
@@ -10,7 +10,8 @@ namespace paim {
 
 namespace {
 
-// Integers with the largest step whose weighted squared error is at most this; floats if there is none.
+// Integers with the largest step whose weighted squared error is at most this; floats if there is
+// none.
 LowRank quantise_mean(const LowRank& exact, const std::vector<double>& plane_weight,
                       double most_error) {
     ScaledFactors factors;  // a mean without components, of one pose
@@ -52,8 +53,8 @@ QuantisedStill quantise_still(const EncodeProblem& problem, double transfer_erro
     CodedMesh& mesh = *asset.still();
     for (int round = 0; round < kMaxRounds; ++round) {
         mesh.positions = quantise_mean(exact.mesh->positions, {1.0, 1.0, 1.0}, distance_budget);
-        mesh.transfer->matrix = quantise_mean(exact.mesh->transfer->matrix, problem.plane_weight,
-                                              transfer_budget);
+        mesh.transfer->matrix =
+            quantise_mean(exact.mesh->transfer->matrix, problem.plane_weight, transfer_budget);
         MeshError error = measure_part(asset, 1, problem.bake, problem.spectrum);
         const bool transfer_good = error.transfer.total() <= transfer_error;
         const bool distance_good = error.geometry.rms() <= distance;

@@ -19,8 +19,7 @@ Asset build(const EncodeProblem& problem, const QuantisedStill& still, const Cod
                          : float_matrix(problem.geometry, coding.geometry.num_components,
                                         coding.geometry_precision);
     const TransferCoding& transfer = coding.transfer;
-    mesh.transfer =
-        transfer.settings->code(problem, transfer.quantiser, transfer.precision);
+    mesh.transfer = transfer.settings->code(problem, transfer.quantiser, transfer.precision);
     trim_bands(asset);
     return asset;
 }
@@ -76,7 +75,8 @@ void scale_steps(const EncodeProblem& problem, const Targets& from, const Target
                  Coding& coding) {
     if (is_integer(coding.transfer.precision)) {
         double& step = coding.transfer.quantiser.step;
-        step = scaled_step(step, from.transfer, to.transfer, problem.best_achievable.transfer.total(), 1.0);
+        step = scaled_step(step, from.transfer, to.transfer,
+                           problem.best_achievable.transfer.total(), 1.0);
     }
     if (is_integer(coding.geometry_precision)) {
         double& step = coding.geometry.step;

@@ -38,8 +38,9 @@ class CodingSearch {
           target_(target),
           search_(problem, options, target) {}
 
-    // The best coding that should meet the targets. Nothing, with the reason, if none does. Leaves what
-    // was compared in `candidates`. Codings of earlier calls are gone by now (TransferSearch::codings).
+    // The best coding that should meet the targets. Nothing, with the reason, if none does. Leaves
+    // what was compared in `candidates`. Codings of earlier calls are gone by now
+    // (TransferSearch::codings).
     std::optional<Coding> choose(const Targets& targets, std::vector<Candidate>& candidates,
                                  std::string& reason);
 

@@ -82,7 +82,7 @@ class FilesToFit : public SizedFiles {
 }  // namespace
 
 EncodedFile fit_size(const EncodeProblem& problem, EncodedFiles& files, uint64_t most_bytes,
-                    const std::function<void(const char*)>& say) {
+                     const std::function<void(const char*)>& say) {
     check_feasible(problem, kLargestError);
     // At the best that the bake allows, coding itself may not add any error.
     const double least_error = 1.02 * std::max(1e-4, problem.least_error());

@@ -28,10 +28,10 @@ constexpr double kErrorResolution = 1.02;
 // asked for.
 constexpr double kNearError = 1.06;
 
-// Tries errors from least_error to largest_error. The file that was kept last is then the one of the
-// smallest error whose bytes are at most most_bytes, to kErrorResolution of the error where bytes
-// fall with the error as SizeCurve believes. False if none was kept: the file of largest_error has
-// more bytes, or there is none.
+// Tries errors from least_error to largest_error. The file that was kept last is then the one of
+// the smallest error whose bytes are at most most_bytes, to kErrorResolution of the error where
+// bytes fall with the error as SizeCurve believes. False if none was kept: the file of
+// largest_error has more bytes, or there is none.
 // least_error  above 0, at most largest_error
 bool find_smallest_error(SizedFiles& files, double least_error, double largest_error,
                          uint64_t most_bytes);

@@ -16,8 +16,8 @@ namespace paim {
 namespace {
 
 // Of this error, and of this size if one is asked for.
-EncodedFile meet_error(const EncodeProblem& problem, EncodedFiles& files, const EncodeTarget& target,
-                      double transfer_error) {
+EncodedFile meet_error(const EncodeProblem& problem, EncodedFiles& files,
+                       const EncodeTarget& target, double transfer_error) {
     std::string reason;
     std::optional<EncodedFile> file = files.meet(transfer_error, reason);
     if (!file) throw_infeasible(reason);
@@ -54,8 +54,8 @@ TargetSummary encode_to_target(const BakeReader& bake, const EncodeOptions& opti
     say("comparing ways to code them");
     EncodedFiles files(problem, options, target);
     EncodedFile result = target.transfer_error
-                            ? meet_error(problem, files, target, *target.transfer_error)
-                            : fit_size(problem, files, *target.size_bytes, say);
+                             ? meet_error(problem, files, target, *target.transfer_error)
+                             : fit_size(problem, files, *target.size_bytes, say);
     result.file.write(output);
     TargetSummary summary;
     summary.error = result.error;

@@ -27,7 +27,9 @@ struct TargetSummary {
 // bake     verified (BakeReader::verify_all)
 // on_step  called with a line of text whenever something long begins
 // Errors: threshold exceeded, with the best that can be reached, if the target cannot; unsupported,
-// saying what is needed, if options.memory_bytes are not enough; output failed.
+// saying what is needed, if options.memory_bytes are not enough; output failed; usage, if no
+// encoder has the codec's name, or if it codes integers alone and options.precision is one of
+// floats.
 TargetSummary encode_to_target(const BakeReader& bake, const EncodeOptions& options,
                                const EncodeTarget& target, const std::filesystem::path& output,
                                const std::function<void(const char*)>& on_step = {});

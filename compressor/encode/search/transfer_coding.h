@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
+#include "compressor/encode/options.h"
 #include "compressor/encode/quantise/quantise.h"
 #include "compressor/encode/search/problem.h"
-#include "compressor/encode/options.h"
 
 namespace paim {
 
@@ -21,8 +21,8 @@ class CodecSettings {
     virtual CodedTransfer code(const EncodeProblem& problem, const Quantiser& quantiser,
                                Precision precision) const = 0;
 
-    // Weighted squared error of integers with this step against the problem's factors, over all rows and
-    // poses, without the rounding of weights: an estimate of the error that code() leaves.
+    // Weighted squared error of integers with this step against the problem's factors, over all
+    // rows and poses, without the rounding of weights: an estimate of the error that code() leaves.
     virtual double squared_error(const EncodeProblem& problem,
                                  const Quantiser& quantiser) const = 0;
 

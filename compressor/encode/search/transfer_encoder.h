@@ -34,7 +34,7 @@ class TransferEncoder {
 // What people are told about a codec.
 struct EncoderWords {
     const char* description = "";  // what vertices are made of: "components over the poses"
-    const char* cost = "";         // multiply-adds per vertex and frame: "3 (K + 1) in all"
+    const char* cost = "";  // multiply-adds per vertex and frame: "K + 4 for each coefficient"
     // After "a transfer error of 1 % …": why this codec alone may not meet it, and what to do.
     const char* missed = "";
     // Names of the Candidate::numbers that this codec chooses, and the heading of their column.
@@ -51,18 +51,20 @@ struct TransferEncoderType {
     EncoderWords words;
 };
 
-// In the order of the search; those that were added come last. transfer_encoders.cpp is the one place
-// that names them.
+// In the order of the search; those that were added come last. transfer_encoders.cpp is the one
+// place that names them.
 const std::vector<TransferEncoderType>& transfer_encoders();
 
-// Lets searches try another codec from now on. Its name is its own (checked). Not to be called while a
-// search runs.
+// Adds a codec that searches try from then on. add_transfer_codec() has added the codec itself, no
+// other encoder has its name, and its words are complete (checked). Must be called before any other
+// thread uses Paim. Invalidates what transfer_encoders() and encoders_to_try() returned.
+// type  whose codec name and words live as long as the program
 void add_transfer_encoder(TransferEncoderType type);
 
 // Those that a target lets a search try.
 // codec      of EncodeTarget
-// Error (usage): no encoder has that name (the message lists the names), or it does not code floats and
-// the precision is one of floats.
+// Error (usage): no encoder has that name (the message lists the names), or it does not code floats
+// and the precision is one of floats.
 std::vector<const TransferEncoderType*> encoders_to_try(std::string_view codec,
                                                         Precision precision);
 

@@ -1,6 +1,7 @@
 // The codecs that a search tries.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "compressor/encode/search/cpca/cpca_encoder.h"
@@ -8,6 +9,7 @@
 #include "compressor/encode/search/transfer_encoder.h"
 #include "paim/base/check.h"
 #include "paim/base/error.h"
+#include "paim/codec/codecs.h"
 
 namespace paim {
 
@@ -40,6 +42,12 @@ const std::vector<TransferEncoderType>& transfer_encoders() {
 
 void add_transfer_encoder(TransferEncoderType type) {
     PAIM_CHECK(!is_any(type.codec));
+    const auto codecs = transfer_codecs();
+    PAIM_CHECK(std::any_of(codecs.begin(), codecs.end(),
+                           [&](const TransferCodec& codec) { return codec.name == type.codec; }));
+    for (const char* const word : {type.words.description, type.words.cost, type.words.missed}) {
+        PAIM_CHECK(*word != '\0');
+    }
     for (const TransferEncoderType& other : types()) PAIM_CHECK(type.codec != other.codec);
     types().push_back(std::move(type));
 }
@@ -52,7 +60,7 @@ std::vector<const TransferEncoderType*> encoders_to_try(std::string_view codec,
         if (!is_any(codec) && type.codec != codec) continue;
         if (is_integer(precision) || type.codes_floats) able.push_back(&type);
     }
-    if (able.empty()) throw_usage("codec {}: codes integers, but floats are asked for", codec);
+    if (able.empty()) throw_usage("codec {}: expected a precision of integers, got floats", codec);
     return able;
 }
 

@@ -15,8 +15,8 @@ class TransferSearch {
     TransferSearch(const EncodeProblem& problem, const EncodeOptions& options,
                    const EncodeTarget& target);
 
-    // All that were tried and meet the error and the decode cost; none if nothing does. Settings may
-    // hold memory until the next call, and codings of an earlier call have to be gone by then.
+    // All that were tried and meet the error and the decode cost; none if nothing does. Settings
+    // may hold memory until the next call, and codings of an earlier call have to be gone by then.
     // most_error  weighted squares over rows and poses, against the factors
     std::vector<TransferCoding> codings(double most_error) {
         return codings(most_error, decode_cost_);

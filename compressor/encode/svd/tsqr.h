@@ -30,9 +30,9 @@ Eigen::MatrixXd triangular_factor(const RowSource& rows, Eigen::Index num_column
 Eigen::MatrixXd centred_triangular_factor(const RowSource& rows,
                                           uint32_t num_in_flight = kMaxInFlight);
 
-// Memory of the rows that are at work while a data matrix of num_columns columns is read: on each of
-// min(num_threads, num_blocks) threads a block as it is read, and kRowsAtOnce of its rows in double,
-// centred and mapped to num_mapped columns, each with as much again for products.
+// Memory of the rows that are at work while a data matrix of num_columns columns is read: on each
+// of min(num_threads, num_blocks) threads a block as it is read, and kRowsAtOnce of its rows in
+// double, centred and mapped to num_mapped columns, each with as much again for products.
 uint64_t rows_at_work_bytes(uint64_t num_columns, uint64_t num_mapped, uint64_t num_threads,
                             uint64_t num_blocks);
 

@@ -18,8 +18,8 @@ struct PoseStatistics {
     uint32_t above_target = 0;  // vertices whose noise is above the target
     // [bands] RMS over the vertices, channels and coefficients of a band.
     std::vector<double> transfer_rms;
-    std::vector<double>
-        noise_rms;      // standard error of the transfer, estimated from the two halves of the rays
+    // The standard error of the transfer, estimated from the two halves of the rays.
+    std::vector<double> noise_rms;
     PoseReport mesh{};  // 0 in old bakes, which did not count these
     // Rays that hit the back of a face, which bounces no light.
     uint64_t back_hits = 0;

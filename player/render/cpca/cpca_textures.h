@@ -1,5 +1,5 @@
-// Codec cpca in textures: the radiance of all bases in a small one, and of every vertex the cluster and
-// the coefficients, so that triangles may cross from one cluster to another.
+// Codec cpca in textures: the radiance of all bases in a small one, and of every vertex the cluster
+// and the coefficients, so that triangles may cross from one cluster to another.
 // Based on: Sloan, Hall, Hart and Snyder, Clustered Principal Components for Precomputed Radiance
 //           Transfer, 2003
 #pragma once

@@ -1,6 +1,6 @@
-// Embeds Paim: reads a .paim file, or a prefix of one, plays the middle of it under light of radiance 1
-// from everywhere, and prints what its vertices show. Where no other part of the mesh is in the way, that
-// is the albedo.
+// Embeds Paim: reads a .paim file, or a prefix of one, plays the middle of it under light of
+// radiance 1 from everywhere, and prints what its vertices show. Where no other part of the mesh is
+// in the way, that is the albedo.
 #include <cmath>
 #include <cstdio>
 #include <cstring>

@@ -116,8 +116,8 @@ TEST_F(Curves, OfComponentsLoseTheSingularValuesFromKOn) {
     }
 }
 
-// Bytes are those of the whole file, with everything else kept: the still part in as many bands, and
-// the origin.
+// Bytes are those of the whole file, with everything else kept: the still part in as many bands,
+// and the origin.
 TEST_F(Curves, SizesCountWhatStandsStill) {
     Asset asset = make_example_asset(kBands, kChannels, kPoses);
     asset.parts.push_back(make_example_still(asset.moving().layout));

@@ -79,8 +79,8 @@ TEST_P(DirectionSamplers, ErrorsFallWithTheirPower) {
         return squares / kKeys - sum * sum / (double{kKeys} * kKeys);
     };
     const double power = std::log(variance(16) / variance(256)) / std::log(16.0);
-    // A variance of 4000 is known to 2 %, the power to 0.01. For nets it is that of edges that are as
-    // likely to be anywhere, which this one is not quite.
+    // A variance of 4000 is known to 2 %, the power to 0.01. For nets it is that of edges that are
+    // as likely to be anywhere, which this one is not quite.
     EXPECT_NEAR(power, error_power(GetParam()), 0.2);
 }
 

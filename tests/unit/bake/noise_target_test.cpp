@@ -27,7 +27,8 @@ TEST(NoiseTarget, IsMetByEqual) {
 }
 
 TEST(NoiseTarget, IsThatOfTheNeighbours) {
-    // Of 0 and 3 those are 1 and 2; of 1 and 2 each other, twice as two faces share the edge, 0 and 3.
+    // Of 0 and 3 those are 1 and 2; of 1 and 2 each other, twice as two faces share the edge, 0 and
+    // 3.
     EXPECT_EQ(above({0, 1.9, 0, 0, 0}, kAlike), Vertices{});
     EXPECT_EQ(above({0, 2.1, 0, 0, 0}, kAlike), (Vertices{0, 2, 3}));
     EXPECT_EQ(above({4.1, 0, 0, 0, 0}, kAlike), (Vertices{1, 2}));

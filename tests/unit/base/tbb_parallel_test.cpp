@@ -1,5 +1,5 @@
-// Loops on oneTBB: they do run there, pieces are the same on any number of threads, cover everything
-// once, and exceptions come through.
+// Loops on oneTBB: they do run there, pieces are the same on any number of threads, cover
+// everything once, and exceptions come through.
 #include "paim/base/tbb_parallel.h"
 
 #include <gtest/gtest.h>

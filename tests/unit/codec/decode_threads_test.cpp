@@ -133,8 +133,8 @@ TEST(DecodeThreads, GiveTheBytesOfThePlainLoop) {
     }
 }
 
-// Frames of one decoder into one pose: the work space is that of the first. The smallest, the rows of
-// the bases, has 35 rows of 9 planes: 1260 bytes.
+// Frames of one decoder into one pose: the work space is that of the first. The smallest, the rows
+// of the bases, has 35 rows of 9 planes: 1260 bytes.
 TEST(DecodeThreads, KeepTheWorkSpace) {
     for (const bool clustered : {false, true}) {
         const CodedMesh mesh = random_mesh(clustered);

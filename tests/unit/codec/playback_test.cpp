@@ -26,7 +26,7 @@ LightCoefficients make_light(int bands, uint64_t seed) {
     return light;
 }
 
-// Every codec, as floats and as integers, with colours of every vertex and with what stands still.
+// Every codec, as floats and as integers, with a colour at each vertex and with a still part.
 struct Variant {
     std::string name;
     std::shared_ptr<const Asset> asset;
@@ -95,8 +95,8 @@ TEST(Playback, ShowsWhatDecodingAndShadingGive) {
     }
 }
 
-// One thing changes at a time: the light, the time, and each of the limits. Parts that keep what they
-// computed before must notice each of these changes.
+// One thing changes at a time: the light, the time, and each of the limits. Parts that keep what
+// they computed before must notice each of these changes.
 TEST(Playback, ComputesAnewWhatChanged) {
     for (const Variant& variant : make_variants()) {
         SCOPED_TRACE(variant.name);

@@ -189,8 +189,9 @@ TEST_F(AssetErrorTest, MeasuresWhatStandsStill) {
 }
 
 // One vertex is decoded as it was baked, with all of its noise; the others are decoded as nothing.
-// Where the noise is all that vertex's own, what is decoded adds it, and where it is another's, what is
-// decoded has none of it: E‖t̂ − t‖² = ‖t̂ − y‖² ± ‖d‖². Files have vertices in another order.
+// Where the noise is all that vertex's own, what is decoded adds it, and where it is another's,
+// what is decoded has none of it: E‖t̂ − t‖² = ‖t̂ − y‖² ± ‖d‖². Files have vertices in another
+// order.
 TEST_F(AssetErrorTest, TakesNoiseInTheOrderOfTheFile) {
     const TransferLayout layout{TransferKind::diffuse, 1, 1};
     const Asset as_baked = make_example_asset(1, 1, 2, 1);
@@ -225,7 +226,8 @@ TEST_F(AssetErrorTest, TakesNoiseInTheOrderOfTheFile) {
             matrix.components = {component};
             matrix.weights = {1.0f, -1.0f};
             const TransferError error = measure_asset(asset, bake, BandPower::flat(1)).transfer;
-            // ‖y‖² = 4 (3² + 1²), of which three vertices are lost; ‖d‖² = 2. Roundings of a few numbers.
+            // ‖y‖² = 4 (3² + 1²), of which three vertices are lost; ‖d‖² = 2. Roundings of a few
+            // numbers.
             EXPECT_NEAR(error.error_to_bake, std::sqrt(30.0 / 40.0), 1e-14);
             EXPECT_NEAR(error.bake_noise, std::sqrt(2.0 / 40.0), 1e-14);
             EXPECT_NEAR(error.error, std::sqrt((decoded == noisy ? 32.0 : 28.0) / 40.0), 1e-14)

@@ -76,8 +76,8 @@ TEST(PrefixError, WithoutAStatementIsWhatTheMissingComponentsCost) {
     EXPECT_FALSE(errors.transfer_stated);
     EXPECT_FALSE(errors.position_stated);
     EXPECT_EQ(errors.band_power, "flat");
-    // A transfer of 7 and 1 in turns, of which 3 and −3 are missing: √(9 / 25). Every position is off
-    // by (2, 2, 2).
+    // A transfer of 7 and 1 in turns, of which 3 and −3 are missing: √(9 / 25). Every position is
+    // off by (2, 2, 2).
     ASSERT_EQ(errors.transfer.size(), 2u);
     EXPECT_DOUBLE_EQ(errors.transfer[0], 0.6);
     EXPECT_EQ(errors.transfer[1], 0.0);

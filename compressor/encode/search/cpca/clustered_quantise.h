@@ -15,9 +15,9 @@
 
 namespace paim {
 
-// A vertex as a point: the factors of all its coefficients, the mean's included. Since the weights of
-// the factors are orthogonal and of unit RMS, distances are those of the transfer over all poses,
-// divided by √P.
+// A vertex as a point: the factors of all its coefficients, the mean's included. Since the weights
+// of the factors are orthogonal and of unit RMS, distances are those of the transfer over all
+// poses, divided by √P.
 class FactorPoints : public PointSource {
   public:
     // plane_weight  of squared errors; points are scaled by its root

@@ -143,8 +143,8 @@ class CpcaEncoder : public TransferEncoder {
         }
         for (const uint32_t count : counts) {
             if (count > kMaxSearchedComponents) continue;
-            // With many more rows of bases than vertices, which cost less as they are, it is slow to
-            // find out that nothing is gained; up to twice as many may still play faster.
+            // With many more rows of bases than vertices, which cost less as they are, it is slow
+            // to find out that nothing is gained; up to twice as many may still play faster.
             if (uint64_t{pca->num_clusters} * (count + 1) >
                 2 * uint64_t{problem_.transfer.num_points}) {
                 continue;
@@ -209,7 +209,7 @@ class CpcaEncoder : public TransferEncoder {
 TransferEncoderType cpca_encoder_type() {
     EncoderWords words;
     words.description = "clusters; much cheaper to play";
-    words.cost = "3 (K + 1) in all";
+    words.cost = "3 (J + 1) in all, with J components a cluster";
     words.missed = "cannot be met by clusters of as many components as are tried: use --codec auto";
     words.numbers = {kClusters, kClusterComponents};
     words.heading = "clusters x components";

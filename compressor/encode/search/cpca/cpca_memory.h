@@ -19,7 +19,8 @@ constexpr uint32_t kMaxSearchedComponents = 32;
 // many if about that number of components will be kept.
 constexpr uint32_t kFirstAssumedComponents = 8;
 constexpr uint32_t kMaxAssumedComponents = 2 * kFirstAssumedComponents;
-// Clusterings that are kept: for each number of clusters that of the first and of the second search.
+// Clusterings that are kept: for each number of clusters that of the first and of the second
+// search.
 constexpr uint32_t kMaxClusterings = 2 * kClusterCounts.size();
 
 // The most clusters that are tried.

@@ -1,5 +1,5 @@
-// Sums of rows of clusters' bases: every vector unit of this machine against the plain loop, bit for
-// bit.
+// Sums of rows of clusters' bases: every vector unit of this machine against the plain loop, bit
+// for bit.
 #include "paim/codec/cpca/basis_table.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
-// Light before the coefficients of vertices, against the definition, and against decoding and shading.
+// Light before the coefficients of vertices, against the definition, and against decoding and
+// shading.
 #include "paim/codec/cpca/cpca_player.h"
 
 #include <gtest/gtest.h>

@@ -13,6 +13,7 @@
 #include "paim/base/error.h"
 #include "paim/base/seed.h"
 #include "paim/base/tbb_parallel.h"
+#include "tests/unit/encode/cluster/random_matrix.h"
 
 namespace paim {
 namespace {
@@ -20,12 +21,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::MatrixXf;
-
-MatrixXf random_matrix(Index rows, Index columns, uint64_t seed) {
-    RandomStream random(seed);
-    return MatrixXf::NullaryExpr(rows, columns,
-                                 [&] { return static_cast<float>(random.uniform() - 0.5); });
-}
 
 // Points of `num_groups` affine subspaces of so many dimensions, in turns, far from each other.
 MatrixXf affine_groups(Index num_points, Index num_columns, Index num_groups, Index dimensions) {

@@ -14,18 +14,13 @@
 #include "compressor/encode/cluster/cluster_subspaces.h"
 #include "compressor/encode/cluster/point_projection.h"
 #include "paim/base/seed.h"
+#include "tests/unit/encode/cluster/random_matrix.h"
 
 namespace paim {
 namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXf;
-
-MatrixXf random_matrix(Index rows, Index columns, uint64_t seed) {
-    RandomStream random(seed);
-    return MatrixXf::NullaryExpr(rows, columns,
-                                 [&] { return static_cast<float>(random.uniform() - 0.5); });
-}
 
 double distance(const MatrixXf& columns, Index a, Index b) {
     return (columns.col(a) - columns.col(b)).cast<double>().norm();
@@ -231,8 +226,8 @@ TEST(Clustering, CoherenceShortensBorders) {
         }
         return count;
     };
-    // How many there are without depends on the seed: some 1014 ± 22. With coherence there are fewer
-    // than any seed makes them, by six times that scatter.
+    // How many there are without depends on the seed: some 1014 ± 22. With coherence there are
+    // fewer than any seed makes them, by six times that scatter.
     constexpr int kSeeds = 8;
     double mean = 0.0, squares = 0.0;
     for (uint64_t seed = 1; seed <= kSeeds; ++seed) {

@@ -13,10 +13,10 @@ namespace paim {
 namespace {
 
 // Of all codecs of integers.
-const std::vector<SearchedCodec> kAll = searched_codecs(encoders_to_try("", Precision::i16));
+const std::vector<SearchedCodec> kAllCodecs = searched_codecs(encoders_to_try("", Precision::i16));
 
 // 10000 vertices, 48 poses, 5 bands, 2 threads.
-const TargetSize kOctopus{{19996, 10000, 48, 48, 2, 10000, 5}, 25, 12, 20, kAll};
+const TargetSize kOctopus{{19996, 10000, 48, 48, 2, 10000, 5}, 25, 12, 20, kAllCodecs};
 
 // The same with svd alone, which holds nothing but the factors.
 TargetSize octopus_of_svd() {
@@ -67,9 +67,9 @@ TEST(TargetMemory, DoesNotOverflow) {
 TEST(TargetMemory, RefusesAndSaysWhatItNeeds) {
     const uint64_t least = target_memory_bytes(kOctopus);
     const uint64_t of_svd = target_memory_bytes(octopus_of_svd());
-    EXPECT_NO_THROW(check_target_memory(kOctopus, kAll, least, "x.bake"));
+    EXPECT_NO_THROW(check_target_memory(kOctopus, kAllCodecs, least, "x.bake"));
     try {
-        check_target_memory(kOctopus, kAll, least - 1, "x.bake");
+        check_target_memory(kOctopus, kAllCodecs, least - 1, "x.bake");
         FAIL() << "not refused";
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ExitCode::unsupported);
@@ -88,7 +88,7 @@ TEST(TargetMemory, NamesSvdWhereThatWouldFit) {
     ASSERT_LT(least, target_memory_bytes(kOctopus));
     const auto refusal = [](const TargetSize& size, uint64_t limit) {
         try {
-            check_target_memory(size, kAll, limit, "x.bake");
+            check_target_memory(size, kAllCodecs, limit, "x.bake");
         } catch (const Error& error) {
             return std::string(error.what());
         }

@@ -122,8 +122,8 @@ TEST_F(KnownNoise, ComponentsAboveItAreThoseOfTheSignal) {
     EXPECT_EQ(choose_components({}, measured, 1e-9), static_cast<uint32_t>(kRank));
     EXPECT_EQ(choose_components({ComponentChoice::Kind::number, 9}, measured, 0.01), 9u);
     EXPECT_EQ(choose_components({ComponentChoice::Kind::all, 0}, measured, 0.01), 29u);
-    // Energies fall by q = 0.75² from one to the next, so (q^k − q^6) / (1 − q^6) of them are left after
-    // k: 0.15 after 3, 0.07 after 4. Asked for is 0.3² = 0.09.
+    // Energies fall by q = 0.75² from one to the next, so (q^k − q^6) / (1 − q^6) of them are left
+    // after k: 0.15 after 3, 0.07 after 4. Asked for is 0.3² = 0.09.
     EXPECT_EQ(choose_components({}, measured, 0.3), 4u);
 }
 
@@ -138,11 +138,11 @@ TEST_F(KnownNoise, ShrinkageLowersTheErrorToWhatItExpects) {
         if (k >= kRank) {
             EXPECT_LT(shrunk, raw) << k;
         }
-        // Without shrinkage both sums are over thousands of squares, but components beyond the signal are
-        // the directions in which this very noise is largest, by up to 1 + √(29 / 390) there, and some
-        // percent over all: a tenth of the energy, a twentieth of the error. With it, half of the vertices
-        // have no signal at all here, and what chance makes look like some is counted: up to a fifth of
-        // the energy, a tenth of the error, on the cautious side.
+        // Without shrinkage both sums are over thousands of squares, but components beyond the
+        // signal are the directions in which this very noise is largest, by up to 1 + √(29 / 390)
+        // there, and some percent over all: a tenth of the energy, a twentieth of the error. With
+        // it, half of the vertices have no signal at all here, and what chance makes look like some
+        // is counted: up to a fifth of the energy, a tenth of the error, on the cautious side.
         EXPECT_NEAR(expected_error_unshrunk(measured, k).total() / truncated, 1.0, 0.1) << k;
         EXPECT_GT(shrinkage.expected_error(k).total() / shrunk, 0.95) << k;
         EXPECT_LT(shrinkage.expected_error(k).total() / shrunk, 1.25) << k;
@@ -218,8 +218,9 @@ TEST(ComponentNoise, EndsAtTheEdgeOfPureNoise) {
     EXPECT_EQ(count({-1, 1, 1, 1}), 0u);
 }
 
-// The risk is an unbiased estimate of the squared error that is left: with d values of which the noise
-// n is known, 4 n²/d E is what Stein's term adds, and an n that is itself a sum of m draws adds
+// The risk is an unbiased estimate of the squared error that is left: with d values of which the
+// noise n is known, 4 n²/d E is what Stein's term adds, and an n that is itself a sum of m draws
+// adds
 // 4 n²/m E. Equal components, so that one factor is that of all of them and nothing is modelled.
 // One component of 33 values, then three of 11.
 TEST(Shrinkage, ExpectsTheErrorThatManyDrawsHave) {

@@ -119,8 +119,9 @@ TEST(FloatMatrix, RoundsToHalfFloats) {
     for (const StoredValues& component : matrix.components) {
         for (const float c : component.floats()) EXPECT_EQ(from_half(to_half(c)), c);
     }
-    // Half floats of values up to √3 are off by 2^-11 of themselves at most, as components are: no more
-    // than that of the energy without the mean, and at least a tenth (uniform rounding: about 0.2).
+    // Half floats of values up to √3 are off by 2^-11 of themselves at most, as components are: no
+    // more than that of the energy without the mean, and at least a tenth (uniform rounding: about
+    // 0.2).
     const CodedMesh mesh = mesh_of(SvdTransfer(matrix), factors.num_points);
     const std::vector<double> alike(4, 1.0);
     const double energy = tail_errors(factors, alike)[0];

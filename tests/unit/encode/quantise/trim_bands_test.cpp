@@ -11,7 +11,7 @@
 namespace paim {
 namespace {
 
-constexpr uint32_t kVertices = 4;
+constexpr uint32_t kNumVertices = 4;
 
 // Of one part.
 void clear_band(CodedMesh& mesh, uint32_t band) {
@@ -21,8 +21,9 @@ void clear_band(CodedMesh& mesh, uint32_t band) {
             [&](auto& numbers) {
                 for (uint32_t channel = 0; channel < mesh.layout.channels; ++channel) {
                     for (uint32_t i = band * band; i < (band + 1) * (band + 1); ++i) {
-                        const size_t first = mesh.layout.plane(channel, i) * kVertices;
-                        std::fill_n(numbers.begin() + static_cast<ptrdiff_t>(first), kVertices, 0);
+                        const size_t first = mesh.layout.plane(channel, i) * kNumVertices;
+                        std::fill_n(numbers.begin() + static_cast<ptrdiff_t>(first), kNumVertices,
+                                    0);
                     }
                 }
                 values = numbers;
@@ -53,8 +54,8 @@ void expect_first_bands(const CodedMesh& trimmed, const CodedMesh& whole, uint32
             const uint32_t from = whole.layout.plane(channel, i);
             EXPECT_EQ(decode_plane(trimmed, Attribute::transfer, to),
                       decode_plane(whole, Attribute::transfer, from));
-            for (size_t v = 0; v < kVertices; ++v) {
-                EXPECT_EQ(kept.mean[to * kVertices + v], all.mean[from * kVertices + v]);
+            for (size_t v = 0; v < kNumVertices; ++v) {
+                EXPECT_EQ(kept.mean[to * kNumVertices + v], all.mean[from * kNumVertices + v]);
             }
             EXPECT_EQ(kept.step(to), all.step(from));
         }

@@ -32,9 +32,9 @@ TEST(MatrixCost, OfFloatsIsTheirBytesAndOfWeightsOneByteEach) {
               3 * (kSectionBytes + 400) + 2 * 7);
 }
 
-// Numbers that are as likely as each other take the logarithm of their count, and no code takes less.
-// Huffman codes of so many symbols lose less than 1 %, Zstandard takes bytes as they are where a code
-// would save less than a 64th, and tables and headers are some 100 bytes.
+// Numbers that are as likely as each other take the logarithm of their count, and no code takes
+// less. Huffman codes of so many symbols lose less than 1 %, Zstandard takes bytes as they are
+// where a code would save less than a 64th, and tables and headers are some 100 bytes.
 TEST(MatrixCost, OfNoiseIsItsEntropy) {
     RandomStream random(3);
     constexpr size_t kNum = 200000;

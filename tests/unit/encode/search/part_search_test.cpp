@@ -1,4 +1,5 @@
-// The cheapest integers of a part, against every number of components and every step of a fine grid.
+// The cheapest integers of a part, against every number of components and every step of a fine
+// grid.
 #include "compressor/encode/search/part_search.h"
 
 #include <gtest/gtest.h>
@@ -101,9 +102,9 @@ TEST(PartSearch, IsAsGoodAsEveryStepOfAGridAndEveryNumberOfComponents) {
         const auto best = cheapest_part(choices(factors, most));
         ASSERT_TRUE(best);
         const auto fewest = static_cast<double>(fewest_bytes(factors, most));
-        // For fewer components, 1 % is given away. Steps end within 0.5 % of the largest; a step that
-        // is so much finer takes log2(1.005) = 0.007 bits more a value, of which each takes more than
-        // one here: 0.7 %. The grid's own steps end within 1 % of the largest: 1.4 %.
+        // For fewer components, 1 % is given away. Steps end within 0.5 % of the largest; a step
+        // that is so much finer takes log2(1.005) = 0.007 bits more a value, of which each takes
+        // more than one here: 0.7 %. The grid's own steps end within 1 % of the largest: 1.4 %.
         RecordProperty("bytes_of_fewest_" + std::to_string(most / tails[0]),
                        std::to_string(static_cast<double>(best->bytes) / fewest));
         EXPECT_LE(static_cast<double>(best->bytes), 1.017 * fewest) << most;

@@ -1,4 +1,4 @@
-// What stands still is within a target as well, and no finer than that.
+// Still parts are within a target as well, and no finer than that.
 #include "compressor/encode/search/quantise_still.h"
 
 #include <gtest/gtest.h>
@@ -49,7 +49,8 @@ TEST_F(QuantiseStill, IsAsCoarseAsTheTargetAllows) {
         // 6400 and 1200 values.
         EXPECT_LE(measured.still->transfer.total(), error);
         EXPECT_GT(measured.still->transfer.total(), 0.93 * error);
-        // Of the diagonal of what moves, not of what stands still, which is twice as long.
+        // Relative to the diagonal of the moving part; the diagonal of the still part is twice as
+        // long.
         const double distance = error * kGeometryPerTransferError * measured.geometry.diagonal;
         EXPECT_LE(measured.still->geometry.rms(), distance * (1.0 + 1e-6));
         EXPECT_GT(measured.still->geometry.rms(), 0.9 * distance);
@@ -68,9 +69,9 @@ TEST_F(QuantiseStill, IsWithinTheTargetWithNoiseOfItsOwn) {
     EXPECT_GT(measured.still->transfer.total(), 0.07);
 }
 
-// Steps are chosen by a sum in steps. Floats round what is decoded once more, by up to 2^-24 · 2^15 of
-// a fine step, which may be too much. Targets just below an error that was measured, but not below
-// what the sum says of the same steps, are such that the first steps are too coarse.
+// Steps are chosen by a sum in steps. Floats round what is decoded once more, by up to 2^-24 · 2^15
+// of a fine step, which may be too much. Targets just below an error that was measured, but not
+// below what the sum says of the same steps, are such that the first steps are too coarse.
 TEST_F(QuantiseStill, IsMadeFinerWhereMeasuringFindsItTooCoarse) {
     const BakeReader bake = this->bake(0.0);
     EncodeTarget target;

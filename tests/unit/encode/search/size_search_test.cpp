@@ -93,9 +93,9 @@ TEST(SizeSearch, FindsTheErrorOfAPowerLaw) {
             const double doubt = files.estimated.size() > 1 ? 1.0 : std::max(1.0, 0.6 / b);
             EXPECT_GE(files.kept, best * (1.0 - 1e-5)) << b;
             EXPECT_LE(files.kept, best * std::pow(kErrorResolution, doubt) * (1.0 + 1e-5)) << b;
-            // One at the error of the estimates, 3 % in size away or 6 % in error; then, by its true
-            // size, one 0.5 % below the size, which is at most 0.005 / 0.3 = 1.7 % above the error:
-            // within the resolution. One more where b was not learnt.
+            // One at the error of the estimates, 3 % in size away or 6 % in error; then, by its
+            // true size, one 0.5 % below the size, which is at most 0.005 / 0.3 = 1.7 % above the
+            // error: within the resolution. One more where b was not learnt.
             EXPECT_LE(files.made.size(), files.estimated.size() > 1 ? 2u : 3u) << b << ' ' << best;
         }
     }
@@ -113,9 +113,9 @@ TEST(SizeSearch, FindsTheErrorWhereAConstantIsPartOfTheSize) {
                 });
                 ASSERT_TRUE(files.search(most * (1.0 + 1e-6)));
                 EXPECT_GE(files.kept, best * (1.0 - 1e-5));
-                // The fall at x, s(x) = b (1 − c / bytes), has |d ln s / dx| = b − s < b. The search
-                // ends by the fall between two errors within 15 %, which is then off by less than
-                // e^(0.15 b) = 1.25, and so is the 2 % that it takes for the rest.
+                // The fall at x, s(x) = b (1 − c / bytes), has |d ln s / dx| = b − s < b. The
+                // search ends by the fall between two errors within 15 %, which is then off by less
+                // than e^(0.15 b) = 1.25, and so is the 2 % that it takes for the rest.
                 for (size_t j = files.made.size() - std::min<size_t>(2, files.made.size());
                      j < files.made.size(); ++j) {
                     EXPECT_LT(std::abs(std::log(files.made[j] / best)), 0.15);
@@ -127,7 +127,8 @@ TEST(SizeSearch, FindsTheErrorWhereAConstantIsPartOfTheSize) {
     }
 }
 
-// Below an error there is no file: nothing but halving helps. The widest of intervals, ln 0.5 / 1e-4 =
+// Below an error there is no file: nothing but halving helps. The widest of intervals, ln 0.5 /
+// 1e-4 =
 // 8.5, is halved to ln 1.02 in 9 rounds; 12 are done.
 TEST(SizeSearch, FindsTheSmallestErrorThatHasAFile) {
     for (const double least : {2e-4, 0.003, 0.03, 0.04, 0.1, 0.49}) {
@@ -166,8 +167,8 @@ TEST(SizeSearch, EndsWhereThereIsNoFile) {
     EXPECT_LE(files.made.size(), 13u);
 }
 
-// Where another way to code begins to be needed, sizes may jump, which no power law says. What is kept
-// fits all the same; that it is the smallest is not promised there.
+// Where another way to code begins to be needed, sizes may jump, which no power law says. What is
+// kept fits all the same; that it is the smallest is not promised there.
 TEST(SizeSearch, FitsWhereSizesJump) {
     for (const double jump : {0.003, 0.01, 0.05, 0.2}) {
         const auto bytes = [&](double error) {
@@ -181,8 +182,8 @@ TEST(SizeSearch, FitsWhereSizesJump) {
     }
 }
 
-// Sizes scatter about their law by some percent, and so do the errors that fit: what is kept fits, and
-// none that is smaller by more than the scatter and the resolution would.
+// Sizes scatter about their law by some percent, and so do the errors that fit: what is kept fits,
+// and none that is smaller by more than the scatter and the resolution would.
 TEST(SizeSearch, IsNotLedAstrayByScatter) {
     constexpr double kScatter = 0.01, kFall = 0.6, kBest = 0.02;
     for (uint32_t seed = 0; seed < 50; ++seed) {

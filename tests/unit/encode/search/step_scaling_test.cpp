@@ -46,9 +46,9 @@ TEST(StepScaling, LeavesStepsThatHaveNoPartInTheError) {
     EXPECT_EQ(scaled_step(3.0, std::nan(""), 0.01, 0.0, 1.0), 3.0);
 }
 
-// As rate control does it: measured, scaled, measured again, until the error is within the target and
-// not below 0.985 of it. Without ends, one scaling would do: each of the two more that a step 2.5
-// times too coarse, or 1.9 times too fine, needs goes to an end.
+// As rate control does it: measured, scaled, measured again, until the error is within the target
+// and not below 0.985 of it. Without ends, one scaling would do: each of the two more that a step
+// 2.5 times too coarse, or 1.9 times too fine, needs goes to an end.
 TEST(StepScaling, ConvergesFromStepsThatAreFarOff) {
     for (const double floor : {0.0, 0.005, 0.0099}) {
         const Law law{floor, 2.0};

@@ -21,7 +21,7 @@ struct TargetBake {
     uint32_t still_from = 99;  // bands that are zero from here on
     double movement = 1.0;     // 0: all poses are alike but for noise
     double scale = 1.0;        // of the transfer
-    // Something stands still, too: the sheet at another time, of this noise, twice as large.
+    // A still mesh, too: the sheet at another time, of this noise, twice as large.
     std::optional<double> still_noise = {};
 };
 
@@ -70,7 +70,7 @@ inline BakeReader write_target_bake(const std::filesystem::path& directory,
                 const double wave = std::sin(6.0 * u + time) +
                                     0.4 * std::sin(9.0 * w - 2.0 * time) +
                                     0.1 * std::sin(20.0 * u * w + 3.0 * time);
-                // What stands still is no lattice, whose few coordinates would be rounded by luck.
+                // The still mesh is no lattice, whose few coordinates would be rounded by luck.
                 const double sway = (extent - 1.0) * 0.1 * wave;
                 pose.positions[v] = static_cast<float>(extent * u + sway);
                 pose.positions[num_vertices + v] = static_cast<float>(extent * 0.2 * wave);

@@ -260,8 +260,8 @@ TEST_F(TargetEncode, RefusesSizesOfBakesThatAreNoise) {
     expect_refused(bake, any, ExitCode::threshold_exceeded, "noise leaves");
 }
 
-// Errors are resolved to 2 %, and sizes fall by less than twice as much: 3 % where steps of integers
-// go as they are expected to, which takes some thousand vertices.
+// Errors are resolved to 2 %, and sizes fall by less than twice as much: 3 % where steps of
+// integers go as they are expected to, which takes some thousand vertices.
 TEST_F(TargetEncode, FindsTheSmallestErrorOfASize) {
     const BakeReader bake = this->bake({.width = 48, .num_poses = 6});
     for (const std::string codec : {"svd", "cpca"}) {
@@ -282,9 +282,9 @@ TEST_F(TargetEncode, FindsTheSmallestErrorOfASize) {
             EXPECT_EQ(fitted.chosen().components,
                       read_paim(output_).moving().transfer->matrix.num_components);
             EXPECT_LE(fitted.error.transfer.total(), fitted.transfer_target);
-            // The size of a file of 2 % allows 2 % or little more, others more than that. Files of 20
-            // to 40 kB of nearly the same error differ by up to 1.5 % in size, which is 4 % of the
-            // error here, and the search ends at 2 % of it.
+            // The size of a file of 2 % allows 2 % or little more, others more than that. Files of
+            // 20 to 40 kB of nearly the same error differ by up to 1.5 % in size, which is 4 % of
+            // the error here, and the search ends at 2 % of it.
             const double error = fitted.error.transfer.total();
             EXPECT_GT(error, share == 100 ? 0.0 : 0.02) << share;
             EXPECT_LT(error, share == 100 ? 1.06 * 0.02 : 0.5) << share;
@@ -326,8 +326,8 @@ TEST_F(TargetEncode, TakesSheetsOfFewVertices) {
     }
 }
 
-// What rounding leaves where steps are as fine as 16 bits allow, Σ of weighted squares over rows and
-// poses: a twelfth of the step's square for each value that is not zero.
+// What rounding leaves where steps are as fine as 16 bits allow, Σ of weighted squares over rows
+// and poses: a twelfth of the step's square for each value that is not zero.
 double error_of_sixteen_bits(const ScaledFactors& factors,
                              const std::vector<double>& plane_weight) {
     const double step =
@@ -374,8 +374,8 @@ TEST_F(TargetEncode, MeetsVeryFineTargetsDownToSixteenBits) {
                    "needs positions of more than 16 bits");
 }
 
-// Without a geometry error, positions are 50 times as good, relative to the diagonal: their 16 bits end
-// before those of the transfer do. Floats, which the message names, meet the same target.
+// Without a geometry error, positions are 50 times as good, relative to the diagonal: their 16 bits
+// end before those of the transfer do. Floats, which the message names, meet the same target.
 TEST_F(TargetEncode, VeryFineTargetsOfBothPartsTakeFloats) {
     const BakeReader bake = this->bake({.num_poses = 5, .noise = 0.0});
     expect_refused(bake, target(bake, 1e-4), ExitCode::threshold_exceeded,
@@ -403,8 +403,8 @@ TEST_F(TargetEncode, FloatsMeetTheTargetToo) {
     }
 }
 
-// Floats that are chosen by an estimate may need a component more once they are measured, and with it
-// more than the decode cost that was asked for. The first target that an estimate meets with one
+// Floats that are chosen by an estimate may need a component more once they are measured, and with
+// it more than the decode cost that was asked for. The first target that an estimate meets with one
 // component fewer is where that happens, if anywhere.
 TEST_F(TargetEncode, RefusesDecodeCostsThatOnlyEstimatesMeet) {
     const BakeReader bake = this->bake({.noise = 0.02});
@@ -466,8 +466,8 @@ TEST_F(TargetEncode, ProblemIsInCacheOrder) {
     for (uint32_t v = 0; v < 400; ++v) {
         EXPECT_FLOAT_EQ(problem.geometry.mean[v], pose.positions[order.old_vertex[v]]);
     }
-    // The error that all components leave of a bake with little noise: less than its noise, 0.001 relative
-    // to an RMS of about 0.3.
+    // The error that all components leave of a bake with little noise: less than its noise, 0.001
+    // relative to an RMS of about 0.3.
     EXPECT_LT(problem.best_achievable.transfer.error, 0.004);
     EXPECT_GT(problem.transfer_energy, 0.0);
 }

@@ -1,5 +1,5 @@
-// Sources of bytes: memory and files give the same answers, growing ones are read as far as they go,
-// and no bytes in memory, cut or damaged, do more than throw an Error.
+// Sources of bytes: memory and files give the same answers, growing ones are read as far as they
+// go, and no bytes in memory, cut or damaged, do more than throw an Error.
 #include "paim/format/container/byte_source.h"
 
 #include <gtest/gtest.h>

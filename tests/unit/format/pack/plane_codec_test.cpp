@@ -43,7 +43,8 @@ std::vector<Integer> subtract(const PlanePredictor& predictor, Prediction predic
 }
 
 TEST(PlanePredictor, TakesNeighboursBeforeTheVertex) {
-    // Vertex 4 of a 3 × 3 grid: 1, 2, 3 are its neighbours before it (0 is not: the diagonal is from
+    // Vertex 4 of a 3 × 3 grid: 1, 2, 3 are its neighbours before it (0 is not: the diagonal is
+    // from
     // 1 to 3).
     const PlanePredictor predictor(grid(3));
     const std::vector<int16_t> values{100, 10, 20, 34, 7, 0, 0, 0, 0};
@@ -347,8 +348,9 @@ TEST(CacheOrder, IsAPermutationThatKeepsTheMesh) {
     EXPECT_TRUE(cache_order({4, {}}).topology.triangles.empty());
 }
 
-// Two planes of six values, laid out as in docs/format.md: packed symbols, then the gaps, low bytes and
-// high bytes of the escapes of both planes. An escape may add to any symbol, as the one of −699 does.
+// Two planes of six values, laid out as in docs/format.md: packed symbols, then the gaps, low bytes
+// and high bytes of the escapes of both planes. An escape may add to any symbol, as the one of −699
+// does.
 TEST(PlaneCodec, ReadsAFrameWrittenByHand) {
     const std::vector<uint8_t> contents{
         0x00, 1,    1, 0, 0, 0,  // no prediction, symbols up to 1, one escape

@@ -1,4 +1,5 @@
-// What a reader accepts decodes to finite numbers, whatever the pose and however much of it is used.
+// What a reader accepts decodes to finite numbers, whatever the pose and however much of it is
+// used.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -39,8 +40,8 @@ bool decodes_to_finite_numbers(const Asset& asset) {
 
 class FiniteValues : public testing::Test {
   protected:
-    // Multiplies the numbers that `numbers_of` picks by ever more, up to the largest float. Whatever is
-    // read back has to decode to finite numbers, and what surely does not is refused.
+    // Multiplies the numbers that `numbers_of` picks by ever more, up to the largest float.
+    // Whatever is read back has to decode to finite numbers, and what surely does not is refused.
     void grow(Asset asset, const std::function<std::vector<float>&(Asset&)>& numbers_of) {
         uint32_t num_read = 0, num_refused = 0;
         for (int exponent = 0; exponent <= 126; exponent += 3) {

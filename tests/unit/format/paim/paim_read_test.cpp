@@ -138,8 +138,8 @@ TEST(PaimFile, RefusesSingularValuesThatAreNoFloats) {
     EXPECT_FALSE(std::filesystem::exists(directory / "x.paim"));
 }
 
-// Whatever a compressed file's bytes are, and even where all checksums are right: an asset that can be
-// played, or a clear error.
+// Whatever a compressed file's bytes are, and even where all checksums are right: an asset that can
+// be played, or a clear error.
 TEST(PaimFile, SurvivesAnyByteOfCompressedSections) {
     const TemporaryDirectory directory;
     for (const bool clustered : {false, true}) {

@@ -122,8 +122,8 @@ TEST_F(ClusterTransfer, CoefficientsCostAsMuchAValueAsBases) {
     const Quantiser quantiser{0.01, 3, kWeights};
     const double bases = quantised_error(clustered.bases, quantiser);
     const double coefficients = clustered_error(clustered, quantiser) - bases - clustered.truncated;
-    // 1800 coefficients and 28 rows of 4 planes and 4 columns, less what weights can mend; each part
-    // has a deviation of some √(0.8 / 448), 4 %.
+    // 1800 coefficients and 28 rows of 4 planes and 4 columns, less what weights can mend; each
+    // part has a deviation of some √(0.8 / 448), 4 %.
     EXPECT_NEAR(coefficients / 1800.0 / (bases / 448.0), 1.0, 0.25);
 }
 
