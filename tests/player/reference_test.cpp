@@ -142,48 +142,25 @@ TEST_F(Reference, PlayerAgreesInThreePosesUnderTwoLights) {
     }
 }
 
-// Which types of integers matrices hold.
-struct IntegerTypes {
-    bool i8 = false, i16 = false;
-
-    void add(const StoredValues& values) {
-        if (values.holds_floats()) return;
-        (values.holds_i8() ? i8 : i16) = true;
-    }
-    void add(const LowRank& matrix) {
-        add(matrix.mean);
-        for (const StoredValues& component : matrix.components) add(component);
-    }
-};
-
-// Files of both codecs that meet a coarse and a fine target: integers of 8 and of 16 bits.
+// Files of both codecs that meet a target hold integers.
 TEST_F(Reference, PlayerAgreesOnIntegersOfBothCodecs) {
     const BakeReader bake(directory_ / "x.bake");
     EncodeOptions options;
     options.precision = Precision::i16;
     for (const std::string codec : {"svd", "cpca"}) {
-        IntegerTypes of_transfer, of_positions;
-        for (const double error : {0.2, 0.03}) {  // the noise of this bake leaves 0.0285
-            EncodeTarget target;
-            target.transfer_error = error;
-            target.codec = codec;
-            target.spectrum = BandPower::flat(bake.identity().layout.in_bands);
-            encode_to_target(bake, options, target, directory_ / "x.paim");
-            asset_ = read_paim(directory_ / "x.paim");
-            const CodedMesh& moving = asset_.moving();
-            EXPECT_EQ(moving.transfer->codec_name(), codec);
-            for (const CodedMesh& part : asset_.parts) {
-                of_positions.add(part.positions);
-                of_transfer.add(part.transfer->matrix);
-            }
-            for (const double time : {1.0, 4.5}) {
-                expect_same_picture(
-                    reference(time, make_sky(), 0.0), snapshot(time, {}),
-                    fmt::format("{} {} {}", moving.transfer->codec_name(), error, time));
-            }
+        EncodeTarget target;
+        target.transfer_error = 0.3;
+        target.codec = codec;
+        target.spectrum = BandPower::flat(bake.identity().layout.in_bands);
+        encode_to_target(bake, options, target, directory_ / "x.paim");
+        asset_ = read_paim(directory_ / "x.paim");
+        const LowRank& matrix = asset_.moving().transfer->matrix;
+        ASSERT_EQ(asset_.moving().transfer->codec_name(), codec);
+        ASSERT_FALSE(matrix.components.empty() || matrix.components[0].holds_floats()) << codec;
+        for (const double time : {1.0, 4.5}) {
+            expect_same_picture(reference(time, make_sky(), 0.0), snapshot(time, {}),
+                                fmt::format("{} {}", codec, time));
         }
-        EXPECT_TRUE(of_positions.i8 && of_positions.i16) << codec;
-        EXPECT_TRUE(of_transfer.i8 && of_transfer.i16) << codec;
     }
 }
 
