@@ -16,6 +16,7 @@
 #include "compressor/encode/encode.h"
 #include "paim/base/error.h"
 #include "paim/base/file.h"
+#include "paim/base/json_text.h"
 #include "paim/base/tbb_parallel.h"
 #include "paim/cli/progress.h"
 #include "paim/format/paim/paim_read.h"
@@ -121,7 +122,7 @@ void analyze(const AnalyzeOptions& options) {
     write_report(options.output, "Error analysis of " + asset.name, summary, curves, stage,
                  references, with_plots);
     if (options.json) {
-        fmt::print("{}\n", json.dump(2, ' ', false, decltype(json)::error_handler_t::replace));
+        fmt::print("{}\n", json_text(json, 2));
     } else {
         fmt::print("{}\n", (options.output / "index.html").string());
     }

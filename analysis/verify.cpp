@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "paim/base/error.h"
+#include "paim/base/json_text.h"
 #include "paim/base/tbb_parallel.h"
 #include "paim/format/paim/paim_read.h"
 #include "paim/metrics/asset_error.h"
@@ -75,7 +76,7 @@ void print_json(const AnalyzeOptions& options, const AssetError& error, const Ba
                      {"transfer_pose", error.transfer.worst_pose},
                      {"position_vertex", error.geometry.distance.worst_vertex},
                      {"position_pose", error.geometry.distance.worst_pose}};
-    fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    fmt::print("{}\n", json_text(json, 2));
 }
 
 void print_text(const AnalyzeOptions& options, const BandPower& spectrum,

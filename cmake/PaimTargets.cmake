@@ -13,10 +13,6 @@ if(PAIM_SANITIZE)
     target_link_options(paim_flags INTERFACE -fsanitize=address,undefined)
 endif()
 
-# Sources that parse options and print reports: CLI11 and nlohmann-json are most of what is compiled
-# there, nothing runs long, and -O1 takes a fifth less time than -O3.
-set(paim_front_end_options $<$<CONFIG:Release>:-O1>)
-
 # paim_add_tool(NAME SOURCES... LIBRARIES...): an installed command-line tool.
 function(paim_add_tool name)
     cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})

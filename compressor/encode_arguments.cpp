@@ -36,8 +36,8 @@ std::string codecs_of_floats() {
 }
 
 void add_codec_options(CLI::App& app, EncodeArguments& arguments, const char* group) {
-    const std::string costs = of_encoders(", ", [](const TransferEncoderType& type) {
-        return fmt::format("{} with {}", type.words.cost, type.codec);
+    const std::string costs = of_encoders("; ", [](const TransferEncoderType& type) {
+        return fmt::format("with {}, {}", type.codec, type.words.cost);
     });
     app.add_option(
            "--max-decode-cost", arguments.max_decode_cost,

@@ -14,6 +14,7 @@
 #include "compressor/output_check.h"
 #include "compressor/target_report.h"
 #include "paim/base/error.h"
+#include "paim/base/json_text.h"
 #include "paim/base/parallel.h"
 #include "paim/base/tbb_parallel.h"
 #include "paim/cli/progress.h"
@@ -160,7 +161,7 @@ void run(const CompressOptions& options) {
     const ThreadLimit limit(options.num_threads);
     const ordered_json json = run_command(options);
     if (options.json) {
-        fmt::print("{}\n", json.dump(2, ' ', false, ordered_json::error_handler_t::replace));
+        fmt::print("{}\n", json_text(json, 2));
     }
 }
 

@@ -9,6 +9,7 @@
 #include <functional>
 #include <vector>
 
+#include "paim/base/json_text.h"
 #include "paim/base/parallel.h"
 #include "paim/codec/playback.h"
 #include "paim/light/environment.h"
@@ -107,7 +108,7 @@ void run_bench(const Options& options, const Scene& scene) {
         json["cpu_min_ms"] = cpu.min_ms;
         json["cpu_threads"] = num_threads;
         json["vertices_to_cpu_ratio"] = ratio;
-        fmt::print("{}\n", json.dump(2));
+        fmt::print("{}\n", json_text(json, 2));
         return;
     }
     const auto print = [](const char* what, const Times& times) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "paim/base/json_text.h"
 #include "paim/image/exr.h"
 #include "paim/image/png.h"
 #include "player/gl/headless_context.h"
@@ -55,7 +56,7 @@ void take_snapshot(const Options& options, const Scene& scene) {
     json["env_rotation_deg"] = options.env_rotation_rad * 180.0 / kPi;
     json["exposure_ev"] = options.tone_curve.exposure_ev;
     json["gamma"] = options.tone_curve.gamma;
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}\n", json_text(json, 2));
 }
 
 }  // namespace paim::player

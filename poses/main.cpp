@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "paim/base/json_text.h"
 #include "paim/base/tbb_parallel.h"
 #include "paim/cli/progress.h"
 #include "paim/cli/run_main.h"
@@ -26,7 +27,7 @@ void report(const poses::Options& options, const Topology& topology, bool colore
             {"first_file", poses::obj_file_name(options.name, 0, options.num_poses)},
             {"last_file",
              poses::obj_file_name(options.name, options.num_poses - 1, options.num_poses)}};
-        fmt::print("{}\n", result.dump());
+        fmt::print("{}\n", json_text(result));
         return;
     }
     fmt::print("{}: {} vertices, {} triangles, {} poses in {}\n", options.name,

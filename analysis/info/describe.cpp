@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "paim/base/json_text.h"
 #include "paim/format/bake/bake_directory.h"
 #include "paim/format/paim/paim_read.h"
 #include "paim/format/paim/paim_write.h"
@@ -123,12 +124,12 @@ void append_lines(const ordered_json& json, int indent, std::string& text) {
         } else if (value.is_array()) {
             for (const auto& entry : value) {
                 text += ' ';
-                text += entry.is_number() ? number_text(entry.get<double>()) : entry.dump();
+                text += entry.is_number() ? number_text(entry.get<double>()) : json_text(entry);
             }
             text += '\n';
         } else {
-            text +=
-                fmt::format(" {}\n", value.is_string() ? value.get<std::string>() : value.dump());
+            text += fmt::format(" {}\n",
+                                value.is_string() ? value.get<std::string>() : json_text(value));
         }
     }
 }

@@ -3,6 +3,7 @@
 
 #include "analysis/info/describe.h"
 #include "analysis/info/prefix_table.h"
+#include "paim/base/json_text.h"
 #include "paim/cli/parse.h"
 #include "paim/cli/run_main.h"
 
@@ -23,11 +24,9 @@ int main(int argc, char** argv) {
         if (exit_code >= 0) return exit_code;
         const auto description = prefixes ? paim::describe_prefixes(path) : paim::describe(path);
         using nlohmann::ordered_json;
-        fmt::print(
-            "{}",
-            json ? description.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n"
-            : prefixes ? paim::prefixes_as_text(description)
-                       : paim::as_text(description));
+        fmt::print("{}", json       ? paim::json_text(description, 2) + "\n"
+                         : prefixes ? paim::prefixes_as_text(description)
+                                    : paim::as_text(description));
         return 0;
     });
 }

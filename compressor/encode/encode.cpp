@@ -19,6 +19,7 @@
 #include "compressor/encode/state_errors.h"
 #include "compressor/encode/svd/projected_blocks.h"
 #include "paim/base/file.h"
+#include "paim/base/json_text.h"
 #include "paim/codec/codecs.h"
 #include "paim/format/paim/paim_write.h"
 #include "paim/metrics/singular_value_error.h"
@@ -132,7 +133,7 @@ std::string provenance(const BakeIdentity& identity, const PoseStatistics& total
     auto json = nlohmann::ordered_json::parse(bake_provenance(identity, total));
     json["noise"] = summary.shrunk ? "shrink" : "keep";
     json["expected_transfer_error"] = summary.expected_error();
-    return json.dump();
+    return json_text(json);
 }
 
 // Returns everything but what is measured. Its own memory is free again when it returns.

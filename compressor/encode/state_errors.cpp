@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compressor/encode/memory/measuring_memory.h"
+#include "paim/base/json_text.h"
 #include "paim/format/paim/paim_read.h"
 #include "paim/format/paim/paim_write.h"
 
@@ -18,7 +19,7 @@ AssetError state_errors(const std::filesystem::path& file, const BakeReader& bak
     const AssetError error = measure_asset(asset, bake, spectrum);
     auto provenance = nlohmann::ordered_json::parse(asset.provenance_json);
     provenance["measured"] = nlohmann::ordered_json::parse(error_statement_json(error, spectrum));
-    asset.provenance_json = provenance.dump();
+    asset.provenance_json = json_text(provenance);
     write_paim(file, asset);
     return error;
 }

@@ -4,12 +4,16 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "paim/base/export.h"
 #include "paim/codec/stored_values.h"
 
 namespace paim {
+
+// The largest step of integers: 2^15 times it is finite. Larger ones are neither written nor read.
+constexpr float kMaxStep = std::numeric_limits<float>::max() / 32768.0f;
 
 // Column p of the matrix is pose p (E3, E4):
 //   mean + Σ_k weights[k][p] · components[k].

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "paim/base/error.h"
+#include "paim/base/json_text.h"
 #include "paim/base/parallel.h"
 #include "paim/codec/component_planes.h"
 #include "paim/codec/rebuild_planes.h"
@@ -157,7 +158,7 @@ std::string error_statement_json(const AssetError& error, const BandPower& spect
     json["light_spectrum"] = spectrum.name;
     for (const NamedError& named : named_errors(error)) json[named.name] = named.value;
     // Names of files may have bytes that are not UTF-8, which are replaced.
-    return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    return json_text(json);
 }
 
 ErrorStatement read_error_statement(const Asset& asset, const std::filesystem::path& file) {

@@ -81,7 +81,8 @@ void draw_settings(const OverlayInfo& info, const ViewRange& range, ViewState& v
         ImGui::Separator();
         text(fmt::format("{:.2f} ms, {:.0f} frames/s", info.frame_ms,
                          info.frame_ms > 0.0 ? 1000.0 / info.frame_ms : 0.0));
-        text(fmt::format("{} of {}", megabytes(info.cost.bytes), megabytes(info.file_bytes)));
+        text(fmt::format("{} in memory, {} file", megabytes(info.cost.bytes),
+                         megabytes(info.file_bytes)));
         text(fmt::format("{} multiply-adds per vertex", info.cost.multiply_adds));
         dim_text(info.renderer);
         dim_text("H: keys");

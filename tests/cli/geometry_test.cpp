@@ -55,6 +55,19 @@ TEST_F(Geometry, OddMeshesAreCountedAndExplained) {
     EXPECT_EQ(json["mesh"], expected);
 }
 
+// Nothing shadows a triangle, so that all its vertices have the same transfer.
+TEST_F(Geometry, OneTriangleMeetsATargetWithEveryCodec) {
+    std::filesystem::create_directory(directory_ / "t");
+    write("t/0.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    expect_success(
+        compress({"bake", path("t"), "-o", path("t.bake"), "--rays", "16", "--bands", "10"}));
+    for (const char* codec : {"auto", "svd", "cpca"}) {
+        expect_success(compress({"encode", path("t.bake"), "-o", path("t.paim"), "--max-error",
+                                 "10%", "--codec", codec}));
+        expect_success(info({path("t.paim")}));
+    }
+}
+
 TEST_F(Geometry, NothingIsSaidOfCleanMeshes) {
     const std::string sphere = make_poses("sphere", 1, 50);
     const ToolResult result =

@@ -85,6 +85,14 @@ TEST(PosesTool, ReportsInJsonWhatItWrote) {
     EXPECT_EQ(num_files, 3u);
 }
 
+TEST(PosesTool, ReportsNamesThatAreNotUtf8) {
+    const TemporaryDirectory directory;
+    const ToolResult result = run_poses(
+        {"box", "-o", (directory / "\xfd").string(), "--vertices", "50", "--poses", "1", "--json"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_TRUE(nlohmann::json::accept(result.out)) << result.out;
+}
+
 TEST(PosesTool, WritesTheSameBytesEveryTime) {
     const TemporaryDirectory directory;
     for (const std::string name : {"octopus", "sphere", "box", "plates", "cavity", "bowl"}) {

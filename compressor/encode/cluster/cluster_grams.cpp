@@ -2,8 +2,6 @@
 // Based on: Sirovich 1987; Halko, Martinsson and Tropp 2011
 #include "compressor/encode/cluster/cluster_grams.h"
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 
 #include "paim/base/parallel.h"
@@ -97,8 +95,8 @@ MatrixXd projected_start(const MatrixXf& projected, std::span<const uint32_t> me
     if (known == 0) return orthonormal_basis(start);
     const Eigen::RowVectorXd mean = rows.colwise().mean();
     rows.rowwise() -= mean;
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(rows.transpose() * rows);
-    start.leftCols(known) = rows * solver.eigenvectors().rightCols(known).rowwise().reverse();
+    const Eigenpairs all = all_eigenpairs(rows.transpose() * rows);
+    start.leftCols(known) = rows * all.vectors.leftCols(known);
     return orthonormal_basis(start);
 }
 

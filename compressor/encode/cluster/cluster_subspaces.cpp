@@ -3,11 +3,11 @@
 //           Eigenvalue Problems, 2011, chapter 5
 #include "compressor/encode/cluster/cluster_subspaces.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 
 #include <algorithm>
 
+#include "compressor/encode/cluster/top_eigenpairs.h"
 #include "paim/base/check.h"
 #include "paim/base/parallel.h"
 #include "paim/base/seed.h"
@@ -58,14 +58,14 @@ Principal principal_within(const MatrixXf& points, std::span<const uint32_t> mem
         const Eigen::MatrixXd factors = (basis.transpose() * block).cast<double>();
         gram.noalias() += factors * factors.transpose();
     });
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram);
+    const Eigenpairs all = all_eigenpairs(gram);
     const Index size = gram.rows();
     // Floats give amplitudes to some 2^-20 of the largest: what is below is not the members'.
-    const double floor = 0x1p-40 * solver.eigenvalues()[size - 1];
+    const double floor = size == 0 ? 0.0 : 0x1p-40 * all.values[0];
     Index kept = 0;
-    while (kept < size && solver.eigenvalues()[size - 1 - kept] > floor) ++kept;
-    return {basis * solver.eigenvectors().rightCols(kept).rowwise().reverse().cast<float>(),
-            solver.eigenvalues().tail(kept).reverse().cwiseInverse().cast<float>()};
+    while (kept < size && all.values[kept] > floor) ++kept;
+    return {basis * all.vectors.leftCols(kept).cast<float>(),
+            all.values.head(kept).cwiseInverse().cast<float>()};
 }
 
 }  // namespace

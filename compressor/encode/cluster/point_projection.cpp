@@ -2,13 +2,12 @@
 // Based on: Halko, Martinsson and Tropp 2011 (see the header), algorithms 4.1 and 5.1
 #include "compressor/encode/cluster/point_projection.h"
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
+#include "compressor/encode/cluster/top_eigenpairs.h"
 #include "paim/base/parallel.h"
 #include "paim/base/seed.h"
 
@@ -95,14 +94,13 @@ struct Directions {
 };
 
 Directions principal_directions(const MatrixXd& gram, Index at_most) {
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(gram);
-    const Index size = gram.rows();
+    const Eigenpairs all = all_eigenpairs(gram);
+    const Index most = std::min(at_most, all.values.size());
     // Sums of floats are right to some 2^-23; below that there are no directions, only rounding.
-    const double floor = size == 0 ? 0.0 : 0x1p-22 * std::max(0.0, solver.eigenvalues()[size - 1]);
+    const double floor = most == 0 ? 0.0 : 0x1p-22 * std::max(0.0, all.values[0]);
     Index kept = 0;
-    while (kept < std::min(at_most, size) && solver.eigenvalues()[size - 1 - kept] > floor) ++kept;
-    return {solver.eigenvectors().rightCols(kept).rowwise().reverse().transpose(),
-            solver.eigenvalues().tail(kept).reverse()};
+    while (kept < most && all.values[kept] > floor) ++kept;
+    return {all.vectors.leftCols(kept).transpose(), all.values.head(kept)};
 }
 
 }  // namespace

@@ -18,6 +18,12 @@ Index iterated_directions(Index wanted, Index n) {
     return std::min(n, wanted + std::max<Index>(8, wanted / 2));
 }
 
+Eigenpairs all_eigenpairs(const MatrixXd& symmetric) {
+    if (symmetric.rows() == 0) return {};
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(symmetric);
+    return {solver.eigenvalues().reverse(), solver.eigenvectors().rowwise().reverse()};
+}
+
 MatrixXd orthonormal_basis(const MatrixXd& columns) {
     const Eigen::HouseholderQR<MatrixXd> qr(columns);
     return qr.householderQ() * MatrixXd::Identity(columns.rows(), columns.cols());
@@ -26,10 +32,9 @@ MatrixXd orthonormal_basis(const MatrixXd& columns) {
 Eigenpairs ritz_pairs(const MatrixXd& q, const MatrixXd& gram_q, Index wanted) {
     MatrixXd within = q.transpose() * gram_q;
     within = 0.5 * (within + within.transpose()).eval();
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(within);
+    const Eigenpairs all = all_eigenpairs(within);
     wanted = std::min(wanted, q.cols());
-    return {solver.eigenvalues().tail(wanted).reverse().cwiseMax(0.0),
-            q * solver.eigenvectors().rightCols(wanted).rowwise().reverse()};
+    return {all.values.head(wanted).cwiseMax(0.0), q * all.vectors.leftCols(wanted)};
 }
 
 Eigenpairs top_eigenpairs(const MatrixXd& gram, Index wanted, uint64_t key) {
@@ -38,9 +43,8 @@ Eigenpairs top_eigenpairs(const MatrixXd& gram, Index wanted, uint64_t key) {
     const Index iterated = iterated_directions(wanted, n);
     // Measured: from about here on iterating is the faster of the two.
     if (n <= 4 * iterated) {
-        const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(gram);
-        return {solver.eigenvalues().tail(wanted).reverse().cwiseMax(0.0),
-                solver.eigenvectors().rightCols(wanted).rowwise().reverse()};
+        const Eigenpairs all = all_eigenpairs(gram);
+        return {all.values.head(wanted).cwiseMax(0.0), all.vectors.leftCols(wanted)};
     }
     constexpr int kMaxSteps = 200, kStepsACheck = 2;
     RandomStream random(key);

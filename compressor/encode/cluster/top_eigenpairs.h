@@ -10,14 +10,19 @@
 namespace paim {
 
 struct Eigenpairs {
-    Eigen::VectorXd values;   // [m] descending, at least 0
+    Eigen::VectorXd values;   // [m] descending
     Eigen::MatrixXd vectors;  // [n][m] orthonormal columns
 };
+
+// All eigenpairs of a symmetric matrix [n][n]. A matrix without rows has none: Eigen's solver would
+// read its first value.
+Eigenpairs all_eigenpairs(const Eigen::MatrixXd& symmetric);
 
 // Directions that are iterated for so many that are wanted of n.
 Eigen::Index iterated_directions(Eigen::Index wanted, Eigen::Index n);
 
 // The best of the span of orthonormal columns Q (Rayleigh and Ritz), given G Q.
+// Values are at least 0.
 Eigenpairs ritz_pairs(const Eigen::MatrixXd& q, const Eigen::MatrixXd& gram_q, Eigen::Index wanted);
 
 // An orthonormal basis of the span of columns, as many of them.
@@ -26,7 +31,7 @@ Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns);
 // gram  [n][n] symmetric, positive semidefinite, both halves filled
 // Small matrices are decomposed whole. Others are iterated until the sum of the wanted values grows
 // by less than 2^-40 of the trace a step: what is found is orthonormal and its values are exact
-// for it (v · G v), so that energies add up, converged or not.
+// for it (v · G v), so that energies add up, converged or not. Values are at least 0.
 // key  of the random start
 Eigenpairs top_eigenpairs(const Eigen::MatrixXd& gram, Eigen::Index wanted, uint64_t key);
 

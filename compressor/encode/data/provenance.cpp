@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "paim/base/json_text.h"
+
 namespace paim {
 
 std::string bake_provenance(const BakeIdentity& identity, const PoseStatistics& total) {
@@ -19,7 +21,7 @@ std::string bake_provenance(const BakeIdentity& identity, const PoseStatistics& 
     json["normals"] = identity.normals;
     if (identity.bounces > 0) json["bounces"] = identity.bounces;
     json["bake_noise"] = total.relative_noise();
-    return json.dump();
+    return json_text(json);
 }
 
 }  // namespace paim

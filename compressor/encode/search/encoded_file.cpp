@@ -8,6 +8,7 @@
 
 #include "compressor/encode/data/provenance.h"
 #include "compressor/encode/search/quantise_still.h"
+#include "paim/base/json_text.h"
 #include "paim/codec/codecs.h"
 #include "paim/codec/frame_cost.h"
 
@@ -112,7 +113,7 @@ std::optional<EncodedFile> EncodedFiles::pack(const Targets& targets,
     provenance["noise"] = options_.noise == NoiseTreatment::shrink ? "shrink" : "keep";
     provenance["measured"] =
         nlohmann::ordered_json::parse(error_statement_json(refined.error, target_.spectrum));
-    asset.provenance_json = provenance.dump();
+    asset.provenance_json = json_text(provenance);
     return EncodedFile{PackedFile(asset),
                        refined.error,
                        targets,

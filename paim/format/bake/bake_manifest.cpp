@@ -9,6 +9,7 @@
 #include "paim/base/error.h"
 #include "paim/base/file.h"
 #include "paim/base/hash.h"
+#include "paim/base/json_text.h"
 #include "paim/codec/asset.h"
 #include "paim/format/container/metadata.h"
 
@@ -54,8 +55,7 @@ std::string first_difference(const char* what, const std::vector<BakeIdentity::S
 }  // namespace
 
 std::string as_manifest_text(const std::string& text) {
-    const std::string dumped =
-        ordered_json(text).dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+    const std::string dumped = json_text(ordered_json(text));
     return ordered_json::parse(dumped).get<std::string>();
 }
 
@@ -88,7 +88,7 @@ std::string manifest_text(const BakeIdentity& identity) {
     for (const auto& source : identity.still_meshes) {
         json["static"].push_back({{"name", source.name}, {"xxh3", hex(source.xxh3)}});
     }
-    return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+    return json_text(json, 2) + "\n";
 }
 
 BakeIdentity read_manifest(const std::filesystem::path& path) {

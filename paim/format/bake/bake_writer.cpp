@@ -11,6 +11,7 @@
 #include "paim/base/file.h"
 #include "paim/base/half.h"
 #include "paim/base/hash.h"
+#include "paim/base/json_text.h"
 #include "paim/format/bake/bake_directory.h"
 #include "paim/format/bake/bake_manifest.h"
 #include "paim/format/container/mesh_section_writer.h"
@@ -33,7 +34,7 @@ std::string pose_metadata(uint64_t bake, uint32_t p, const PoseStatistics& stati
     json["noise_rms"] = statistics.noise_rms;
     json["zero_area_faces"] = statistics.mesh.zero_area_faces;
     json["coincident_faces"] = statistics.mesh.coincident_faces;
-    return json.dump(2) + "\n";
+    return json_text(json, 2) + "\n";
 }
 
 // Whether the directory has only files that are written up to the manifest: another process is

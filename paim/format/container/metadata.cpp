@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "paim/base/error.h"
+#include "paim/base/json_text.h"
 
 namespace paim {
 
@@ -18,7 +19,7 @@ constexpr int kMaxDepth = 16;
 
 // The value as text, short enough for a message.
 std::string shown(const json& value) {
-    return value.dump(-1, ' ', false, json::error_handler_t::replace).substr(0, 60);
+    return json_text(value).substr(0, 60);
 }
 
 }  // namespace

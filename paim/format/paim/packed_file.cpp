@@ -108,8 +108,8 @@ class Packer {
                     return encode_planes(weight_integers(matrix), matrix.num_components, predictor);
                 }};
     }
-    Task operator()(const WeightSteps& row) const { return floats(row.matrix->weight_steps); }
-    Task operator()(const Steps& row) const { return floats(row.matrix->steps); }
+    Task operator()(const WeightSteps& row) const { return steps(row.matrix->weight_steps); }
+    Task operator()(const Steps& row) const { return steps(row.matrix->steps); }
     Task operator()(const MatrixValues& row) const {
         PAIM_CHECK(row.values != nullptr);
         // Floats of still parts are few and smooth enough to be worth compressing.
@@ -142,6 +142,16 @@ class Packer {
     }
     Task floats(const std::vector<float>& values) const {
         return zstd(ScalarType::f32, std::span<const float>(values));
+    }
+    Task steps(const std::vector<float>& values) const {
+        for (const float step : values) {
+            if (!(step <= kMaxStep)) {
+                throw_bad_input(
+                    "a step of integers is {}, expected at most {}: scale the poses down", step,
+                    kMaxStep);
+            }
+        }
+        return floats(values);
     }
     // Integers are predicted, floats stored as they are.
     Task values(const StoredValues& values, Precision precision) const {

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "paim/base/error.h"
+#include "paim/base/json_text.h"
 
 namespace paim {
 
@@ -37,7 +38,7 @@ std::string paim_metadata(const Asset& asset) {
     }
     root["provenance"] =
         nlohmann::ordered_json::parse(asset.provenance_json.empty() ? "{}" : asset.provenance_json);
-    return root.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+    return json_text(root, 2) + "\n";
 }
 
 std::vector<uint32_t> read_singular_indices(const Metadata& metadata, Attribute attribute,

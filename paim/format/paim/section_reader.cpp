@@ -150,10 +150,9 @@ StoredValues read_values(const ContainerReader& reader, const Section& section,
 std::vector<float> read_steps(const ContainerReader& reader, const Section& section) {
     std::vector<float> steps = reader.read_f32(section);
     for (const float step : steps) {
-        constexpr float kMax = std::numeric_limits<float>::max() / 32768.0f;
-        if (!(step >= 0.0f && step <= kMax)) {
+        if (!(step >= 0.0f && step <= kMaxStep)) {
             throw_bad_input("{}: steps: expected numbers from 0 to {:.3g}, got {}",
-                            reader.label(section), kMax, step);
+                            reader.label(section), kMaxStep, step);
         }
     }
     return steps;

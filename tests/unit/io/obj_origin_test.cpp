@@ -80,8 +80,8 @@ TEST(ObjOrigin, RefusesMeshesBelowNormalFloats) {
 TEST(ObjOrigin, DoesNotDependOnThreads) {
     std::vector<std::string> contents;
     for (int i = 0; i < 30; ++i) {
-        const std::string x = std::to_string(5000 + i * i % 17) + ".3";
-        contents.push_back("v " + x + " 0 0\nv 5001.7 0 0\nv 5002 1 0\nf 1 2 3\n");
+        contents.push_back(
+            fmt::format("v {}.3 0 0\nv 5001.7 0 0\nv 5002 1 0\nf 1 2 3\n", 5000 + i * i % 17));
     }
     const ObjTestFiles files(contents);
     const auto origin = [&](int num_threads) {

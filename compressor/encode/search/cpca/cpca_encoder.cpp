@@ -209,7 +209,7 @@ class CpcaEncoder : public TransferEncoder {
 TransferEncoderType cpca_encoder_type() {
     EncoderWords words;
     words.description = "clusters; much cheaper to play";
-    words.cost = "3 (J + 1) in all, with J components a cluster";
+    words.cost = "3 (J + 1) in all for J components a cluster";
     words.missed = "cannot be met by clusters of as many components as are tried: use --codec auto";
     words.numbers = {kClusters, kClusterComponents};
     words.heading = "clusters x components";

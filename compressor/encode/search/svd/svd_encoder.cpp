@@ -95,7 +95,7 @@ class SvdEncoder : public TransferEncoder {
 TransferEncoderType svd_encoder_type() {
     EncoderWords words;
     words.description = "components over the poses";
-    words.cost = "K + 4 for each coefficient, or 3 (K + 2) with coloured transfer";
+    words.cost = "K + 4 for each coefficient, 3 (K + 2) if transfer is coloured";
     words.missed = "needs values of more than 16 bits: use --precision f32";
     return {SvdTransfer::kName, true,
             [](const TransferSearchTask& task) -> std::unique_ptr<TransferEncoder> {

@@ -56,6 +56,16 @@ TEST(PointProjection, FindsThePrincipalDirections) {
     EXPECT_GT(left_here, 0.99 * left);
 }
 
+// In more dimensions than the sketch has, and in fewer.
+TEST(PointProjection, OfEqualPointsHasNoDirections) {
+    for (const Index dimensions : {120, 20}) {
+        const MatrixXf matrix = MatrixXf::Constant(50, dimensions, 0.3f);
+        const MatrixXf projected = project_points(MatrixPoints(matrix, 10), 64, 1);
+        EXPECT_EQ(projected.rows(), 0) << dimensions;
+        EXPECT_EQ(projected.cols(), 50) << dimensions;
+    }
+}
+
 TEST(PointProjection, OfFewDimensionsIsARotation) {
     const MatrixXf matrix = random_matrix(500, 30, 4);
     const MatrixXf projected = project_points(MatrixPoints(matrix, 3), 64, 1);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -47,8 +48,7 @@ class FiniteValues : public testing::Test {
         for (int exponent = 0; exponent <= 126; exponent += 3) {
             Asset grown = asset;
             for (float& number : numbers_of(grown)) {
-                constexpr float kMax = std::numeric_limits<float>::max() / 32768.0f;
-                number = std::clamp(std::ldexp(number, exponent), -kMax, kMax);
+                number = std::clamp(std::ldexp(number, exponent), -kMaxStep, kMaxStep);
             }
             write_paim(directory_ / "x.paim", grown);
             try {
@@ -80,6 +80,27 @@ TEST_F(FiniteValues, OfIntegersTimesSteps) {
     }
     grow(asset, [](Asset& a) -> std::vector<float>& { return a.moving().positions.steps; });
     grow(asset, [](Asset& a) -> std::vector<float>& { return a.moving().transfer->matrix.steps; });
+}
+
+// What no reader would take is not written.
+TEST_F(FiniteValues, OfStepsAreAskedForBeforeWriting) {
+    const auto steps_of = [](Asset& a) -> std::array<std::vector<float>*, 2> {
+        return {&a.moving().positions.steps, &a.moving().transfer->matrix.steps};
+    };
+    const Asset asset = quantise_example(make_example_asset());
+    for (size_t which = 0; which < 2; ++which) {
+        Asset grown = asset;
+        std::vector<float>& steps = *steps_of(grown)[which];
+        ASSERT_FALSE(steps.empty()) << which;
+        steps.back() = std::nextafter(kMaxStep, 2.0f * kMaxStep);
+        try {
+            write_paim(directory_ / "x.paim", grown);
+            ADD_FAILURE() << which;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ExitCode::bad_input) << error.what();
+        }
+        EXPECT_FALSE(std::filesystem::exists(directory_ / "x.paim")) << which;
+    }
 }
 
 TEST_F(FiniteValues, OfComponentsTimesWeights) {
