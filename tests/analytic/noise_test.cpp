@@ -160,7 +160,7 @@ TEST(BakeNoise, IsTakenOutAgainByEncoding) {
     EXPECT_LT(truth.flicker(decoded), least_flicker);
 
     // As the noise of a pose is independent of all others', mean and K components let 1 + K of P
-    // parts through. And they lack what of the truth is beyond them.
+    // parts through. And they lack the part of the truth that lies beyond them.
     const double share = (1.0 + static_cast<double>(best)) / kPoses;
     const Eigen::MatrixXd left =
         (exact.transfer - truncated(exact.transfer, v, best)).cast<double>();

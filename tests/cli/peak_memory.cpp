@@ -1,6 +1,6 @@
-// Runs a tool and says how much memory it took at its peak, in bytes. The system counts the memory
-// of whoever starts a tool as the tool's own, until the tool's code takes its place. So this
-// program is small, and tests, which are not, start tools through it.
+// Runs a tool and says how much memory it took at its peak, in bytes. The peak of a process
+// that starts a tool counts as the tool's own, because the tool's code replaces it only afterwards.
+// So this program is small, and tests, which are large, start tools through it.
 #include <fcntl.h>
 #include <spawn.h>
 #include <sys/resource.h>

@@ -7,7 +7,7 @@
 
 namespace paim {
 
-// A JSON object: what of a bake a .paim keeps in its provenance.
+// The JSON object with which a .paim states the bake that it was made from.
 std::string bake_provenance(const BakeIdentity& identity, const PoseStatistics& total);
 
 }  // namespace paim

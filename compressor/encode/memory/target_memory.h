@@ -12,7 +12,7 @@ namespace paim {
 
 struct TargetSize;
 
-// What the search for codings of one codec takes, beside what the search for any codec takes. Upper
+// What the search for codings of one codec takes in addition to the search for any codec. Upper
 // bounds for the threads of the size.
 struct CodecMemory {
     uint64_t num_points = 0;       // of the codec's matrix; 0 if its points are the vertices

@@ -1,4 +1,4 @@
-// Scales components down by what of them is noise.
+// Scales each component down by its share of noise.
 // Based on: Wiener 1949; Efron and Morris 1973 (see the header)
 #include "compressor/encode/noise/shrinkage.h"
 

@@ -1,4 +1,4 @@
-// Scales components down by what of them is noise.
+// Scales each component down by its share of noise.
 // Based on: Wiener, Extrapolation, Interpolation, and Smoothing of Stationary Time Series, 1949;
 // Efron
 //           and Morris, Stein's Estimation Rule and Its Competitors: An Empirical Bayes Approach, 1973

@@ -1,4 +1,4 @@
-// Playback on the CPU: what it shows against decoding and shading, and when it computes it anew.
+// Playback on the CPU: its results against decoding and shading, and when it computes them again.
 #include "paim/codec/playback.h"
 
 #include <gtest/gtest.h>

@@ -96,7 +96,7 @@ TEST(TransferError, WeighsBandsByTheLight) {
     EXPECT_EQ(natural.bands[1].error_to_bake, 4.0);
 }
 
-// Bands that the bake lacks are extrapolated from what of its last band is no noise, of all
+// Bands that the bake lacks are extrapolated from the signal in its last band, of all
 // vertices, poses and channels. Those here end before band 3, so that the last one alone tells the
 // amplitude.
 TEST(TransferError, ExtrapolatesTheSignalOfTheLastBand) {
@@ -199,7 +199,7 @@ TEST(TransferError, CountsBandsThatAreNotKept) {
 }
 
 // Signal of rank 4 and noise that grows with the vertex, both known; decoded as projections and as
-// projections that are scaled down by what of them is noise, differently for each vertex.
+// projections that are scaled down by their share of noise, differently for each vertex.
 class KnownTruth : public testing::Test {
   protected:
     static constexpr Index kVertices = 12'000, kPoses = 24, kRank = 4;

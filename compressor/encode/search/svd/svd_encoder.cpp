@@ -101,7 +101,7 @@ TransferEncoderType svd_encoder_type() {
             [](const TransferSearchTask& task) -> std::unique_ptr<TransferEncoder> {
                 return std::make_unique<SvdEncoder>(task);
             },
-            // Its points are the vertices, and it holds nothing beside the factors.
+            // Its points are the vertices, and it holds only the factors.
             [](const TargetSize&) { return CodecMemory(); }, words};
 }
 
