@@ -158,12 +158,6 @@ void check_with_target(const EncodeArguments& arguments) {
     decided(arguments.geometry_components, defaults.geometry_components, "--geometry-components");
     decided(arguments.transfer_components, defaults.transfer_components, "--transfer-components");
     decided(arguments.auto_transfer_error, defaults.auto_transfer_error, "--auto-transfer-error");
-    if (arguments.precision == PrecisionChoice::automatic) return;
-    for (const TransferEncoderType& type : transfer_encoders()) {
-        if (type.codec != arguments.codec || type.codes_floats) continue;
-        throw_usage("--codec {}: needs --precision auto, as floats are coded as {}", type.codec,
-                    codecs_of_floats());
-    }
 }
 
 // The target without its band power, which depends on the bands of the bake.
@@ -245,6 +239,7 @@ void apply(const EncodeArguments& arguments, CompressOptions& options) {
         check_without_target(arguments, options);
     }
     options.encode.precision = precision_of(arguments.precision, arguments.has_target());
+    if (options.target) encoders_to_try(options.target->codec, options.encode.precision);  // checks
 }
 
 }  // namespace paim

@@ -155,4 +155,19 @@ inline Asset with_still(Asset asset, CodedMesh still) {
     return asset;
 }
 
+// Integers, clustered or not, with weights that are integers, too, as the encoder makes them.
+inline Asset make_packed_example(bool clustered) {
+    Asset asset = clustered ? make_clustered_example(3, 3, 2, true)
+                            : quantise_example(make_example_asset(3, 3));
+    asset.vertex_order = VertexOrder::cache;
+    LowRank& matrix = asset.moving().transfer->matrix;
+    matrix.weight_steps = {0.25f, 0.0f, 1e-3f};
+    for (size_t j = 0; j < matrix.weights.size(); ++j) {
+        const float step = matrix.weight_steps[j / matrix.num_poses];
+        const auto q = static_cast<int32_t>(j * 977 % 4001) - 2000;
+        matrix.weights[j] = step * static_cast<float>(q);
+    }
+    return asset;
+}
+
 }  // namespace paim

@@ -19,8 +19,8 @@ std::unique_ptr<TransferModel> make() {
 }
 
 std::vector<TransferCodec>& codecs() {
-    static std::vector<TransferCodec> all{{SvdTransfer::kName, "", make<SvdTransfer>},
-                                          {CpcaTransfer::kName, "clusters", make<CpcaTransfer>}};
+    static std::vector<TransferCodec> all{{SvdTransfer::kName, make<SvdTransfer>},
+                                          {CpcaTransfer::kName, make<CpcaTransfer>, "clusters"}};
     return all;
 }
 
@@ -31,11 +31,14 @@ std::span<const TransferCodec> transfer_codecs() {
 }
 
 const TransferCodec& plain_codec() {
-    const auto found =
-        std::find_if(codecs().begin(), codecs().end(),
-                     [](const TransferCodec& codec) { return codec.marker.empty(); });
-    PAIM_CHECK(found != codecs().end());
-    return *found;
+    return codecs().front();
+}
+
+bool is_named_in_files(std::string_view codec) {
+    return codec != plain_codec().name &&
+           std::none_of(codecs().begin(), codecs().end(), [&](const TransferCodec& other) {
+               return other.name == codec && !other.marker.empty();
+           });
 }
 
 CodedTransfer plain_transfer(LowRank matrix) {
@@ -47,10 +50,8 @@ CodedTransfer plain_transfer(LowRank matrix) {
 }
 
 void add_transfer_codec(const TransferCodec& codec) {
-    PAIM_CHECK(!codec.marker.empty());
-    for (const TransferCodec& other : codecs()) {
-        PAIM_CHECK(codec.name != other.name && codec.marker != other.marker);
-    }
+    PAIM_CHECK(codec.marker.empty());
+    for (const TransferCodec& other : codecs()) PAIM_CHECK(codec.name != other.name);
     codecs().push_back(codec);
 }
 

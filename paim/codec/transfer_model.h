@@ -69,8 +69,7 @@ class PAIM_EXPORT TransferModel {
     // values add up over the vertices. Empty: each point counts once.
     virtual std::vector<Eigen::MatrixXd> point_metrics() const { return {}; }
 
-    // The numbers of the metadata that this codec has, in the order of the file. The codec's marker
-    // (codecs.h) is one of them.
+    // The numbers of the metadata that this codec has, in the order of the file.
     virtual std::vector<NamedNumber> numbers() { return {}; }
     // The same numbers, to be read only.
     std::vector<NamedNumber> numbers() const { return const_cast<TransferModel*>(this)->numbers(); }

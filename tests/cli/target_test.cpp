@@ -157,7 +157,7 @@ TEST_F(Target, RefusesWhatMakesNoSense) {
     expect_failure(try_to_encode({"--max-error", "5%", "--light-spectrum", "dim"}), 1, {"dim"});
     expect_failure(try_to_encode({"--max-error", "5%", "--codec", "wavelet"}), 1, {"wavelet"});
     expect_failure(try_to_encode({"--max-error", "5%", "--codec", "cpca", "--precision", "f32"}), 1,
-                   {"--codec cpca", "--precision auto"});
+                   {"codec cpca", "integers alone", "--precision auto"});
     // Before a long bake, not after it.
     expect_failure(compress({path("octopus"), "-o", path("late.paim"), "--max-error", "5%",
                              "--light-spectrum", "natrual"}),

@@ -62,7 +62,7 @@ std::vector<SectionRow> SharedPoints::sections() {
 }
 
 TransferCodec codec() {
-    return {SharedPoints::kName, "shared_points",
+    return {SharedPoints::kName,
             []() -> std::unique_ptr<TransferModel> { return std::make_unique<SharedPoints>(); }};
 }
 

@@ -60,7 +60,9 @@ std::vector<const TransferEncoderType*> encoders_to_try(std::string_view codec,
         if (!is_any(codec) && type.codec != codec) continue;
         if (is_integer(precision) || type.codes_floats) able.push_back(&type);
     }
-    if (able.empty()) throw_usage("codec {}: expected a precision of integers, got floats", codec);
+    if (able.empty()) {
+        throw_usage("codec {}: codes integers alone: expected --precision auto, got floats", codec);
+    }
     return able;
 }
 

@@ -5,6 +5,7 @@
 
 #include "paim/base/error.h"
 #include "paim/base/json_text.h"
+#include "paim/codec/codecs.h"
 
 namespace paim {
 
@@ -27,6 +28,9 @@ std::string paim_metadata(const Asset& asset) {
     root["bands"] = mesh.layout.in_bands;
     root["channels"] = mesh.layout.channels;
     if (asset.vertex_order == VertexOrder::cache) root["vertex_order"] = "local";
+    if (const std::string_view codec = mesh.transfer->codec_name(); is_named_in_files(codec)) {
+        root["codec"] = codec;
+    }
     for (const NamedNumber& number : mesh.transfer->numbers()) {
         root[number.name] = *number.value;
     }

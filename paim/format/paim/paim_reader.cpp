@@ -55,13 +55,20 @@ VertexOrder read_vertex_order(const Metadata& metadata) {
     return VertexOrder::cache;
 }
 
+const TransferCodec& find_codec(const Metadata& metadata) {
+    const bool is_named = metadata.root().contains("codec");
+    const std::string name = is_named ? metadata.text("codec") : "";
+    for (const TransferCodec& codec : transfer_codecs()) {
+        const bool is_marked = !codec.marker.empty() && metadata.root().contains(codec.marker);
+        if (is_named ? codec.name == name : is_marked) return codec;
+    }
+    if (is_named) throw_unsupported("{}: transfer of codec '{}'", metadata.file(), name);
+    return plain_codec();
+}
+
 // The codec that the metadata names, with its numbers.
 CodedTransfer start_transfer(const Metadata& metadata) {
-    const std::span<const TransferCodec> codecs = transfer_codecs();
-    const auto marked = std::find_if(codecs.begin(), codecs.end(), [&](const TransferCodec& codec) {
-        return !codec.marker.empty() && metadata.root().contains(codec.marker);
-    });
-    CodedTransfer transfer = marked != codecs.end() ? marked->make() : plain_codec().make();
+    CodedTransfer transfer = find_codec(metadata).make();
     for (const NamedNumber& number : transfer->numbers()) {
         *number.value = metadata.integer(number.name, number.lowest, number.highest);
     }

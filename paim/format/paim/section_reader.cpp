@@ -2,20 +2,17 @@
 #include "paim/format/paim/section_reader.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <span>
 #include <utility>
 #include <vector>
 
 #include "paim/base/check.h"
 #include "paim/base/error.h"
-#include "paim/base/parallel.h"
 #include "paim/format/container/mesh_sections.h"
 #include "paim/format/container/sections.h"
-#include "paim/format/pack/plane_decoder.h"
 #include "paim/format/pack/plane_predictor.h"
 #include "paim/format/paim/section_table.h"
+#include "paim/format/paim/value_limits.h"
+#include "paim/format/paim/value_reader.h"
 
 namespace paim {
 
@@ -37,139 +34,6 @@ Precision precision_of(ScalarType type) {
             return Precision::f16;
         default:
             return Precision::f32;
-    }
-}
-
-// Decodes integers of sections of the same type and shape, several at once.
-// out  [sections]
-template <typename Integer>
-void read_integers(const ContainerReader& reader, std::span<const Section* const> sections,
-                   const PlanePredictor& predictor, WorkspacePool& pool, StoredValues* out) {
-    std::vector<std::vector<uint8_t>> stored;
-    std::vector<std::vector<Integer>> values;
-    std::vector<StoredPlanes<Integer>> planes;
-    for (const Section* section : sections) {
-        if (section->codec != SectionCodec::planes) {
-            throw_unsupported("{}: codec {} for integers", reader.label(*section),
-                              static_cast<int>(section->codec));
-        }
-        stored.push_back(reader.read_stored(*section));
-        values.emplace_back(section->spec.num_values());
-        planes.push_back({stored.back(), section->spec.shape[1], values.back()});
-    }
-    WorkspacePool::Lease workspace(pool);
-    const auto good = [&](std::span<const StoredPlanes<Integer>> some) {
-        return some[0].num_planes > 0 && decode_planes(some, predictor, *workspace);
-    };
-    if (!good(planes)) {
-        const auto bad = std::find_if(planes.begin(), planes.end(), [&](const auto& section) {
-            return !good(std::span(&section, 1));
-        });
-        PAIM_CHECK(bad != planes.end());
-        const Section& section = *sections[static_cast<size_t>(bad - planes.begin())];
-        throw_bad_input("{}: holds no {} planes of {} integers", reader.label(section),
-                        section.spec.shape[1], section.spec.shape[2]);
-    }
-    std::move(values.begin(), values.end(), out);
-}
-
-// Reads integers, or finite floats (checked), of sections of the same type and shape.
-// out  [sections]
-void read_alike(const ContainerReader& reader, std::span<const Section* const> sections,
-                const PlanePredictor& predictor, WorkspacePool& pool, StoredValues* out) {
-    switch (sections[0]->spec.type) {
-        case ScalarType::i8:
-            return read_integers<int8_t>(reader, sections, predictor, pool, out);
-        case ScalarType::i16:
-            return read_integers<int16_t>(reader, sections, predictor, pool, out);
-        case ScalarType::f16:
-        case ScalarType::f32:
-            for (const Section* section : sections) {
-                std::vector<float> values = reader.read_f32(*section);
-                check_finite(reader, section->spec.tag, values);
-                *out++ = std::move(values);
-            }
-            return;
-        default:
-            throw_unsupported("{}: values of {}", reader.label(*sections[0]),
-                              scalar_name(sections[0]->spec.type));
-    }
-}
-
-// Number of planes of this type that are decoded fastest at once.
-size_t planes_at_once(ScalarType type) {
-    return type == ScalarType::i8    ? kPlanesAtOnce<int8_t>
-           : type == ScalarType::i16 ? kPlanesAtOnce<int16_t>
-                                     : 1;
-}
-
-// An array of values to read, with the predictor of its integers.
-struct Job {
-    const Section* section;
-    const PlanePredictor* predictor;
-    StoredValues* out;
-};
-
-bool are_alike(const Job& a, const Job& b) {
-    return a.predictor == b.predictor && a.section->spec.type == b.section->spec.type &&
-           a.section->spec.shape == b.section->spec.shape;
-}
-
-// Reads all arrays on all threads; arrays of the same type and shape are read together. The result
-// is the same on any number of threads.
-void read_values(const ContainerReader& reader, std::span<const Job> jobs) {
-    std::vector<size_t> ends{0};  // of the groups of arrays that are read together
-    for (size_t j = 1; j < jobs.size(); ++j) {
-        const SectionSpec& spec = jobs[j].section->spec;
-        const size_t num_planes = (j + 1 - ends.back()) * spec.shape[1];
-        if (!are_alike(jobs[j], jobs[j - 1]) || num_planes > planes_at_once(spec.type)) {
-            ends.push_back(j);
-        }
-    }
-    if (!jobs.empty()) ends.push_back(jobs.size());
-    WorkspacePool pool;
-    parallel_for(ends.size() - 1, 1, [&](size_t j, size_t) {
-        const auto some = jobs.subspan(ends[j], ends[j + 1] - ends[j]);
-        std::vector<const Section*> sections;
-        for (const Job& job : some) sections.push_back(job.section);
-        std::vector<StoredValues> values(some.size());
-        read_alike(reader, sections, *some[0].predictor, pool, values.data());
-        for (size_t i = 0; i < some.size(); ++i) *some[i].out = std::move(values[i]);
-    });
-}
-
-StoredValues read_values(const ContainerReader& reader, const Section& section,
-                         const PlanePredictor& predictor) {
-    StoredValues values;
-    const Job job{&section, &predictor, &values};
-    read_values(reader, std::span(&job, 1));
-    return values;
-}
-
-// Reads steps of integers. Each is at least 0, and 2¹⁵ times it is finite (checked).
-std::vector<float> read_steps(const ContainerReader& reader, const Section& section) {
-    std::vector<float> steps = reader.read_f32(section);
-    for (const float step : steps) {
-        if (!(step >= 0.0f && step <= kMaxStep)) {
-            throw_bad_input("{}: steps: expected numbers from 0 to {:.3g}, got {}",
-                            reader.label(section), kMaxStep, step);
-        }
-    }
-    return steps;
-}
-
-void check_singular_values(const ContainerReader& reader, const LowRank& matrix) {
-    double previous = std::numeric_limits<double>::infinity();
-    for (const double s : matrix.singular_values) {
-        if (!(s >= 0.0 && s <= previous && std::isfinite(s))) {
-            throw_bad_input("{}: singular values: expected finite, descending numbers, got {}",
-                            reader.name(), s);
-        }
-        previous = s;
-    }
-    if (matrix.singular_values.size() < matrix.num_components) {
-        throw_bad_input("{}: {} singular values, expected at least the {} components'",
-                        reader.name(), matrix.singular_values.size(), matrix.num_components);
     }
 }
 
@@ -339,7 +203,7 @@ struct RowReader {
     const Section& section;
     const TableRow& row;
     const Predictors& predictors;
-    std::vector<Job>& jobs;
+    std::vector<ValueJob>& jobs;
 
     void operator()(Topology*) const {}  // read before all other rows
     void operator()(Albedo*) const {}
@@ -414,23 +278,6 @@ bool is_wanted(const FoundRow& found) {
            found.row.index < values->matrix->num_components;
 }
 
-// Error (bad input) if decoded values could overflow in any pose with any number of components.
-void check_magnitudes(const ContainerReader& reader, const CodedMesh& mesh) {
-    constexpr double kMax = std::numeric_limits<float>::max();
-    const auto check = [&](const char* what, const LowRank& matrix, double gain) {
-        for (const double bound : magnitude_bounds(matrix)) {
-            if (!(bound <= kMax && bound * gain <= kMax)) {
-                throw_bad_input(
-                    "{}: {}: means, components and weights decode to numbers of up to {:.3g}, "
-                    "expected at most {:.3g}",
-                    reader.name(), what, bound * gain, kMax);
-            }
-        }
-    };
-    check("positions", mesh.positions, 1.0);
-    check("transfer", mesh.transfer->matrix, mesh.transfer->vertex_gain());
-}
-
 }  // namespace
 
 void read_sections(const ContainerReader& reader, const ComponentCounts& counts, Asset& asset) {
@@ -442,7 +289,7 @@ void read_sections(const ContainerReader& reader, const ComponentCounts& counts,
     const Predictors predictors(reader, asset);
 
     // Arrays of the same type and shape are put together, so that many are read at once.
-    std::vector<Job> jobs;
+    std::vector<ValueJob> jobs;
     const auto read = [&](bool components) {
         for (const FoundRow& row : found) {
             const auto* const values = std::get_if<MatrixValues>(&row.row.values);
@@ -456,7 +303,7 @@ void read_sections(const ContainerReader& reader, const ComponentCounts& counts,
     matrices[0]->keep_components(counts.geometry);
     matrices[1]->keep_components(counts.transfer);
     read(true);
-    std::stable_sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) {
+    std::stable_sort(jobs.begin(), jobs.end(), [](const ValueJob& a, const ValueJob& b) {
         return std::pair(a.section->spec.tag.text, a.section->spec.index) <
                std::pair(b.section->spec.tag.text, b.section->spec.index);
     });

@@ -4,8 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/SVD>
-
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -13,6 +11,7 @@
 #include "paim/base/error.h"
 #include "paim/base/seed.h"
 #include "paim/base/tbb_parallel.h"
+#include "tests/reference_svd.h"
 #include "tests/unit/encode/cluster/random_matrix.h"
 
 namespace paim {
@@ -160,18 +159,18 @@ void expect_svd(Index num_points, Index num_columns, float factor, uint32_t num_
     const ClusteredPca pca = clustered_pca(MatrixPoints(matrix, 4), with(1, num_components));
     MatrixXd centred = matrix.cast<double>();
     centred.rowwise() -= centred.colwise().mean().eval();
-    const Eigen::BDCSVD<MatrixXd> svd(centred, Eigen::ComputeThinU);
+    const ReferenceSvd svd = reference_svd(centred);
     for (Index k = 0; k < static_cast<Index>(num_components); ++k) {
-        const double s = svd.singularValues()[k];
-        EXPECT_NEAR(pca.singular_values(0, k), s, tolerance * svd.singularValues()[0]);
-        const double cosine = pca.coefficients.col(k).cast<double>().dot(svd.matrixU().col(k)) /
+        const double s = svd.singular_values[k];
+        EXPECT_NEAR(pca.singular_values(0, k), s, tolerance * svd.singular_values[0]);
+        const double cosine = pca.coefficients.col(k).cast<double>().dot(svd.u.col(k)) /
                               std::sqrt(static_cast<double>(num_points));
         // An angle squared costs as much of a value as values next to each other differ by: a
         // hundredth and more in all of these.
         EXPECT_NEAR(std::abs(cosine), 1.0, 100.0 * tolerance);
     }
     const double left =
-        centred.squaredNorm() - svd.singularValues().head(num_components).squaredNorm();
+        centred.squaredNorm() - svd.singular_values.head(num_components).squaredNorm();
     EXPECT_NEAR(pca.squared_error(num_components), left, 10.0 * tolerance * left);
 }
 

@@ -1,4 +1,4 @@
-// From an error to a file: what is stated, what is refused, and that both are the same every time.
+// From an error to a file: what is written and stated, and that both are the same every time.
 #include "compressor/encode/search/target_encode.h"
 
 #include <gtest/gtest.h>
@@ -20,8 +20,7 @@
 #include "paim/codec/svd/svd_transfer.h"
 #include "paim/format/paim/paim_read.h"
 #include "paim/mesh/cache_order.h"
-#include "tests/temporary_directory.h"
-#include "tests/unit/encode/search/target_bake.h"
+#include "tests/unit/encode/search/target_encode_fixture.h"
 
 namespace paim {
 namespace {
@@ -30,43 +29,6 @@ std::vector<char> bytes_of(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
 }
-
-class TargetEncode : public testing::Test {
-  protected:
-    TargetEncode() { options_.precision = Precision::i16; }
-
-    BakeReader bake(const TargetBake& numbers = {}) const {
-        return write_target_bake(directory_ / "x.bake", numbers);
-    }
-
-    EncodeTarget target(const BakeReader& bake, double error, const std::string& codec = "") const {
-        EncodeTarget target;
-        target.transfer_error = error;
-        target.codec = codec;
-        target.spectrum = BandPower::flat(bake.identity().layout.in_bands);
-        return target;
-    }
-
-    TargetSummary encode(const BakeReader& bake, const EncodeTarget& target) const {
-        return encode_to_target(bake, options_, target, output_);
-    }
-
-    void expect_refused(const BakeReader& bake, const EncodeTarget& target, ExitCode code,
-                        const std::string& words) const {
-        try {
-            encode(bake, target);
-            ADD_FAILURE() << "not refused";
-        } catch (const Error& error) {
-            EXPECT_EQ(error.code(), code);
-            EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
-        }
-        EXPECT_FALSE(std::filesystem::exists(output_));
-    }
-
-    const TemporaryDirectory directory_;
-    const std::filesystem::path output_ = directory_ / "x.paim";
-    EncodeOptions options_;
-};
 
 TEST_F(TargetEncode, FilesAreWithinTheErrorsThatTheyState) {
     const BakeReader bake = this->bake();
@@ -195,69 +157,12 @@ TEST_F(TargetEncode, BandsBelowTheTargetAreNotStored) {
     EXPECT_LE(summary.error.transfer.total(), 0.02);
 }
 
-TEST_F(TargetEncode, RefusesBakesThatAreTooNoisy) {
-    const BakeReader bake = this->bake({.noise = 0.3});
-    expect_refused(bake, target(bake, 0.01), ExitCode::threshold_exceeded, "noise leaves");
-    expect_refused(bake, target(bake, 0.01), ExitCode::threshold_exceeded, "% at best");
-}
-
-TEST_F(TargetEncode, RefusesTooFewBands) {
-    const BakeReader bake = this->bake({.noise = 0.0});
-    options_.bands = 2;
-    expect_refused(bake, target(bake, 0.01), ExitCode::threshold_exceeded,
-                   "2 of its 4 bands leave");
-    options_.bands = 4;
-    EncodeTarget natural = target(bake, 0.01);
-    natural.spectrum = BandPower::natural();
-    expect_refused(bake, natural, ExitCode::threshold_exceeded, "its 4 bands leave out");
-}
-
-TEST_F(TargetEncode, RefusesDecodeCostsThatCannotBe) {
-    const BakeReader bake = this->bake();
-    EncodeTarget cheap = target(bake, 0.01);
-    cheap.decode_cost = 2;
-    expect_refused(bake, cheap, ExitCode::threshold_exceeded, "with 2 multiply-adds a vertex");
-    // Three channels of a mean and some components of a cluster.
-    cheap.transfer_error = 0.05;
-    cheap.decode_cost = 40;
-    const TargetSummary summary = encode(bake, cheap);
-    EXPECT_LE(summary.chosen().multiply_adds, 40u);
-    EXPECT_EQ(summary.chosen().codec, "cpca");
-}
-
-TEST_F(TargetEncode, RefusesCodecsThatThereAreNot) {
-    const BakeReader bake = this->bake();
-    for (const Precision precision : {Precision::i16, Precision::f32}) {
-        options_.precision = precision;
-        expect_refused(bake, target(bake, 0.02, "wavelet"), ExitCode::usage,
-                       "codec: expected one of auto, svd, cpca, got 'wavelet'");
-    }
-}
-
 TEST_F(TargetEncode, AutoIsAnyCodec) {
     const BakeReader bake = this->bake();
     encode(bake, target(bake, 0.02));
     const std::vector<char> any = bytes_of(output_);
     encode(bake, target(bake, 0.02, "auto"));
     EXPECT_EQ(bytes_of(output_), any);
-}
-
-TEST_F(TargetEncode, RefusesSizesThatCannotBe) {
-    const BakeReader bake = this->bake();
-    EncodeTarget small = target(bake, 0.02);
-    small.size_bytes = 1000;
-    expect_refused(bake, small, ExitCode::threshold_exceeded, "--max-size allows 1000");
-    small.transfer_error.reset();
-    expect_refused(bake, small, ExitCode::threshold_exceeded, "--max-size asks for 1000 bytes");
-}
-
-// Whatever size is asked for: noise is what stands in the way.
-TEST_F(TargetEncode, RefusesSizesOfBakesThatAreNoise) {
-    const BakeReader bake = this->bake({.num_poses = 1, .noise = 30.0});
-    EncodeTarget any = target(bake, 0.02);
-    any.transfer_error.reset();
-    any.size_bytes = 1'000'000'000;
-    expect_refused(bake, any, ExitCode::threshold_exceeded, "noise leaves");
 }
 
 // Errors are resolved to 2 %, and sizes fall by less than twice as much: 3 % where steps of
@@ -403,56 +308,12 @@ TEST_F(TargetEncode, FloatsMeetTheTargetToo) {
     }
 }
 
-// Floats that are chosen by an estimate may need a component more once they are measured, and with
-// it more than the decode cost that was asked for. The first target that an estimate meets with one
-// component fewer is where that happens, if anywhere.
-TEST_F(TargetEncode, RefusesDecodeCostsThatOnlyEstimatesMeet) {
-    const BakeReader bake = this->bake({.noise = 0.02});
-    options_.precision = Precision::f32;
-    EncodeTarget costly = target(bake, 0.05);
-    const EncodeProblem problem = read_problem(bake, options_, costly);
-    EncodedFiles files(problem, options_, costly);
-    uint32_t num_found = 0, estimated_before = 0;
-    for (double error = 1.01 * problem.least_error(); error < 0.5; error *= 1.002) {
-        std::string reason;
-        const auto draft = files.draft(error, reason);
-        ASSERT_TRUE(draft) << reason;
-        const uint32_t estimated = draft->candidates.at(0).multiply_adds;
-        if (std::exchange(estimated_before, estimated) == estimated) continue;
-        const auto file = files.meet(error, reason);
-        ASSERT_TRUE(file) << reason;
-        const uint32_t measured = file->candidates.at(0).multiply_adds;
-        if (measured == estimated) continue;
-        ++num_found;
-        EXPECT_GT(measured, estimated);
-        costly.transfer_error = error;
-        costly.decode_cost = estimated;
-        expect_refused(bake, costly, ExitCode::threshold_exceeded,
-                       fmt::format("takes {} multiply-adds a vertex, --max-decode-cost allows {}",
-                                   measured, estimated));
-        costly.decode_cost = measured;
-        EXPECT_EQ(encode(bake, costly).chosen().multiply_adds, measured);
-        std::filesystem::remove(output_);
-        costly.decode_cost.reset();
-    }
-    EXPECT_GT(num_found, 0u) << "else this would not say much";
-}
-
 TEST_F(TargetEncode, KeepsNoiseWhereAskedTo) {
     const BakeReader bake = this->bake();
     options_.noise = NoiseTreatment::keep;
     const TargetSummary summary = encode(bake, target(bake, 0.02));
     EXPECT_LE(summary.error.transfer.total(), 0.02);
     EXPECT_NE(read_paim(output_).provenance_json.find(R"("noise":"keep")"), std::string::npos);
-}
-
-TEST_F(TargetEncode, RefusesMemoryThatDoesNotSuffice) {
-    const BakeReader bake = this->bake();
-    // Enough for rows that are streamed.
-    options_.memory_bytes = encode_memory_bytes(encode_size(bake, options_), 1);
-    expect_refused(bake, target(bake, 0.01), ExitCode::unsupported, "components in memory, need");
-    options_.memory_bytes = 1'000'000;
-    expect_refused(bake, target(bake, 0.01), ExitCode::unsupported, "but --memory allows 1 MB");
 }
 
 TEST_F(TargetEncode, ProblemIsInCacheOrder) {

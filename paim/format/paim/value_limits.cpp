@@ -1,0 +1,54 @@
+// What the numbers of a .paim must keep to so that every pose decodes to finite values.
+#include "paim/format/paim/value_limits.h"
+
+#include <cmath>
+#include <limits>
+
+#include "paim/base/error.h"
+#include "paim/codec/low_rank.h"
+
+namespace paim {
+
+std::vector<float> read_steps(const ContainerReader& reader, const Section& section) {
+    std::vector<float> steps = reader.read_f32(section);
+    for (const float step : steps) {
+        if (!(step >= 0.0f && step <= kMaxStep)) {
+            throw_bad_input("{}: steps: expected numbers from 0 to {:.3g}, got {}",
+                            reader.label(section), kMaxStep, step);
+        }
+    }
+    return steps;
+}
+
+void check_singular_values(const ContainerReader& reader, const LowRank& matrix) {
+    double previous = std::numeric_limits<double>::infinity();
+    for (const double s : matrix.singular_values) {
+        if (!(s >= 0.0 && s <= previous && std::isfinite(s))) {
+            throw_bad_input("{}: singular values: expected finite, descending numbers, got {}",
+                            reader.name(), s);
+        }
+        previous = s;
+    }
+    if (matrix.singular_values.size() < matrix.num_components) {
+        throw_bad_input("{}: {} singular values, expected at least the {} components'",
+                        reader.name(), matrix.singular_values.size(), matrix.num_components);
+    }
+}
+
+void check_magnitudes(const ContainerReader& reader, const CodedMesh& mesh) {
+    constexpr double kMax = std::numeric_limits<float>::max();
+    const auto check = [&](const char* what, const LowRank& matrix, double gain) {
+        for (const double bound : magnitude_bounds(matrix)) {
+            if (!(bound <= kMax && bound * gain <= kMax)) {
+                throw_bad_input(
+                    "{}: {}: means, components and weights decode to numbers of up to {:.3g}, "
+                    "expected at most {:.3g}",
+                    reader.name(), what, bound * gain, kMax);
+            }
+        }
+    };
+    check("positions", mesh.positions, 1.0);
+    check("transfer", mesh.transfer->matrix, mesh.transfer->vertex_gain());
+}
+
+}  // namespace paim
