@@ -88,6 +88,9 @@ void analyze(const AnalyzeOptions& options) {
     const ThreadLimit limit(options.num_threads);
     const bool quiet = options.quiet || options.json;
     const BakeReader bake(options.bake_directory);
+    if (is_bake(options.output)) {
+        throw_usage("--output {}: is a bake, expected another directory", options.output.string());
+    }
     const std::vector<NamedLight> lights =
         load_lights(options.environments, bake.identity().layout.in_bands);
     const size_t most_settings = 2 * (options.components.size() + 1) + options.bands.size() + 1;

@@ -1,13 +1,16 @@
 // The input of a bake of paim-compress: poses from OBJ files, their floor, and still meshes.
 #include "compressor/bake_input.h"
 
+#include <charconv>
 #include <memory>
 #include <span>
 #include <tuple>
+#include <utility>
 
 #include "compressor/io/obj_files.h"
 #include "compressor/mesh_warnings.h"
 #include "compressor/scene/floor.h"
+#include "paim/base/error.h"
 #include "paim/cli/progress.h"
 
 namespace paim {
@@ -30,6 +33,24 @@ ObjSequence open_sequence(const CompressOptions& options) {
     ObjSequence sequence(files, obj_options);
     checking->finish();
     return sequence;
+}
+
+// "A-B" or "A" as first and last pose, inclusive. Error (usage) unless A <= B < num_poses.
+std::pair<uint32_t, uint32_t> parse_pose_range(const std::string& text, uint32_t num_poses) {
+    if (text.empty()) return {0, num_poses - 1};
+    uint32_t first = 0;
+    const char* end = text.data() + text.size();
+    auto [rest, failure] = std::from_chars(text.data(), end, first);
+    uint32_t last = first;
+    if (failure == std::errc() && rest != end && *rest == '-') {
+        const auto parsed = std::from_chars(rest + 1, end, last);
+        rest = parsed.ptr;
+        failure = parsed.ec;
+    }
+    if (failure != std::errc() || rest != end || first > last || last >= num_poses) {
+        throw_usage("--poses: expected A-B with 0 <= A <= B <= {}, got '{}'", num_poses - 1, text);
+    }
+    return {first, last};
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // paim-compress: OBJ pose sequences become .bake directories and .paim files.
-#include "compressor/options.h"
+#include "compressor/command_line.h"
 #include "compressor/pipeline.h"
 #include "paim/cli/run_main.h"
 

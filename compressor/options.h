@@ -1,11 +1,10 @@
-// The command line of paim-compress.
+// What the command line of paim-compress sets.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "compressor/bake/bake_options.h"
@@ -42,12 +41,5 @@ struct CompressOptions {
 
 // The last group of options in the help.
 constexpr const char* kRunningGroup = "Running";
-
-// Parses the command line. Returns nothing when the tool is done (help, version, usage error), with
-// the exit code in exit_code. Throws Error(usage) for values out of range.
-std::optional<CompressOptions> parse_options(int argc, const char* const* argv, int& exit_code);
-
-// "A-B" or "A" as first and last pose, inclusive. Throws Error(usage) unless A <= B < num_poses.
-std::pair<uint32_t, uint32_t> parse_pose_range(const std::string& text, uint32_t num_poses);
 
 }  // namespace paim

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "paim/base/error.h"
+#include "paim/base/file.h"
 
 namespace paim {
 
@@ -20,6 +21,12 @@ void check_output(const std::filesystem::path& output) {
     if (::access(parent.c_str(), W_OK) != 0) {
         throw_output_failed("{}: cannot write to {}: {}", output.string(), parent.string(),
                             std::strerror(errno));
+    }
+    const long longest_name = ::pathconf(parent.c_str(), _PC_NAME_MAX);
+    const size_t name_bytes = output.filename().string().size();
+    if (longest_name >= 0 && name_bytes + kMaxTemporarySuffix > static_cast<size_t>(longest_name)) {
+        throw_output_failed("{}: a name of {} bytes, expected at most {}", output.string(),
+                            name_bytes, longest_name - static_cast<long>(kMaxTemporarySuffix));
     }
 }
 

@@ -5,7 +5,8 @@
 
 namespace paim {
 
-// Error (output failed), naming the output, unless its directory exists and can be written to.
+// Error (output failed), naming the output, unless its directory exists, can be written to and takes
+// so long a name.
 void check_output(const std::filesystem::path& output);
 
 // The same for a .paim, which must not be a directory either.

@@ -39,7 +39,7 @@ void encode_large(benchmark::State& state, ComponentChoice components) {
     const SyntheticBake synthetic{104000, 103, 7};
     const fs::path directory = fs::path(folder) / "paim-bench-large.bake";
     const fs::path output = fs::path(folder) / "paim-bench-large.paim";
-    if (!fs::exists(directory / "manifest.json")) synthetic.write(directory);
+    if (!is_bake(directory)) synthetic.write(directory);
     EncodeOptions options;
     options.geometry = options.transfer = components;
     Times times;

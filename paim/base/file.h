@@ -1,6 +1,7 @@
 // Files: bounded reads, and writes that happen completely or not at all.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -36,6 +37,9 @@ class AtomicFile {
     int descriptor_ = -1;
     uint64_t end_ = 0;
 };
+
+// The most bytes by which a temporary name is longer than the file's own.
+constexpr size_t kMaxTemporarySuffix = 40;
 
 // Whether this is the temporary name of a file that AtomicFile has not committed yet.
 bool is_temporary_name(const std::string& name);

@@ -194,6 +194,13 @@ TEST_F(BadInput, PlacesThatCannotBeWritten) {
     for (const std::string& output : {path("missing/x.bake"), path("file/x.bake"), path("file")}) {
         expect_refusal(PAIM_COMPRESS, {"bake", poses, "-o", output}, 4, {output + ": "});
     }
+    // Temporary names, which are longer, must fit into the 255 bytes of a name, too.
+    const std::string long_name = path(std::string(230, 'x'));
+    for (const char* const extension : {".paim", ".bake"}) {
+        Arguments arguments{poses, "-o", long_name + extension};
+        if (std::string(extension) == ".bake") arguments.insert(arguments.begin(), "bake");
+        expect_refusal(PAIM_COMPRESS, arguments, 4, {"a name of 235 bytes, expected at most"});
+    }
     for (const std::string& output : {path("file"), path("file/below")}) {
         expect_refusal(PAIM_ANALYZE, {bake, "-o", output, "--size", "16"}, 4, {output + ": "});
     }

@@ -25,6 +25,8 @@ TEST_F(Usage, Compress) {
                        {"unknown option '--poses'"});
     expect_usage_error(PAIM_COMPRESS, {"bake", "-o", path("x.bake")}, {"OBJ is required"});
     expect_usage_error(PAIM_COMPRESS, {"bake", poses}, {"--output is required"});
+    expect_usage_error(PAIM_COMPRESS, {"bake", poses, "-o", path("x.paim")},
+                       {"--output: expected a directory", "x.bake", "got"});
     expect_usage_error(PAIM_COMPRESS, {"encode", "-o", path("x.paim")}, {"BAKE is required"});
 
     const std::vector<std::pair<Arguments, Arguments>> bake_cases{
@@ -96,6 +98,7 @@ TEST_F(Usage, Analyze) {
     const std::string bake = make_bake("x.bake");
     expect_usage_error(PAIM_ANALYZE, {"-o", path("out")}, {"BAKE is required"});
     expect_usage_error(PAIM_ANALYZE, {bake}, {"--output is required"});
+    expect_usage_error(PAIM_ANALYZE, {bake, "-o", bake}, {"--output", "is a bake"});
     const std::vector<std::pair<Arguments, Arguments>> cases{
         {{"--components", "4,,2"}, {"--components: expected numbers from 0 to", "'4,,2'"}},
         {{"--components", "4,2,"}, {"--components: expected numbers", "'4,2,'"}},

@@ -113,6 +113,9 @@ class BakeWriter {
     uint64_t identity_checksum_;
 };
 
+// Whether the directory is there and is a bake, complete or not.
+bool is_bake(const std::filesystem::path& directory);
+
 // Reads a complete bake.
 class BakeReader {
   public:

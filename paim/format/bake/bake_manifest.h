@@ -8,6 +8,9 @@
 
 namespace paim {
 
+inline constexpr const char* kManifestName = "manifest.json";
+inline constexpr const char* kMeshName = "mesh.bin";  // triangles and albedo
+
 // The text after it was written to a manifest and read from it: bytes that are not UTF-8, which
 // file names may have, are replaced.
 std::string as_manifest_text(const std::string& text);

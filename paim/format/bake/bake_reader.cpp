@@ -72,6 +72,11 @@ void verify_planes(const ContainerReader& reader, const Section& section) {
 
 }  // namespace
 
+bool is_bake(const std::filesystem::path& directory) {
+    std::error_code ignored;
+    return std::filesystem::exists(directory / kManifestName, ignored);
+}
+
 BakeReader::BakeReader(std::filesystem::path directory) : directory_(std::move(directory)) {
     // The path "x.bake/" has no filename; "x.bake" has one.
     if (!directory_.has_filename()) directory_ = directory_.parent_path();
@@ -79,13 +84,13 @@ BakeReader::BakeReader(std::filesystem::path directory) : directory_(std::move(d
         throw_bad_input("{}: expected a .bake directory, got {}", directory_.string(),
                         std::filesystem::exists(directory_) ? "a file" : "nothing of that name");
     }
-    if (!std::filesystem::exists(directory_ / "manifest.json")) {
+    if (!is_bake(directory_)) {
         throw_bad_input("{}: expected a .bake directory, got one without manifest.json",
                         directory_.string());
     }
-    identity_ = read_manifest(directory_ / "manifest.json");
+    identity_ = read_manifest(directory_ / kManifestName);
     identity_checksum_ = identity_checksum(identity_);
-    const ContainerReader mesh(directory_ / "mesh.bin", section::kKindMesh);
+    const ContainerReader mesh(directory_ / kMeshName, section::kKindMesh);
     topology_ = read_triangles(mesh, identity_.num_vertices);
     albedo_ = read_albedo(mesh, identity_.num_vertices);
     if (mesh_checksum(topology_, albedo_) != identity_.mesh_xxh3) {
@@ -113,8 +118,8 @@ BakeReader::BakeReader(std::filesystem::path directory) : directory_(std::move(d
 }
 
 uint64_t BakeReader::size_bytes() const {
-    uint64_t total = std::filesystem::file_size(directory_ / "manifest.json") +
-                     std::filesystem::file_size(directory_ / "mesh.bin");
+    uint64_t total = std::filesystem::file_size(directory_ / kManifestName) +
+                     std::filesystem::file_size(directory_ / kMeshName);
     if (still_mesh_) total += std::filesystem::file_size(bake_still_mesh_file(directory_));
     for (uint32_t p = 0; p < num_poses(); ++p) {
         total += std::filesystem::file_size(bake_pose_file(directory_, p));

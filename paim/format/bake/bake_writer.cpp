@@ -42,7 +42,7 @@ std::string pose_metadata(uint64_t bake, uint32_t p, const PoseStatistics& stati
 bool is_only_started(const std::filesystem::path& directory) {
     for (const auto& entry : std::filesystem::directory_iterator(directory)) {
         const std::string name = entry.path().filename().string();
-        if (name != "mesh.bin" && name != "manifest.json" && !is_temporary_name(name)) return false;
+        if (name != kMeshName && name != kManifestName && !is_temporary_name(name)) return false;
     }
     return true;
 }
@@ -102,7 +102,7 @@ BakeWriter::BakeWriter(std::filesystem::path directory, const BakeIdentity& iden
     for (auto& source : identity_.poses) source.name = as_manifest_text(source.name);
     for (auto& source : identity_.still_meshes) source.name = as_manifest_text(source.name);
     identity_checksum_ = identity_checksum(identity_);
-    const std::filesystem::path manifest = directory_ / "manifest.json";
+    const std::filesystem::path manifest = directory_ / kManifestName;
     if (std::filesystem::exists(manifest)) {
         const std::string difference = first_difference(read_manifest(manifest), identity_);
         if (!difference.empty()) {
@@ -115,7 +115,7 @@ BakeWriter::BakeWriter(std::filesystem::path directory, const BakeIdentity& iden
     ensure_directory(directory_);
     remove_abandoned_files(directory_);
     // The manifest is written last, so that a directory with a manifest has a mesh.
-    write_mesh(directory_ / "mesh.bin", topology, albedo);
+    write_mesh(directory_ / kMeshName, topology, albedo);
     write_file(manifest, manifest_text(identity_));
 }
 

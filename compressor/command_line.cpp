@@ -1,10 +1,9 @@
 // The command line of paim-compress.
-#include "compressor/options.h"
+#include "compressor/command_line.h"
 
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <charconv>
 #include <limits>
 
 #include "compressor/bake_arguments.h"
@@ -129,8 +128,14 @@ void CommandLine::check_usage() const {
         if (options.inputs.empty()) throw_usage("no OBJ files given; see --help");
         if (options.output.empty()) throw_usage("--output is required; see --help");
     }
-    if (options.command != CompressOptions::Command::bake &&
-        options.output.extension() != ".paim") {
+    const bool is_paim = options.output.extension() == ".paim";
+    if (options.command == CompressOptions::Command::bake) {
+        if (is_paim) {
+            throw_usage("--output: expected a directory such as {}, got '{}'",
+                        std::filesystem::path(options.output).replace_extension(".bake").string(),
+                        options.output.string());
+        }
+    } else if (!is_paim) {
         throw_usage("--output: expected a name that ends in .paim, got '{}'",
                     options.output.string());
     }
@@ -148,23 +153,6 @@ std::optional<CompressOptions> parse_options(int argc, const char* const* argv, 
     apply(line.bake_arguments, line.options);
     apply(line.encode_arguments, line.options);
     return std::move(line.options);
-}
-
-std::pair<uint32_t, uint32_t> parse_pose_range(const std::string& text, uint32_t num_poses) {
-    if (text.empty()) return {0, num_poses - 1};
-    uint32_t first = 0;
-    const char* end = text.data() + text.size();
-    auto [rest, failure] = std::from_chars(text.data(), end, first);
-    uint32_t last = first;
-    if (failure == std::errc() && rest != end && *rest == '-') {
-        const auto parsed = std::from_chars(rest + 1, end, last);
-        rest = parsed.ptr;
-        failure = parsed.ec;
-    }
-    if (failure != std::errc() || rest != end || first > last || last >= num_poses) {
-        throw_usage("--poses: expected A-B with 0 <= A <= B <= {}, got '{}'", num_poses - 1, text);
-    }
-    return {first, last};
 }
 
 }  // namespace paim
