@@ -135,7 +135,7 @@ def main(data, svg):
     chart.step("", ["play: a time, a light L [C][3]"], GREEN)
     chart.data(
         ["a frame"],
-        [f"positions f32 [{num_vertices}][3]", f"radiance  f32 [{num_vertices}][3]"],
+        [f"positions f32 [3][{num_vertices}]", f"radiance  f32 [{num_vertices}][3]"],
         54,
     )
     chart.step("", ["rasterise; compare with the bake (paim-analyze)"], GREEN)

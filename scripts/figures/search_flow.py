@@ -71,7 +71,7 @@ def main(data, svg):
         ],
     )
     figure.text(note, 366, f"{num_svd} of svd, {num_cpca} of cpca", 14)
-    figure.text(note, 388, "sizes are estimates of fast packing", 13, colour=SOFT)
+    figure.text(note, 388, "sizes: the transfer alone, in fast packing", 13, colour=SOFT)
     down(428, 458)
     box(
         458,
