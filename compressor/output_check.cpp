@@ -12,7 +12,8 @@
 namespace paim {
 
 void check_output(const std::filesystem::path& output) {
-    const std::filesystem::path parent = std::filesystem::absolute(output).parent_path();
+    const std::filesystem::path target = follow_links(std::filesystem::absolute(output));
+    const std::filesystem::path parent = target.parent_path();
     std::error_code ignored;
     if (!std::filesystem::is_directory(parent, ignored)) {
         throw_output_failed("{}: the directory {} does not exist", output.string(),
@@ -23,7 +24,7 @@ void check_output(const std::filesystem::path& output) {
                             std::strerror(errno));
     }
     const long longest_name = ::pathconf(parent.c_str(), _PC_NAME_MAX);
-    const size_t name_bytes = output.filename().string().size();
+    const size_t name_bytes = target.filename().string().size();
     if (longest_name >= 0 && name_bytes + kMaxTemporarySuffix > static_cast<size_t>(longest_name)) {
         throw_output_failed("{}: a name of {} bytes, expected at most {}", output.string(),
                             name_bytes, longest_name - static_cast<long>(kMaxTemporarySuffix));

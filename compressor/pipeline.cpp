@@ -14,6 +14,7 @@
 #include "compressor/output_check.h"
 #include "compressor/target_report.h"
 #include "paim/base/error.h"
+#include "paim/base/file.h"
 #include "paim/base/json_text.h"
 #include "paim/base/parallel.h"
 #include "paim/base/tbb_parallel.h"
@@ -120,7 +121,8 @@ ordered_json run_encode(const CompressOptions& options, const std::filesystem::p
 
 void discard(const std::filesystem::path& directory) {
     std::error_code failure;
-    std::filesystem::remove_all(directory, failure);
+    // Of a symbolic link, the bake that it leads to.
+    std::filesystem::remove_all(follow_links(directory), failure);
     if (failure) {
         throw_output_failed("{}: cannot remove: {}", directory.string(), failure.message());
     }

@@ -193,8 +193,7 @@ void check_memory(const BakeReader& bake, const EncodeOptions& options) {
 EncodeSummary encode(const BakeReader& bake, const EncodeOptions& options,
                      const std::filesystem::path& output,
                      const std::function<void(uint64_t)>& on_rows) {
-    remove_abandoned_files(std::filesystem::absolute(output).parent_path(),
-                           output.filename().string() + ".");
+    remove_abandoned_versions(output);
     EncodeSummary summary = encode_unmeasured(bake, options, output, on_rows);
     if (!options.measure) return summary;
     summary.measured = state_errors(output, bake, BandPower::flat(bake.identity().layout.in_bands),

@@ -78,11 +78,30 @@ bool is_temporary_name(const std::string& name) {
            !rest.empty();
 }
 
-AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
+std::filesystem::path follow_links(const std::filesystem::path& path) {
+    constexpr int kMaxLinks = 40;  // as many as the system follows
+    std::filesystem::path target = path;
+    for (int i = 0; i < kMaxLinks; ++i) {
+        std::error_code failure;
+        const std::filesystem::path link = std::filesystem::read_symlink(target, failure);
+        if (failure) return target;  // no link, or nothing at all
+        target = target.parent_path() / link;
+    }
+    throw_output_failed("{}: cannot follow its symbolic links: {}", path.string(),
+                        std::strerror(ELOOP));
+}
+
+AtomicFile::AtomicFile(std::filesystem::path path)
+    : path_(std::move(path)), target_(follow_links(path_)) {
+    struct stat found {};
+    if (::stat(path_.c_str(), &found) == 0 && !S_ISREG(found.st_mode)) {
+        throw_output_failed("{}: expected a regular file, got {}", path_.string(),
+                            S_ISDIR(found.st_mode) ? "a directory" : "a device, pipe or socket");
+    }
     // Unique among the writers of this and other processes.
     static std::atomic<unsigned> counter{0};
     while (descriptor_ < 0) {
-        temporary_path_ = path_;
+        temporary_path_ = target_;
         temporary_path_ += fmt::format(".{}-{}.tmp", ::getpid(), counter.fetch_add(1));
         descriptor_ = ::open(temporary_path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (descriptor_ < 0 && errno == EEXIST) continue;
@@ -104,7 +123,10 @@ AtomicFile::~AtomicFile() {
 }
 
 void AtomicFile::fail(const char* action) const {
-    throw_output_failed("{}: {}: {}", path_.string(), action, std::strerror(errno));
+    const int reason = errno;
+    const std::string name =
+        target_ == path_ ? path_.string() : path_.string() + " -> " + target_.string();
+    throw_output_failed("{}: {}: {}", name, action, std::strerror(reason));
 }
 
 void AtomicFile::write(const void* data, size_t size_bytes) {
@@ -132,7 +154,7 @@ void AtomicFile::resize(uint64_t size_bytes) {
 void AtomicFile::commit() {
     // Rename the file while it is still locked. fsync has reported every error that close could.
     if (::fsync(descriptor_) != 0) fail("cannot flush");
-    if (::rename(temporary_path_.c_str(), path_.c_str()) != 0) fail("cannot finish writing");
+    if (::rename(temporary_path_.c_str(), target_.c_str()) != 0) fail("cannot finish writing");
     ::close(std::exchange(descriptor_, -1));
 }
 
@@ -148,6 +170,11 @@ void remove_abandoned_files(const std::filesystem::path& directory, std::string_
     }
 }
 
+void remove_abandoned_versions(const std::filesystem::path& file) {
+    const std::filesystem::path target = follow_links(std::filesystem::absolute(file));
+    remove_abandoned_files(target.parent_path(), target.filename().string() + ".");
+}
+
 void write_file(const std::filesystem::path& path, std::string_view contents) {
     AtomicFile file(path);
     file.write(contents);
@@ -156,7 +183,8 @@ void write_file(const std::filesystem::path& path, std::string_view contents) {
 
 void ensure_directory(const std::filesystem::path& path) {
     std::error_code failure;
-    std::filesystem::create_directories(path, failure);
+    // create_directories() takes a link whose directory is not there for a file.
+    std::filesystem::create_directories(follow_links(path), failure);
     if (!failure && !std::filesystem::is_directory(path)) {
         throw_output_failed("{}: expected a directory, got a file", path.string());
     }

@@ -14,8 +14,15 @@ namespace paim {
 // larger than max_size_bytes.
 std::vector<char> read_file(const std::filesystem::path& path, uint64_t max_size_bytes);
 
+// The file that is written when this path is: where its last name is a symbolic link, what the link
+// leads to in the end, whether that exists or not. Other paths stay as they are.
+// Error (output failed) if links lead in a circle.
+std::filesystem::path follow_links(const std::filesystem::path& path);
+
 // Writes a file under a temporary name; commit() flushes it and renames it to its own. Without
-// commit() nothing is left behind. Errors (output failed) name the path and the system's reason.
+// commit() nothing is left behind. A symbolic link stays one: what it leads to is written, and the
+// temporary file lies next to that. Errors (output failed) name the path and the system's reason;
+// it is one, too, if the path is there and no regular file.
 class AtomicFile {
   public:
     explicit AtomicFile(std::filesystem::path path);
@@ -32,7 +39,8 @@ class AtomicFile {
   private:
     [[noreturn]] void fail(const char* action) const;
 
-    std::filesystem::path path_;
+    std::filesystem::path path_;    // as given
+    std::filesystem::path target_;  // what it leads to
     std::filesystem::path temporary_path_;
     int descriptor_ = -1;
     uint64_t end_ = 0;
@@ -48,10 +56,14 @@ bool is_temporary_name(const std::string& name);
 // still writing stay.
 void remove_abandoned_files(const std::filesystem::path& directory, std::string_view prefix = {});
 
+// Removes those of this file alone, wherever symbolic links lead to.
+void remove_abandoned_versions(const std::filesystem::path& file);
+
 // Writes the text as a whole, through AtomicFile.
 void write_file(const std::filesystem::path& path, std::string_view contents);
 
-// Creates the directory and its parents. Error (output failed) if that fails, or if it is a file.
+// Creates the directory and its parents; of a symbolic link, what it leads to. Error (output failed)
+// if that fails, or if it is a file.
 void ensure_directory(const std::filesystem::path& path);
 
 }  // namespace paim

@@ -46,8 +46,7 @@ TargetSummary encode_to_target(const BakeReader& bake, const EncodeOptions& opti
         if (on_step) on_step(step);
     };
     PAIM_CHECK(target.transfer_error || target.size_bytes);
-    remove_abandoned_files(std::filesystem::absolute(output).parent_path(),
-                           output.filename().string() + ".");
+    remove_abandoned_versions(output);
     say("finding components");
     const EncodeProblem problem = read_problem(bake, options, target);
     if (target.transfer_error) check_feasible(problem, *target.transfer_error);
