@@ -8,6 +8,7 @@
 #include <span>
 
 #include "paim/codec/mesh_decoder.h"
+#include "paim/mesh/face_vertices.h"
 #include "paim/metrics/image_error.h"
 
 namespace paim {
@@ -50,6 +51,12 @@ std::vector<Image> measure_curves(const BakeReader& bake, const Asset& asset, co
                                   const std::function<void()>& on_step) {
     using Clock = std::chrono::steady_clock;
     MeshDecoder decoder(asset.moving());
+    const std::vector<uint32_t> counted = face_vertices(bake.topology());
+    const auto positions_of = [&](const DecodedPose& pose) {
+        std::vector<float> planes = pose.positions;
+        keep_vertices(planes, bake.identity().num_vertices, counted);
+        return planes;
+    };
     std::vector<CurvePoint*> points;
     for (Curve& curve : curves) {
         for (CurvePoint& point : curve.points) points.push_back(&point);
@@ -74,7 +81,7 @@ std::vector<Image> measure_curves(const BakeReader& bake, const Asset& asset, co
             for (size_t light = 0; light < images.size(); ++light) {
                 sums[j].images[light].add(compare_images(images[light], reference[light]));
             }
-            point.distance.add(decoded.positions, baked.positions, p);
+            point.distance.add(positions_of(decoded), positions_of(baked), p);
             add_transfer(point.transfer, decoded, baked, p);
             if (p == stage.poses().front()) point.images = std::move(images);
             on_step();
@@ -83,6 +90,8 @@ std::vector<Image> measure_curves(const BakeReader& bake, const Asset& asset, co
     }
     for (size_t j = 0; j < points.size(); ++j) {
         points[j]->decode_ms = median(sums[j].times_ms);
+        uint32_t& worst_vertex = points[j]->distance.worst_vertex;
+        worst_vertex = counted[worst_vertex];
         for (const ImageError& error : sums[j].images) {
             points[j]->visual_error.push_back(error.visual_error());
         }

@@ -10,6 +10,7 @@
 #include "paim/image/exr.h"
 #include "paim/light/environment.h"
 #include "paim/light/sky.h"
+#include "paim/mesh/face_vertices.h"
 #include "paim/mesh/planes.h"
 #include "paim/mesh/unit_scale.h"
 #include "paim/render/render.h"
@@ -40,10 +41,11 @@ namespace {
 
 Bounds bounds_of_poses(const BakeReader& bake) {
     Bounds bounds;
+    const std::vector<uint32_t> vertices = face_vertices(bake.topology());
     std::vector<float> planes(size_t{3} * bake.identity().num_vertices);
     for (uint32_t p = 0; p < bake.num_poses(); ++p) {
         bake.read_position_rows(p, 0, planes.size(), planes.data());
-        bounds.extend(from_planes(planes));
+        bounds.extend(bounds_of_vertices(planes, vertices));
     }
     return bounds;
 }
@@ -67,9 +69,10 @@ Camera Stage::camera(double azimuth_rad, double elevation_rad) const {
     bounds.lower *= scale_;
     bounds.upper *= scale_;
     if (bake_.still_mesh()) {
-        Bounds still;
-        still.extend(from_planes(scaled(bake_.still_mesh()->pose.positions, scale_)));
-        bounds = framed_bounds(bounds, still);
+        const BakedStillMesh& still = *bake_.still_mesh();
+        const Bounds still_bounds =
+            bounds_of_vertices(scaled(still.pose.positions, scale_), face_vertices(still.topology));
+        bounds = framed_bounds(bounds, still_bounds);
     }
     return frame_bounds(bounds, 1.0f, static_cast<float>(azimuth_rad),
                         static_cast<float>(elevation_rad));

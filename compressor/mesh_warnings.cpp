@@ -24,7 +24,8 @@ std::vector<std::string> lines(const std::string& mesh, const std::vector<Kind>&
 
 std::vector<Kind> kinds_of(const TopologyReport& report) {
     return {
-        {report.isolated_vertices, "vertices belong to no face", "their transfer is 0"},
+        {report.isolated_vertices, "vertices belong to no face",
+         "they stay in the file, without transfer and at one place, and count for nothing"},
         {report.duplicate_faces, "faces have the vertices of an earlier one",
          "they count once for normals"},
         {report.back_faces, "faces are the back of an earlier one, with its vertices",

@@ -5,6 +5,7 @@
 #include <future>
 #include <ranges>
 
+#include "compressor/scene/isolated_at_rest.h"
 #include "paim/base/check.h"
 #include "paim/base/parallel.h"
 
@@ -63,13 +64,14 @@ BakeIdentity bake_identity(const PoseSource& source, const BakeOptions& options,
     return identity;
 }
 
-BakeSummary bake_sequence(const PoseSource& source, const BakeOptions& options,
+BakeSummary bake_sequence(const PoseSource& given, const BakeOptions& options,
                           const std::string& normals, const std::filesystem::path& directory,
                           uint32_t first, uint32_t last,
                           const std::function<void(uint32_t)>& on_pose,
                           const Surroundings& surroundings) {
     PAIM_CHECK_LE(first, last);
-    PAIM_CHECK_LT(last, source.num_poses());
+    PAIM_CHECK_LT(last, given.num_poses());
+    const IsolatedAtRest source(given);
     const BakeIdentity identity = bake_identity(source, options, normals, surroundings);
     const BakeWriter writer(directory, identity, source.topology(), source.albedo());
     TransferBaker baker(options, source.albedo(), surroundings.still_mesh);

@@ -45,8 +45,7 @@ ObjSequence::ObjSequence(std::vector<std::filesystem::path> files, const ObjOpti
 
 void ObjSequence::check_files() {
     checksums_.resize(files_.size());
-    std::vector<BoundsD> bounds(files_.size());      // of vertices of faces
-    std::vector<BoundsD> all_bounds(files_.size());  // of all vertices
+    std::vector<BoundsD> bounds(files_.size());  // of vertices of faces
     const auto check = [&](size_t i) {
         std::vector<char> text = read_file(files_[i], kMaxFileBytes);
         checksums_[i] = xxh3(text.data(), text.size());
@@ -54,7 +53,6 @@ void ObjSequence::check_files() {
         ObjScan scan = scan_obj(files_[i].string(), text,
                                 {options_.normals_from_file, i > 0 ? &reference : nullptr, true});
         for (const uint32_t v : scan.faces.corners) bounds[i].extend(scan.positions[v]);
-        all_bounds[i].extend(scan.positions);
         scan.positions = {};
         if (i == 0) first_ = std::move(scan);
         if (options_.on_file_checked) options_.on_file_checked();
@@ -78,10 +76,11 @@ void ObjSequence::check_files() {
     });
     const size_t failed = first_failed.load();
     if (failed < files_.size()) std::rethrow_exception(failures[failed]);
-    for (size_t i = 1; i < bounds.size(); ++i) bounds[0].extend(bounds[i]);
-    check_size(bounds[0]);
-    origin_ = options_.origin.value_or(choose_origin(bounds[0]));
-    for (size_t i = 0; i < files_.size(); ++i) check_local(i, all_bounds[i]);
+    BoundsD all;
+    for (const BoundsD& of_file : bounds) all.extend(of_file);
+    check_size(all);
+    origin_ = options_.origin.value_or(choose_origin(all));
+    for (size_t i = 0; i < files_.size(); ++i) check_local(i, bounds[i]);
 }
 
 // Error for meshes below the normal floats. Such floats have fewer digits, so rays would start

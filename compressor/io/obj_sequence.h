@@ -34,9 +34,9 @@ class ObjSequence : public PoseSource {
     // triangulated by the geometry of the first one, which also gives the albedo (obj_albedo.h).
     // files  at least one; find_obj_files() gives them. The same file may be several poses.
     // Errors (bad input): any file unreadable, above 4 GiB, damaged, unlike the first, or with a
-    // coordinate that is not a finite float relative to the origin; or a mesh smaller than normal
-    // floats (1.2e-38). Of several errors, the first in the order of the sequence is reported, on
-    // any number of threads (coordinates after all others).
+    // vertex of a face whose coordinates are no finite floats relative to the origin; or a mesh
+    // smaller than normal floats (1.2e-38). Of several errors, the first in the order of the
+    // sequence is reported, on any number of threads (coordinates after all others).
     explicit ObjSequence(std::vector<std::filesystem::path> files, const ObjOptions& options = {});
 
     const Topology& topology() const override { return topology_; }

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "compressor/scene/isolated_at_rest.h"
 #include "paim/base/error.h"
 #include "paim/base/hash.h"
 
@@ -23,7 +24,8 @@ uint64_t checksum(const PoseSource& source, const Pose& pose) {
 
 }  // namespace
 
-void StillMesh::add(const PoseSource& source) {
+void StillMesh::add(const PoseSource& given) {
+    const IsolatedAtRest source(given);
     const Pose own = source.load_pose(0);
     const uint32_t num_own = source.topology().num_vertices;
     const std::string name = source.pose_name(0);

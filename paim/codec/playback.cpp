@@ -8,18 +8,16 @@
 #include "paim/base/check.h"
 #include "paim/codec/rebuild_planes.h"
 #include "paim/codec/transfer_player.h"
+#include "paim/mesh/face_vertices.h"
 
 namespace paim {
 
 namespace {
 
-// The centre of the bounding box of the mean positions.
+// The centre of the bounding box of the mean positions, of vertices that a face has.
 Vec3f centre_of(const CodedMesh& mesh) {
-    const std::vector<float> planes = mesh.positions.mean_floats();
-    const auto num_vertices = static_cast<Eigen::Index>(mesh.topology.num_vertices);
-    if (num_vertices == 0) return Vec3f::Zero();
-    const Eigen::Map<const Eigen::MatrixXf> points(planes.data(), num_vertices, 3);
-    return (0.5f * points.colwise().minCoeff() + 0.5f * points.colwise().maxCoeff()).transpose();
+    if (mesh.topology.num_vertices == 0) return Vec3f::Zero();
+    return bounds_of_vertices(mesh.positions.mean_floats(), face_vertices(mesh.topology)).center();
 }
 
 }  // namespace

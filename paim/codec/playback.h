@@ -27,7 +27,7 @@ class PAIM_EXPORT Playback {
     size_t num_parts() const;
 
     // Lights all parts from the next update() on. The light of a part is the field at the centre of
-    // the part's mean positions, in as many bands as the part has. The field is not kept.
+    // the mean positions of its faces, in as many bands as the part has. The field is not kept.
     void set_light(const LightField& light);
 
     // Computes positions and radiance at `time` in poses, clamped to 0 … P−1. Fractions lie between

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "paim/codec/rebuild_planes.h"
-#include "paim/mesh/planes.h"
+#include "paim/mesh/face_vertices.h"
 
 namespace paim {
 
@@ -28,7 +28,9 @@ Bounds with_still(const Bounds& bounds, const Bounds& still, double diagonals) {
 Bounds still_bounds(const Asset& asset) {
     Bounds bounds;
     for (size_t j = 1; j < asset.parts.size(); ++j) {
-        bounds.extend(from_planes(asset.parts[j].positions.mean_floats()));
+        const CodedMesh& mesh = asset.parts[j];
+        bounds.extend(
+            bounds_of_vertices(mesh.positions.mean_floats(), face_vertices(mesh.topology)));
     }
     return bounds;
 }
@@ -36,17 +38,17 @@ Bounds still_bounds(const Asset& asset) {
 // Bounds of poses of the moving part; keeps its memory from pose to pose.
 class MovingBounds {
   public:
-    explicit MovingBounds(const LowRank& positions) : positions_(positions) {}
+    explicit MovingBounds(const CodedMesh& mesh)
+        : positions_(mesh.positions), vertices_(face_vertices(mesh.topology)) {}
 
     Bounds at(double time, uint32_t num_components) {
         decoder_.decode(positions_, time, num_components, planes_);
-        Bounds bounds;
-        bounds.extend(from_planes(planes_));
-        return bounds;
+        return bounds_of_vertices(planes_, vertices_);
     }
 
   private:
     const LowRank& positions_;
+    const std::vector<uint32_t> vertices_;
     PositionDecoder decoder_;
     std::vector<float> planes_;
 };
@@ -55,7 +57,7 @@ class MovingBounds {
 
 Bounds pose_bounds(const Asset& asset, double time, uint32_t num_geometry_components) {
     constexpr double kSeenDiagonals = 500.0;
-    return with_still(MovingBounds(asset.moving().positions).at(time, num_geometry_components),
+    return with_still(MovingBounds(asset.moving()).at(time, num_geometry_components),
                       still_bounds(asset), kSeenDiagonals);
 }
 
@@ -72,7 +74,7 @@ Bounds sequence_bounds(const Asset& asset, uint64_t max_multiply_adds) {
     const uint64_t max_samples =
         std::max<uint64_t>(2, max_multiply_adds / std::max<uint64_t>(1, pose_work));
     const uint64_t step = (num_poses + max_samples - 1) / max_samples;
-    MovingBounds moving(positions);
+    MovingBounds moving(asset.moving());
     Bounds bounds;
     const auto extend_by = [&](uint64_t p) {
         bounds.extend(moving.at(static_cast<double>(p), positions.num_components));

@@ -1,5 +1,5 @@
-// Bounds of a coded animation in space. The player and the reference images frame them, so that
-// their default cameras agree.
+// Bounds of a coded animation in space, of vertices that a face has (mesh/face_vertices.h). The
+// player and the reference images frame them, so that their default cameras agree.
 #pragma once
 
 #include <cstdint>

@@ -11,8 +11,9 @@
 namespace paim {
 
 struct Pose {
-    std::vector<Vec3f> positions;  // [V] scene units, relative to the sequence's origin
-    std::vector<Vec3f> normals;    // [V] unit; zero where a vertex has no face of any area
+    // [V] scene units, relative to the sequence's origin; finite where a face has the vertex
+    std::vector<Vec3f> positions;
+    std::vector<Vec3f> normals;  // [V] unit; zero where a vertex has no face of any area
 };
 
 class PoseSource {

@@ -11,6 +11,7 @@
 #include "paim/codec/rebuild_planes.h"
 #include "paim/format/bake/baked_part.h"
 #include "paim/format/container/metadata.h"
+#include "paim/mesh/face_vertices.h"
 #include "paim/metrics/pose_space.h"
 #include "paim/metrics/vertex_match.h"
 
@@ -50,17 +51,26 @@ std::vector<uint32_t> check_same_part(const Asset& asset, size_t number, const B
     return old_vertex;
 }
 
+// Keeps the rows of these vertices, ascending, in place.
+void keep_rows(MatrixXf& matrix, const std::vector<uint32_t>& vertices) {
+    if (static_cast<Index>(vertices.size()) == matrix.rows()) return;
+    matrix = matrix(vertices, Eigen::all).eval();
+}
+
+// counted  vertices of the file that a face has, ascending
 TransferError measure_transfer(const CodedMesh& mesh, const BakedPart& bake,
                                const TransferLayout& layout, const BandPower& spectrum,
-                               const std::vector<uint32_t>& old_vertex) {
+                               const std::vector<uint32_t>& old_vertex,
+                               const std::vector<uint32_t>& counted) {
     const uint32_t num_vertices = bake.num_vertices();
     const uint32_t num_poses = bake.num_poses();
-    TransferErrorMeter meter(layout, num_vertices, num_poses, spectrum,
+    TransferErrorMeter meter(layout, static_cast<uint32_t>(counted.size()), num_poses, spectrum,
                              orthonormal_pose_space(mesh.transfer->matrix.weights, num_poses));
-    MatrixXf baked(static_cast<Index>(num_vertices), static_cast<Index>(num_poses));
-    MatrixXf noise = baked;
+    MatrixXf baked, noise;
     for (uint32_t plane = 0; plane < layout.num_planes(); ++plane) {
         const uint64_t first = uint64_t{plane} * num_vertices;
+        baked.resize(static_cast<Index>(num_vertices), static_cast<Index>(num_poses));
+        noise.resize(baked.rows(), baked.cols());
         parallel_for(num_poses, 1, [&](size_t p, size_t) {
             const auto column = static_cast<Index>(p);
             const auto pose = static_cast<uint32_t>(p);
@@ -70,25 +80,34 @@ TransferError measure_transfer(const CodedMesh& mesh, const BakedPart& bake,
             reorder_planes({noise.col(column).data(), num_vertices}, old_vertex);
         });
         const auto stored = plane_of_file(mesh.layout, layout, plane);
-        meter.add(plane, baked, noise,
-                  stored ? decode_plane(mesh, Attribute::transfer, *stored)
-                         : MatrixXf::Zero(baked.rows(), baked.cols()));
+        MatrixXf decoded = stored ? decode_plane(mesh, Attribute::transfer, *stored)
+                                  : MatrixXf::Zero(baked.rows(), baked.cols());
+        for (MatrixXf* const values : {&baked, &noise, &decoded}) keep_rows(*values, counted);
+        meter.add(plane, baked, noise, decoded);
     }
-    return meter.result();
+    TransferError error = meter.result();
+    error.worst_vertex = counted[error.worst_vertex];
+    return error;
 }
 
+// counted  vertices of the file that a face has, ascending
 GeometryError measure_geometry(const CodedMesh& mesh, const BakedPart& bake,
-                               const std::vector<uint32_t>& old_vertex) {
+                               const std::vector<uint32_t>& old_vertex,
+                               const std::vector<uint32_t>& counted) {
     GeometryError error;
     PositionDecoder decoder;
-    std::vector<float> decoded;
-    std::vector<float> baked(size_t{3} * bake.num_vertices());
+    std::vector<float> decoded, baked;
     for (uint32_t p = 0; p < bake.num_poses(); ++p) {
+        baked.resize(size_t{3} * bake.num_vertices());
         bake.read_position_rows(p, 0, baked.size(), baked.data());
         reorder_planes(baked, old_vertex);
         decoder.decode(mesh.positions, p, mesh.positions.num_components, decoded);
+        for (auto* const planes : {&baked, &decoded}) {
+            keep_vertices(*planes, bake.num_vertices(), counted);
+        }
         error.add(decoded, baked, p);
     }
+    error.distance.worst_vertex = counted[error.distance.worst_vertex];
     return error;
 }
 
@@ -99,8 +118,9 @@ MeshError measure_part(const Asset& asset, size_t number, const BakeReader& bake
     const BakedPart baked(bake, number);
     const std::vector<uint32_t> old_vertex = check_same_part(asset, number, bake, baked);
     const CodedMesh& mesh = asset.parts[number];
-    return {measure_transfer(mesh, baked, bake.identity().layout, spectrum, old_vertex),
-            measure_geometry(mesh, baked, old_vertex)};
+    const std::vector<uint32_t> counted = face_vertices(mesh.topology);
+    return {measure_transfer(mesh, baked, bake.identity().layout, spectrum, old_vertex, counted),
+            measure_geometry(mesh, baked, old_vertex, counted)};
 }
 
 uint64_t measure_part_bytes(uint64_t num_vertices, uint64_t num_poses, uint64_t num_components,

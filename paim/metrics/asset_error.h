@@ -26,8 +26,9 @@ struct AssetError : MeshError {
     std::optional<MeshError> still;
 };
 
-// Decodes one part and measures its errors. It holds one plane over all poses of bake, noise and
-// asset at a time. Bands that the asset does not have are zero. Grey transfer is compared with
+// Decodes one part and measures its errors. Vertices that no face has do not count
+// (mesh/face_vertices.h). It holds one plane over all poses of bake, noise and asset at a time.
+// Bands that the asset does not have are zero. Grey transfer is compared with
 // every channel of a coloured bake.
 // number  of the part, in the asset and in the bake
 // bake    verified (BakeReader::verify_all)

@@ -8,6 +8,7 @@
 
 #include "paim/base/check.h"
 #include "paim/base/parallel.h"
+#include "paim/mesh/face_vertices.h"
 
 namespace paim {
 
@@ -124,8 +125,8 @@ PrefixErrors prefix_errors(const CodedMesh& mesh, const std::optional<ErrorState
         transfer_error ? stated(whole, "transfer_deviation").value_or(0.0) : 0.0;
     const double share = error_to_bake < 1.0 ? 1.0 - error_to_bake * error_to_bake : 1.0;
     const ComponentEnergy geometry = component_energy(mesh, Attribute::geometry, {1.0, 1.0, 1.0});
-    const double num_positions =
-        static_cast<double>(mesh.topology.num_vertices) * static_cast<double>(mesh.num_poses());
+    const double num_positions = static_cast<double>(face_vertices(mesh.topology).size()) *
+                                 static_cast<double>(mesh.num_poses());
     return {
         spectrum.name,
         add_in_squares(transfer_error.value_or(0.0), transfer.dropped, transfer.decoded / share),

@@ -28,16 +28,18 @@ TEST_F(Geometry, OddMeshesAreCountedAndExplained) {
     const Arguments bake{"bake", path("odd"), "-o", path("x.bake"), "--rays", "2", "--bands", "1"};
     const ToolResult first = compress(bake);
     expect_success(first);
-    for (const char* line : {
-             "warning: mesh: 1 vertices belong to no face: their transfer is 0\n",
-             "warning: mesh: 1 faces have the vertices of an earlier one: ",
-             "warning: mesh: 1 faces are the back of an earlier one, with its vertices: ",
-             "warning: mesh: 8 edges belong to one face: open sheets are lit on their front side "
-             "only",
-             "warning: mesh: 1 edges join two faces that face opposite sides: ",
-             "warning: mesh: 1 faces (over all poses) have no area: ",
-             "warning: mesh: 2 faces (over all poses) lie exactly on another: ",
-         }) {
+    for (
+        const char* line : {
+            "warning: mesh: 1 vertices belong to no face: they stay in the file, without transfer and at "
+            "one place, and count for nothing\n",
+            "warning: mesh: 1 faces have the vertices of an earlier one: ",
+            "warning: mesh: 1 faces are the back of an earlier one, with its vertices: ",
+            "warning: mesh: 8 edges belong to one face: open sheets are lit on their front side "
+            "only",
+            "warning: mesh: 1 edges join two faces that face opposite sides: ",
+            "warning: mesh: 1 faces (over all poses) have no area: ",
+            "warning: mesh: 2 faces (over all poses) lie exactly on another: ",
+        }) {
         EXPECT_TRUE(contains(first.err, line)) << line << " is not in: " << first.err;
     }
     EXPECT_FALSE(contains(first.err, "three or more"));
@@ -91,7 +93,8 @@ TEST_F(Geometry, OddStillMeshesAreCountedByFile) {
                          whole,  "--static", odd,  "--json"};
     const ToolResult first = compress(bake);
     for (const char* line : {
-             ": 1 vertices belong to no face: their transfer is 0\n",
+             ": 1 vertices belong to no face: they stay in the file, without transfer and at "
+             "one place, and count for nothing\n",
              ": 1 faces have the vertices of an earlier one: ",
              ": 8 edges belong to one face: ",
              ": 1 edges join two faces that face opposite sides: ",

@@ -13,6 +13,7 @@
 #include "compressor/encode/quantise/float_matrix.h"
 #include "compressor/encode/search/transfer_encoder.h"
 #include "paim/codec/codecs.h"
+#include "paim/mesh/face_vertices.h"
 #include "paim/metrics/vertex_match.h"
 
 namespace paim {
@@ -54,12 +55,15 @@ CodedMesh in_cache_order(CodedMesh mesh) {
     return mesh;
 }
 
-// Largest diagonal of a pose's bounding box.
-double largest_diagonal(const BakeReader& bake) {
+// Largest diagonal of a pose's bounding box, of these vertices.
+double largest_diagonal(const BakeReader& bake, const std::vector<uint32_t>& vertices) {
     GeometryError measured;
-    std::vector<float> positions(size_t{3} * bake.identity().num_vertices);
+    const uint32_t num_vertices = bake.identity().num_vertices;
+    std::vector<float> positions;
     for (uint32_t p = 0; p < bake.num_poses(); ++p) {
+        positions.resize(size_t{3} * num_vertices);
         bake.read_position_rows(p, 0, positions.size(), positions.data());
+        keep_vertices(positions, num_vertices, vertices);
         measured.add(positions, positions, p);
     }
     return measured.diagonal;
@@ -135,10 +139,13 @@ EncodeProblem read_problem(const BakeReader& bake, const EncodeOptions& options,
 
     const double asked = target.transfer_error.value_or(0.001);
     const double num_values = static_cast<double>(identity.num_vertices) * bake.num_poses();
+    const std::vector<uint32_t> counted = face_vertices(bake.topology());
+    problem.num_face_vertices = static_cast<uint32_t>(counted.size());
+    const double num_positions = static_cast<double>(counted.size()) * bake.num_poses();
     const GeometryRows geometry_rows(bake);
     const PrincipalComponents geometry = principal_components(geometry_rows, in_flight);
-    const double distance =
-        largest_diagonal(bake) * target.geometry_error.value_or(kGeometryPerTransferError * asked);
+    const double distance = largest_diagonal(bake, counted) *
+                            target.geometry_error.value_or(kGeometryPerTransferError * asked);
     const TransferRows transfer_rows(bake, problem.layout.in_bands);
     const TransferRows noise_rows(bake, problem.layout.in_bands, TransferRows::Content::noise);
     const PrincipalComponents transfer = principal_components(transfer_rows, in_flight);
@@ -147,7 +154,7 @@ EncodeProblem read_problem(const BakeReader& bake, const EncodeOptions& options,
     const double energy = transfer_energy(problem);
     TargetSize size{encode_size(bake, options), problem.layout.num_planes()};
     size.geometry_components = components_for(
-        geometry.rank(), kDroppedShare * kDroppedShare * distance * distance * num_values,
+        geometry.rank(), kDroppedShare * kDroppedShare * distance * distance * num_positions,
         [&](uint32_t k) { return geometry.singular_values[k] * geometry.singular_values[k]; });
     size.transfer_components = components_for(
         noise.num_above_noise, kDroppedShare * kDroppedShare * asked * asked * energy * num_values,

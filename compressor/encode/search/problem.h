@@ -25,9 +25,10 @@ struct EncodeProblem {
     std::vector<double> plane_weight = {};  // [planes of layout] of squared transfer errors
     // Of these components, not quantised: no file of this bake has smaller errors.
     AssetError best_achievable = {};
-    double transfer_energy = 0.0;  // weighted ‖y‖² of the whole bake
-    uint64_t spare_bytes = 0;      // of options.memory_bytes, without what is held throughout
-    uint64_t unneeded_bytes = 0;   // of these, without all that can be needed
+    uint32_t num_face_vertices = 0;  // of the part that moves; the others count for nothing
+    double transfer_energy = 0.0;    // weighted ‖y‖² of the whole bake
+    uint64_t spare_bytes = 0;        // of options.memory_bytes, without what is held throughout
+    uint64_t unneeded_bytes = 0;     // of these, without all that can be needed
 
     // Transfer error that noise and bands of the bake leave at best, in the part where it is
     // larger.

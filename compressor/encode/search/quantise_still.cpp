@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "compressor/encode/quantise/quantise.h"
+#include "paim/mesh/face_vertices.h"
 
 namespace paim {
 
@@ -45,7 +46,8 @@ QuantisedStill quantise_still(const EncodeProblem& problem, double transfer_erro
     }
     const double room = transfer_error * transfer_error - best.total() * best.total();
     double transfer_budget = std::max(0.0, room) * energy;
-    double distance_budget = distance * distance * exact.mesh->topology.num_vertices;
+    double distance_budget =
+        distance * distance * static_cast<double>(face_vertices(exact.mesh->topology).size());
     // The budget takes rounding and noise for uncorrelated. They are, but only on average.
     constexpr int kMaxRounds = 8;
     constexpr double kSmaller = 0.95;

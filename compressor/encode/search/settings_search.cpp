@@ -59,7 +59,7 @@ bool CodingSearch::choose_geometry(double target, Coding& coding) const {
     const std::vector<double> alike(3, 1.0);
     const ScaledFactors& factors = problem_.geometry;
     const double most =
-        target * target * static_cast<double>(factors.num_points) * factors.num_poses();
+        target * target * static_cast<double>(problem_.num_face_vertices) * factors.num_poses();
     if (is_integer(options_.precision)) {
         auto choice = cheapest_part(
             part_choices(factors, alike, most, factors.num_components(), problem_.predictor));

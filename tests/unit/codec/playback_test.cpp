@@ -185,5 +185,18 @@ TEST(Playback, AsksForTheLightAtTheMiddleOfEachPart) {
     }
 }
 
+// A vertex of no face does not move the middle.
+TEST(Playback, AsksForTheLightAtTheMiddleOfTheFaces) {
+    Asset asset = make_example_asset(2, 3);
+    asset.moving().topology.triangles = {{1, 2, 1}};
+    asset.moving().positions.mean =
+        std::vector<float>{90, 1, 2, 80, 70, 3, 5, 60, -50, -6, -4, -40};
+    const auto shared = std::make_shared<const Asset>(asset);
+    Playback playback(shared);
+    playback.set_light(LightOfPlaces());
+    playback.update(3.0);
+    expect_as_decoded(playback, 0, 3.0, {}, LightOfPlaces().at({1.5f, 4, -5}, 2));
+}
+
 }  // namespace
 }  // namespace paim

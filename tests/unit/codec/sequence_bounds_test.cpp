@@ -55,6 +55,21 @@ TEST(PoseBounds, AreThoseOfTheDecodedPositions) {
     EXPECT_EQ(bounds.upper, Vec3f(1, 2, 3));
 }
 
+// Points of no face are not seen, once there are faces.
+TEST(PoseBounds, AreThoseOfVerticesOfFaces) {
+    Asset asset = moving_points(3);
+    asset.moving().topology.triangles = {{1, 1, 1}};
+    EXPECT_EQ(pose_bounds(asset, 0.0, 2).lower, Vec3f(1, 2, 3));
+    EXPECT_EQ(sequence_bounds(asset).lower, Vec3f(1, 2, 3));
+    EXPECT_EQ(sequence_bounds(asset).upper, Vec3f(3, 2, 3));
+    Asset still = moving_points(1);
+    still.moving().topology.triangles = {{1, 1, 1}};
+    asset.parts.push_back(still.moving());
+    asset.parts[1].positions = LowRank::still(3, std::vector<float>{-2, 0, 0, 0, 0, 0});
+    // As far as the diagonal, 2, below the moving vertex. Without faces x would be -1.
+    EXPECT_EQ(sequence_bounds(asset).lower, Vec3f(0, 0, 1));
+}
+
 TEST(SequenceBounds, HoldEveryPose) {
     const Bounds bounds = sequence_bounds(moving_points(5));
     EXPECT_EQ(bounds.lower, Vec3f(0, 0, -4));

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <vector>
@@ -264,6 +265,72 @@ TEST_F(AssetErrorTest, FindsWhatStandsStillInCacheOrder) {
     EXPECT_EQ(error.still->geometry.worst(), 0.0);
     EXPECT_EQ(error.still->transfer.error_to_bake, 0.0);
     EXPECT_NEAR(error.still->transfer.error, error.still->transfer.bake_noise, 1e-12);
+}
+
+// Whatever a vertex of no face errs, and however many there are, every figure is that of the mesh
+// without them. One lies before the tetrahedron's vertices, two behind.
+TEST_F(AssetErrorTest, DoesNotCountVerticesOfNoFace) {
+    const TransferLayout layout{TransferKind::diffuse, 2, 1};
+    const auto spread = [&](const std::vector<float>& planes, float isolated) {
+        std::vector<float> wider;
+        for (size_t plane = 0; plane < planes.size() / kVertices; ++plane) {
+            wider.push_back(isolated);
+            for (size_t v = 0; v < kVertices; ++v) wider.push_back(planes[kVertices * plane + v]);
+            wider.insert(wider.end(), {2.0f * isolated, -isolated});
+        }
+        return wider;
+    };
+    const auto make_pose = [&](uint64_t seed) {
+        RandomStream random(seed);
+        BakedPose pose;
+        for (auto* const values : {&pose.positions, &pose.normals, &pose.transfer, &pose.noise}) {
+            const bool of_transfer = values == &pose.transfer || values == &pose.noise;
+            values->resize((of_transfer ? 4 : 3) * kVertices);
+            for (float& value : *values) value = static_cast<float>(random.uniform());
+        }
+        pose.statistics.transfer_rms = pose.statistics.noise_rms = {1.0, 1.0};
+        return pose;
+    };
+    const Asset asset = make_example_asset(2, 1);
+    uint64_t seed = 0;
+    const AssetError expected =
+        measure_asset(asset, write_bake(asset, layout, 5, [&] { return make_pose(++seed); }),
+                      BandPower::natural());
+
+    Asset wider = asset;
+    CodedMesh& mesh = wider.moving();
+    mesh.topology.num_vertices = kVertices + 3;
+    for (Triangle& triangle : mesh.topology.triangles) {
+        for (uint32_t& v : triangle) ++v;
+    }
+    for (LowRank* const matrix : {&mesh.positions, &mesh.transfer->matrix}) {
+        matrix->num_points = kVertices + 3;
+        matrix->mean = spread(matrix->mean.floats(), 40.0f);
+        for (StoredValues& component : matrix->components) {
+            component = spread(component.floats(), -3.0f);
+        }
+    }
+    seed = 0;
+    const auto make_wider_pose = [&] {
+        BakedPose pose = make_pose(++seed);
+        for (auto* const values : {&pose.positions, &pose.normals, &pose.transfer, &pose.noise}) {
+            *values = spread(*values, static_cast<float>(seed));
+        }
+        return pose;
+    };
+    const AssetError error =
+        measure_asset(wider, write_bake(wider, layout, 5, make_wider_pose), BandPower::natural());
+    const std::vector<NamedError> named = named_errors(error);
+    for (const NamedError& one : named_errors(expected)) {
+        const auto found = std::find_if(named.begin(), named.end(), [&](const NamedError& other) {
+            return other.name == one.name;
+        });
+        EXPECT_EQ(found->value, one.value) << one.name;
+    }
+    EXPECT_EQ(error.geometry.diagonal, expected.geometry.diagonal);
+    // The numbers are those of the file.
+    EXPECT_EQ(error.geometry.distance.worst_vertex, expected.geometry.distance.worst_vertex + 1);
+    EXPECT_EQ(error.transfer.worst_vertex, expected.transfer.worst_vertex + 1);
 }
 
 TEST_F(AssetErrorTest, RefusesOtherThingsThatStandStill) {

@@ -86,6 +86,16 @@ TEST(PrefixError, WithoutAStatementIsWhatTheMissingComponentsCost) {
     EXPECT_EQ(errors.position_rms[1], 0.0);
 }
 
+// The mean over positions is one over those that a face has.
+TEST(PrefixError, DoesNotCountVerticesOfNoFace) {
+    CodedMesh mesh = hand_made();
+    mesh.topology.triangles = {{0, 1, 2}};
+    std::vector<float> component(12, 2.0f);
+    for (const size_t row : {3, 7, 11}) component[row] = 0.0f;  // of vertex 3
+    mesh.positions.components = {StoredValues(component)};
+    EXPECT_DOUBLE_EQ(prefix_errors(mesh, {}).position_rms[0], std::sqrt(12.0));
+}
+
 TEST(PrefixError, AddsWhatTheFileStatesInSquares) {
     ErrorStatement statement{
         "natural",
