@@ -51,15 +51,15 @@ ScaledFactors read_factors(const RowSource& rows, const PrincipalComponents& com
     return factors;
 }
 
-ScaledFactors sample(const ScaledFactors& factors, size_t num_values) {
-    const size_t all = factors.mean.size() * (factors.components.size() + 1);
-    const size_t stride =
-        std::clamp<size_t>(all / std::max<size_t>(1, num_values), 1, factors.num_points);
+namespace {
+
+// Every stride-th of the first points.
+ScaledFactors some_points(const ScaledFactors& factors, size_t num_points, size_t stride) {
     const auto thin = [&](const std::vector<float>& from) {
         std::vector<float> to;
         for (uint32_t j = 0; j < factors.num_planes; ++j) {
             const auto plane = factors.plane(from, j);
-            for (size_t n = 0; n < plane.size(); n += stride) to.push_back(plane[n]);
+            for (size_t n = 0; n < num_points; n += stride) to.push_back(plane[n]);
         }
         return to;
     };
@@ -71,6 +71,20 @@ ScaledFactors sample(const ScaledFactors& factors, size_t num_values) {
     few.weights = factors.weights;
     few.singular_values = factors.singular_values;
     return few;
+}
+
+}  // namespace
+
+ScaledFactors sample(const ScaledFactors& factors, size_t num_values) {
+    const size_t all = factors.mean.size() * (factors.components.size() + 1);
+    const size_t stride =
+        std::clamp<size_t>(all / std::max<size_t>(1, num_values), 1, factors.num_points);
+    return some_points(factors, factors.num_points, stride);
+}
+
+ScaledFactors first_points(const ScaledFactors& factors, uint32_t num_points) {
+    PAIM_CHECK_LE(num_points, factors.num_points);
+    return some_points(factors, num_points, 1);
 }
 
 }  // namespace paim

@@ -41,4 +41,7 @@ ScaledFactors read_factors(const RowSource& rows, const PrincipalComponents& com
 // on.
 ScaledFactors sample(const ScaledFactors& factors, size_t num_values);
 
+// The first points alone.
+ScaledFactors first_points(const ScaledFactors& factors, uint32_t num_points);
+
 }  // namespace paim

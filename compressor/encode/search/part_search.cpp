@@ -29,11 +29,16 @@ std::vector<double> tail_errors(const ScaledFactors& factors,
 
 std::vector<PartChoice> part_choices(const ScaledFactors& factors,
                                      const std::vector<double>& plane_weight, double most_error,
-                                     uint32_t most_components, const PlanePredictor& predictor) {
-    ScaledFactors few = sample(factors, kSampledValues);
+                                     uint32_t most_components, const PlanePredictor& predictor,
+                                     uint32_t num_counted) {
+    ScaledFactors few = num_counted == factors.num_points
+                            ? sample(factors, kSampledValues)
+                            : sample(first_points(factors, num_counted), kSampledValues);
     const Quantiser all{1.0, factors.num_components(), plane_weight};
-    if (smallest_step(few, all, Precision::i16) == 0.0) few = factors;  // it missed what there is
-    const double sampled = static_cast<double>(few.num_points) / factors.num_points;
+    if (smallest_step(few, all, Precision::i16) == 0.0) {  // it missed what there is
+        few = first_points(factors, num_counted);
+    }
+    const double sampled = static_cast<double>(few.num_points) / num_counted;
     const std::vector<double> tails = tail_errors(factors, plane_weight);
 
     // Shares of the error that dropped components may take.

@@ -61,8 +61,9 @@ bool CodingSearch::choose_geometry(double target, Coding& coding) const {
     const double most =
         target * target * static_cast<double>(problem_.num_face_vertices) * factors.num_poses();
     if (is_integer(options_.precision)) {
-        auto choice = cheapest_part(
-            part_choices(factors, alike, most, factors.num_components(), problem_.predictor));
+        // Vertices that no face has come last.
+        auto choice = cheapest_part(part_choices(factors, alike, most, factors.num_components(),
+                                                 problem_.predictor, problem_.num_face_vertices));
         if (!choice) return false;
         coding.geometry = std::move(choice->quantiser);
         coding.geometry_bytes = choice->bytes;

@@ -77,8 +77,9 @@ class SvdEncoder : public TransferEncoder {
         uint32_t most = problem.transfer.num_components();
         while (most > 0 && !is_cheap(most)) --most;
         if (!is_cheap(most)) return;
-        for (PartChoice& choice : part_choices(problem.transfer, problem.plane_weight, most_error,
-                                               most, problem.predictor)) {
+        for (PartChoice& choice :
+             part_choices(problem.transfer, problem.plane_weight, most_error, most,
+                          problem.predictor, problem.num_face_vertices)) {
             TransferCoding coding;
             coding.quantiser = std::move(choice.quantiser);
             coding.candidate.components = choice.num_components;

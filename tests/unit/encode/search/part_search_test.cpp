@@ -26,7 +26,8 @@ ScaledFactors factors_of(const std::vector<double>& sizes, uint32_t num_points =
 std::vector<PartChoice> choices(const ScaledFactors& factors, double most_error,
                                 uint32_t most_components = 99) {
     return part_choices(factors, kPlaneWeight, most_error,
-                        std::min(most_components, factors.num_components()), PlanePredictor());
+                        std::min(most_components, factors.num_components()), PlanePredictor(),
+                        factors.num_points);
 }
 
 uint64_t bytes_of(const ScaledFactors& factors, const Quantiser& quantiser) {
