@@ -60,7 +60,9 @@ void add_target_options(CLI::App& app, CompressOptions& options, EncodeArguments
     constexpr const char* kGroup = "With --max-error or --max-size";
     app.add_option("--geometry-error", arguments.geometry_error,
                    fmt::format("Largest RMS distance of the positions, as a share of the diagonal "
-                               "of the largest pose. Default: the error of the transfer / {:g}",
+                               "of the largest pose. Where integers of 16 bits cannot be that "
+                               "good, positions are floats. Default: the error of the transfer / "
+                               "{:g}",
                                1.0 / kGeometryPerTransferError))
         ->type_name("ERROR")
         ->group(kGroup);

@@ -73,7 +73,7 @@ std::optional<EncodedFile> EncodedFiles::meet(double transfer_error, std::string
     }
     reason = fmt::format(
         "{}: {:.3g} % of the transfer and an RMS distance of {:.3g} were not met by any step that "
-        "was tried",
+        "was tried: ask for a little more of both, or use --precision f32",
         bake_name(), 100.0 * targets.transfer, targets.geometry);
     return std::nullopt;
 }

@@ -24,6 +24,17 @@ Asset build(const EncodeProblem& problem, const QuantisedStill& still, const Cod
     return asset;
 }
 
+// Nothing if steps are finer than values of 16 bits can be.
+std::optional<Asset> build_if_it_fits(const EncodeProblem& problem, const QuantisedStill& still,
+                                      const Coding& coding) {
+    try {
+        return build(problem, still, coding);
+    } catch (const Error& error_of_step) {
+        if (error_of_step.code() != ExitCode::unsupported) throw;
+        return std::nullopt;
+    }
+}
+
 // Floats have no step: one more component.
 void adjust(Quantiser& quantiser, Precision precision, bool coarser, double error, double target,
             double best_error) {
@@ -44,21 +55,19 @@ std::optional<RefinedAsset> refine(const EncodeProblem& problem, const Quantised
     const double best_error = problem.best_achievable.transfer.total();
     std::optional<RefinedAsset> best;
     for (int round = 0; round < kMaxRounds; ++round) {
-        Asset asset;
-        try {
-            asset = build(problem, still, coding);
-        } catch (const Error& error_of_step) {
-            // Finer than values of 16 bits can be: what there is, is the best there is.
-            if (error_of_step.code() != ExitCode::unsupported) throw;
-            break;
+        std::optional<Asset> asset = build_if_it_fits(problem, still, coding);
+        if (!asset && !best && is_integer(coding.geometry_precision) &&
+            use_float_positions(problem, targets.geometry, coding)) {
+            asset = build_if_it_fits(problem, still, coding);
         }
-        const AssetError measured{measure_part(asset, 0, problem.bake, problem.spectrum),
+        if (!asset) break;  // what there is, is the best there is
+        const AssetError measured{measure_part(*asset, 0, problem.bake, problem.spectrum),
                                   still.error};
         const double transfer = measured.transfer.total();
         const double geometry = measured.geometry.rms();
         const bool good = transfer <= targets.transfer && geometry <= targets.geometry;
         if (best && !good) break;  // a step too far
-        if (good) best = RefinedAsset{std::move(asset), measured, coding};
+        if (good) best = RefinedAsset{std::move(*asset), measured, coding};
         const bool room =
             transfer < kRoom * targets.transfer || geometry < kRoom * targets.geometry;
         if (good && (!room || round >= 3)) break;

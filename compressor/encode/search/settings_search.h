@@ -29,6 +29,10 @@ struct Coding {
     TransferCoding transfer;
 };
 
+// Positions as floats, with the fewest components that leave at most this RMS distance. False if not
+// even all components as floats do.
+bool use_float_positions(const EncodeProblem& problem, double distance, Coding& coding);
+
 class CodingSearch {
   public:
     CodingSearch(const EncodeProblem& problem, const EncodeOptions& options,
@@ -47,6 +51,7 @@ class CodingSearch {
   private:
     double transfer_budget(double target) const;
     bool choose_geometry(double target, Coding& coding) const;
+    std::string missed_geometry(double target) const;
     std::string missed_transfer(double target);
     uint64_t estimated_overhead_bytes() const;
 

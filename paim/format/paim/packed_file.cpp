@@ -147,8 +147,9 @@ class Packer {
         for (const float step : values) {
             if (!(step <= kMaxStep)) {
                 throw_bad_input(
-                    "a step of integers is {}, expected at most {}: scale the poses down", step,
-                    kMaxStep);
+                    "a step of integers is {}, expected at most {}: scale the poses down, or use "
+                    "--precision f32",
+                    step, kMaxStep);
             }
         }
         return floats(values);

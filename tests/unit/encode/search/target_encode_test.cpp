@@ -266,26 +266,59 @@ TEST_F(TargetEncode, MeetsVeryFineTargetsDownToSixteenBits) {
     fine.transfer_error = kBelow * transfer;
     expect_refused(bake, fine, ExitCode::threshold_exceeded, "needs values of more than 16 bits");
 
-    // Positions have their own steps and their own end.
+    // Positions have their own steps and their own end, beyond which they are floats.
     const double distance = std::sqrt(error_of_sixteen_bits(problem.geometry, {1.0, 1.0, 1.0}) /
                                       (400.0 * bake.num_poses()));
     const double geometry = distance / problem.best_achievable.geometry.diagonal;
     fine.transfer_error = 1e-3;
     fine.geometry_error = kAbove * geometry;
     EXPECT_LE(encode(bake, fine).error.geometry.rms(), kAbove * distance);
-    std::filesystem::remove(output_);
+    EXPECT_EQ(read_paim(output_).moving().positions.precision, Precision::i16);
     fine.geometry_error = kBelow * geometry;
-    expect_refused(bake, fine, ExitCode::threshold_exceeded,
-                   "needs positions of more than 16 bits");
+    EXPECT_LE(encode(bake, fine).error.geometry.rms(), kBelow * distance);
+    EXPECT_EQ(read_paim(output_).moving().positions.precision, Precision::f32);
+}
+
+// Positions of floats with a transfer of integers are a file as any other.
+TEST_F(TargetEncode, PositionsFinerThanSixteenBitsAreFloats) {
+    const BakeReader bake = this->bake();
+    for (const char* const codec : {"svd", "cpca"}) {
+        EncodeTarget fine = target(bake, 0.02, codec);
+        fine.geometry_error = 1e-6;
+        const TargetSummary summary = encode(bake, fine);
+        EXPECT_LE(summary.error.geometry.relative_rms(), 1e-6);
+        EXPECT_LE(summary.error.transfer.total(), 0.02);
+        const Asset asset = read_paim(output_);
+        EXPECT_TRUE(asset.moving().positions.mean.holds_floats());
+        EXPECT_FALSE(asset.moving().transfer->matrix.mean.holds_floats());
+        const AssetError error = measure_asset(asset, bake, fine.spectrum);
+        EXPECT_EQ(error.geometry.rms(), summary.error.geometry.rms());
+        EXPECT_EQ(error.transfer.total(), summary.error.transfer.total());
+        std::filesystem::remove(output_);
+        // Floats have 24 bits. The message says what they can.
+        fine.geometry_error = 1e-9;
+        expect_refused(bake, fine, ExitCode::threshold_exceeded, "but positions as floats have ");
+    }
+    // What the message allows is met.
+    EncodeTarget fine = target(bake, 0.02);
+    fine.geometry_error = 1e-9;
+    try {
+        encode(bake, fine);
+        ADD_FAILURE() << "not refused";
+    } catch (const Error& error) {
+        const std::string message = error.what();
+        const std::string before = "allow a --geometry-error of ";
+        fine.geometry_error = std::stod(message.substr(message.find(before) + before.size()));
+    }
+    EXPECT_LE(encode(bake, fine).error.geometry.relative_rms(), *fine.geometry_error);
 }
 
 // Without a geometry error, positions are 50 times as good, relative to the diagonal: their 16 bits
-// end before those of the transfer do. Floats, which the message names, meet the same target.
+// end before those of the transfer do.
 TEST_F(TargetEncode, VeryFineTargetsOfBothPartsTakeFloats) {
     const BakeReader bake = this->bake({.num_poses = 5, .noise = 0.0});
-    expect_refused(bake, target(bake, 1e-4), ExitCode::threshold_exceeded,
-                   "needs positions of more than 16 bits: allow a larger --geometry-error, or use "
-                   "--precision f32");
+    EXPECT_LE(encode(bake, target(bake, 1e-4)).error.transfer.total(), 1e-4);
+    EXPECT_TRUE(read_paim(output_).moving().positions.mean.holds_floats());
     options_.precision = Precision::f32;
     for (const double error : {1e-4, 1e-6}) {
         const TargetSummary summary = encode(bake, target(bake, error));
