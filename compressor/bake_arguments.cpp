@@ -119,9 +119,10 @@ void add_everyday_bake_options(CLI::App& app, CompressOptions& options, BakeArgu
                    "The poses: OBJ files, quoted patterns ('poses/*.obj') or directories. All have "
                    "the same faces. Taken in natural order: x_2 before x_10")
         ->type_name("");
-    app.add_option("--rays", arguments.rays,
-                   "Rays per vertex and pose, even, 2 to 16777216. More rays, less noise")
-        ->check(cli::in_range(uint32_t{2}, uint32_t{1} << 24))
+    app.add_option(
+           "--rays", arguments.rays,
+           fmt::format("Rays per vertex and pose, even, 2 to {}. More rays, less noise", kMostRays))
+        ->check(cli::in_range(uint32_t{2}, kMostRays))
         ->default_str(std::to_string(options.bake.rays))
         ->type_name("N");
     app.add_option("--bands", options.bake.bands,

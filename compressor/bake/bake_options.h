@@ -19,9 +19,13 @@ const char* streams_name(Streams streams);
 
 constexpr Streams kStreams[] = {Streams::per_pose, Streams::shared, Streams::mixed};
 
+// The most rays of a vertex.
+constexpr uint32_t kMostRays = 1u << 24;
+
 struct BakeOptions {
-    uint32_t bands = 5;   // 1 … sh::kMaxBands
-    uint32_t rays = 512;  // per vertex, even, 2 … 2^24; the limit if there is a transfer_error
+    uint32_t bands = 5;  // 1 … sh::kMaxBands
+    // Per vertex, even, 2 … kMostRays; the limit if there is a transfer_error.
+    uint32_t rays = 512;
     uint64_t seed = 1;
     // The noise target, if above 0: rays are traced at each vertex until the estimated error of its
     // transfer (noise_target.h) is at most this fraction of the transfer of an unshadowed vertex.

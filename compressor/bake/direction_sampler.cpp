@@ -100,22 +100,6 @@ class UniformSobolSampler : public DirectionSampler {
 
 }  // namespace
 
-const char* sampler_name(SamplerKind kind) {
-    switch (kind) {
-        case SamplerKind::cosine:
-            return "cosine";
-        case SamplerKind::uniform:
-            return "uniform";
-        case SamplerKind::uniform_sobol:
-            return "uniform-sobol";
-    }
-    return "unknown";
-}
-
-double error_power(SamplerKind kind) {
-    return kind == SamplerKind::uniform ? 1.0 : 1.5;
-}
-
 std::unique_ptr<DirectionSampler> make_sampler(SamplerKind kind, uint32_t first, uint32_t count) {
     switch (kind) {
         case SamplerKind::cosine:

@@ -16,14 +16,26 @@ enum class SamplerKind : uint32_t {
 };
 
 // The name in options and manifests: "cosine", "uniform" or "uniform-sobol".
-const char* sampler_name(SamplerKind kind);
+constexpr const char* sampler_name(SamplerKind kind) {
+    switch (kind) {
+        case SamplerKind::cosine:
+            return "cosine";
+        case SamplerKind::uniform:
+            return "uniform";
+        case SamplerKind::uniform_sobol:
+            return "uniform-sobol";
+    }
+    return "unknown";
+}
 
 constexpr SamplerKind kSamplerKinds[] = {SamplerKind::cosine, SamplerKind::uniform,
                                          SamplerKind::uniform_sobol};
 
 // The exponent p of the squared error ∝ rays^−p of a mean over directions: 1 for random points, and
 // 1.5 for low-discrepancy points, as measured for occluders with edges.
-double error_power(SamplerKind kind);
+constexpr double error_power(SamplerKind kind) {
+    return kind == SamplerKind::uniform ? 1.0 : 1.5;
+}
 
 // Directions to trace, with weights. Both are padded with zeros.
 struct RaySet : DirectionArrays {

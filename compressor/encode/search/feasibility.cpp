@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <string>
+
+#include "compressor/encode/search/less_noise.h"
 #include "paim/base/error.h"
 
 namespace paim {
@@ -22,20 +25,21 @@ void check_part(const EncodeProblem& problem, const TransferError& best, const c
         fmt::format("{}: a transfer error of {:.3g} % is asked for, but {}",
                     problem.bake.directory().string(), 100.0 * transfer_error, whose);
     const uint32_t baked = problem.bake.identity().layout.in_bands;
-    if (best.missing_bands > best.error) {
+    if (best.missing_bands > best.error || best.missing_bands >= transfer_error) {
+        const char* const more = best.error < transfer_error ? "" : " and more --rays";
         throw_infeasible(fmt::format(
             "{}its {} bands leave out {:.3g} % of what light of this spectrum shows: the best is "
-            "{:.3g} %; bake with more --bands",
-            asked, baked, 100.0 * best.missing_bands, 100.0 * best.total()));
+            "{:.3g} %; bake with more --bands{}",
+            asked, baked, 100.0 * best.missing_bands, 100.0 * best.total(), more));
     }
     if (problem.layout.in_bands < baked) {
         throw_infeasible(
             fmt::format("{}{} of its {} bands leave {:.3g} % at best: keep more --bands", asked,
                         problem.layout.in_bands, baked, 100.0 * best.total()));
     }
-    throw_infeasible(
-        fmt::format("{}the bake's noise leaves {:.3g} % at best: bake with more --rays", asked,
-                    100.0 * best.total()));
+    throw_infeasible(fmt::format("{}the bake's noise leaves {:.3g} % at best: {}", asked,
+                                 100.0 * best.total(),
+                                 less_noise_hint(problem.bake.identity(), best, transfer_error)));
 }
 
 }  // namespace

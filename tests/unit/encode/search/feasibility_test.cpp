@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "compressor/encode/search/less_noise.h"
 #include "paim/base/error.h"
 #include "tests/temporary_directory.h"
 #include "tests/unit/encode/search/target_bake.h"
@@ -53,15 +54,18 @@ TEST_F(Feasibility, SaysWhetherNoiseOrBandsAreInTheWay) {
     TransferError& best = problem_->best_achievable.transfer;
     best.error = 0.04;
     best.missing_bands = 0.03;
-    EXPECT_EQ(refusal(0.02), name() +
-                                 ": a transfer error of 2 % is asked for, but the bake's noise "
-                                 "leaves 5 % at best: bake with more --rays");
+    EXPECT_EQ(refusal(0.035), name() +
+                                  ": a transfer error of 3.5 % is asked for, but the bake's noise "
+                                  "leaves 5 % at best: " +
+                                  less_noise_hint(bake_.identity(), best, 0.035));
+    // No rays bring back what bands leave out.
+    const std::string bands_leave = " % is asked for, but its 4 bands leave out ";
+    const std::string shows = " % of what light of this spectrum shows: the best is 5 %; ";
+    EXPECT_EQ(refusal(0.02), name() + ": a transfer error of 2" + bands_leave + "3" + shows +
+                                 "bake with more --bands and more --rays");
     std::swap(best.error, best.missing_bands);
-    EXPECT_EQ(refusal(0.02),
-              name() +
-                  ": a transfer error of 2 % is asked for, but its 4 bands leave out "
-                  "4 % of what light of this spectrum shows: the best is 5 %; bake "
-                  "with more --bands");
+    EXPECT_EQ(refusal(0.035), name() + ": a transfer error of 3.5" + bands_leave + "4" + shows +
+                                  "bake with more --bands");
     // Bands that were not asked for are an error, and no bands that the bake lacks.
     best.error = 0.05;
     best.missing_bands = 0.0;
@@ -79,7 +83,9 @@ TEST_F(Feasibility, CountsWhatStandsStillToo) {
     EXPECT_EQ(refusal(0.031), "");
     EXPECT_EQ(refusal(0.02), name() +
                                  ": a transfer error of 2 % is asked for, but in the still meshes "
-                                 "the bake's noise leaves 3 % at best: bake with more --rays");
+                                 "the bake's noise leaves 3 % at best: " +
+                                 less_noise_hint(bake_.identity(),
+                                                 problem_->best_achievable.still->transfer, 0.02));
     EXPECT_EQ(problem_->least_error(), 0.03);
 }
 
