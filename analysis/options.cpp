@@ -85,7 +85,8 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
     CLI::Option* const verify = app.add_option(
         "--verify", options.verify,
         "A .paim made from this bake: measure its errors again and compare them with those that it "
-        "states; exit code 5 if one is larger (by more than 0.000001 of it, for rounding)");
+        "states; exit code 5 if one is larger (by more than 0.000001 of it, for rounding). A note "
+        "says if the file was made from another bake of this mesh");
     // All options added so far are about curves.
     for (CLI::Option* const option : app.get_options()) {
         const std::string name = option->get_name();

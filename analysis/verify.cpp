@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "analysis/same_bake.h"
 #include "paim/base/error.h"
 #include "paim/base/json_text.h"
 #include "paim/base/tbb_parallel.h"
@@ -55,8 +57,40 @@ std::vector<Comparison> compare(const AssetError& error, const ErrorStatement& s
     return comparisons;
 }
 
+// "rays 16 (here 64), seed … (here …)"
+std::string differences_text(const std::vector<BakeDifference>& differences) {
+    const auto or_none = [](const std::string& text) { return text.empty() ? "none" : text; };
+    std::string text;
+    for (const BakeDifference& one : differences) {
+        text += fmt::format("{}{} {} (here {})", text.empty() ? "" : ", ", one.name,
+                            or_none(one.of_file), or_none(one.of_bake));
+    }
+    return text;
+}
+
+std::vector<Comparison> those_above(const std::vector<Comparison>& comparisons) {
+    std::vector<Comparison> above;
+    std::copy_if(comparisons.begin(), comparisons.end(), std::back_inserter(above),
+                 [](const Comparison& one) { return !one.within(); });
+    return above;
+}
+
+// "within what it states", or which errors are above it.
+std::string verdict_text(const std::vector<Comparison>& comparisons) {
+    const std::vector<Comparison> above = those_above(comparisons);
+    std::string text = above.empty() ? "within what it states" : "above what it states: ";
+    for (const Comparison& one : above) {
+        if (&one != &above.front()) text += ", ";
+        text += one.measured.name;
+    }
+    const bool all_compared = std::all_of(comparisons.begin(), comparisons.end(),
+                                          [](const Comparison& one) { return one.stated; });
+    return all_compared ? text : text + " (what it does not state for this light is not compared)";
+}
+
 void print_json(const AnalyzeOptions& options, const AssetError& error, const BandPower& spectrum,
-                const std::vector<Comparison>& comparisons) {
+                const std::vector<Comparison>& comparisons,
+                const std::vector<BakeDifference>& differences) {
     nlohmann::ordered_json json;
     json["paim"] = options.verify.string();
     json["bake"] = options.bake_directory.string();
@@ -76,6 +110,11 @@ void print_json(const AnalyzeOptions& options, const AssetError& error, const Ba
                      {"transfer_pose", error.transfer.worst_pose},
                      {"position_vertex", error.geometry.distance.worst_vertex},
                      {"position_pose", error.geometry.distance.worst_pose}};
+    json["bake_differences"] = nlohmann::ordered_json::object();
+    for (const BakeDifference& one : differences) {
+        json["bake_differences"][one.name] = {{"file", one.of_file}, {"bake", one.of_bake}};
+    }
+    json["within"] = those_above(comparisons).empty();
     fmt::print("{}\n", json_text(json, 2));
 }
 
@@ -90,6 +129,7 @@ void print_text(const AnalyzeOptions& options, const BandPower& spectrum,
         fmt::print("  {:<40}{:>14}{:>14.6g}{}\n", comparison.measured.name, stated,
                    comparison.measured.value, comparison.within() ? "" : "  above");
     }
+    fmt::print("{}: {}\n", options.verify.string(), verdict_text(comparisons));
 }
 
 }  // namespace
@@ -102,21 +142,30 @@ void verify(const AnalyzeOptions& options) {
     const BandPower spectrum =
         choose_band_power(options, statement, bake.identity().layout.in_bands);
     bake.verify_all();
+    const std::vector<BakeDifference> differences = bake_differences(asset, bake);
+    if (!differences.empty()) {
+        fmt::print(stderr, "note: {}: was made from another bake than {}: {}\n",
+                   options.verify.string(), options.bake_directory.string(),
+                   differences_text(differences));
+    }
     const AssetError error = measure_asset(asset, bake, spectrum);
     const std::vector<Comparison> comparisons =
         compare(error, statement, spectrum.name == statement.band_power);
     if (options.json) {
-        print_json(options, error, spectrum, comparisons);
+        print_json(options, error, spectrum, comparisons, differences);
     } else {
         print_text(options, spectrum, comparisons);
     }
-    const auto above = std::find_if(comparisons.begin(), comparisons.end(),
-                                    [](const Comparison& c) { return !c.within(); });
-    if (above == comparisons.end()) return;
-    throw Error(ExitCode::threshold_exceeded,
-                fmt::format("{}: expected a {} of at most {:.6g}, as it states, got {:.6g}",
-                            options.verify.string(), above->measured.name, *above->stated,
-                            above->measured.value));
+    const std::vector<Comparison> above = those_above(comparisons);
+    if (above.empty()) return;
+    const Comparison& first = above.front();
+    throw Error(
+        ExitCode::threshold_exceeded,
+        fmt::format("{}: expected a {} of at most {:.6g}, as it states, got {:.6g}{}{}",
+                    options.verify.string(), first.measured.name, *first.stated,
+                    first.measured.value,
+                    above.size() > 1 ? fmt::format(" ({} errors are above)", above.size()) : "",
+                    differences.empty() ? "" : "; it was made from another bake"));
 }
 
 }  // namespace paim

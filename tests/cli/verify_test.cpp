@@ -56,12 +56,15 @@ TEST_F(Verify, AcceptsAFileThatIsAsGoodAsItSays) {
         EXPECT_TRUE(contains(text.out, "\n  " + name + " ")) << text.out;
     }
     EXPECT_FALSE(contains(text.out, "above")) << text.out;
+    EXPECT_TRUE(text.out.ends_with("\n" + file + ": within what it states\n")) << text.out;
 
     const ToolResult result = verify(file, {"--json"});
     EXPECT_EQ(result.err, "");
     const json report = parse_object(result);
     EXPECT_EQ(report["light_spectrum"], "flat");
     EXPECT_EQ(report["errors"].size(), 12u);
+    EXPECT_EQ(report["within"], true);
+    EXPECT_EQ(report["bake_differences"], json::object());
     for (const auto& [name, entry] : report["errors"].items()) {
         // To the last bit, being measured twice in the same way.
         EXPECT_EQ(entry["stated"], entry["measured"]) << name;
@@ -86,8 +89,72 @@ TEST_F(Verify, FindsEveryErrorThatIsLargerThanStated) {
             << result.err;
         const json report = json::parse(result.out);
         EXPECT_EQ(report["errors"][error.name]["within"], false) << error.name;
-        EXPECT_TRUE(contains(verify(file).out, "  above\n")) << error.name;
+        EXPECT_EQ(report["within"], false) << error.name;
+        const std::string text = verify(file).out;
+        EXPECT_TRUE(contains(text, "  above\n")) << error.name;
+        EXPECT_TRUE(text.ends_with(file + ": above what it states: " + error.name + "\n")) << text;
     }
+}
+
+TEST_F(Verify, NamesAllErrorsThatAreLargerThanStated) {
+    const std::string file = state([](json& provenance) {
+        for (const char* const name : {"transfer_error", "kg_error", "e_rms"}) {
+            json& stated = provenance["measured"][name];
+            stated = 0.5 * stated.get<double>();
+        }
+    });
+    const ToolResult result = verify(file);
+    EXPECT_EQ(result.exit_code, 5);
+    EXPECT_TRUE(contains(result.out, "above what it states: transfer_error, kg_error, e_rms\n"))
+        << result.out;
+    EXPECT_TRUE(contains(result.err, " (3 errors are above)\n")) << result.err;
+}
+
+// The mesh is the same, so that everything can be measured; but what is measured is another bake.
+TEST_F(Verify, SaysWhereTheBakeIsAnother) {
+    const std::string file = state();
+    const auto bake = [&](const std::string& name, Arguments options) {
+        options.insert(options.begin(), {"bake", path("plates"), "-o", path(name), "--bands", "3"});
+        expect_success(compress(options));
+        return path(name);
+    };
+    // Few rays: far from what the file was made from.
+    const std::string coarse = bake("coarse.bake", {"--rays", "2", "--seed", "5"});
+    const ToolResult result = analyze({coarse, "--verify", file});
+    EXPECT_EQ(result.exit_code, 5) << result.err;
+    EXPECT_TRUE(contains(result.err, "note: " + file + ": was made from another bake than " +
+                                         coarse +
+                                         ": rays 16 (here 2), seed 0000000000000001 (here "
+                                         "0000000000000005), bake_noise "))
+        << result.err;
+    EXPECT_TRUE(contains(result.err, "; it was made from another bake\n")) << result.err;
+    const json report = json::parse(analyze({coarse, "--verify", file, "--json"}).out);
+    EXPECT_EQ(report["bake_differences"]["rays"], (json{{"file", "16"}, {"bake", "2"}}));
+    EXPECT_FALSE(report["bake_differences"].contains("sampler"));
+
+    // Options that are not there by default.
+    const std::string bounced = bake("bounced.bake", {"--rays", "16", "--bounces", "2"});
+    EXPECT_TRUE(contains(analyze({bounced, "--verify", file}).err, "bounces none (here 2)"));
+
+    // Other poses of the same faces and options: their noise is another.
+    const std::string poses = path("plates");
+    std::filesystem::copy_file(poses + "/plates_0001.obj", poses + "/plates_0002.obj",
+                               std::filesystem::copy_options::overwrite_existing);
+    const std::string moved = bake("moved.bake", {"--rays", "16"});
+    const ToolResult other = analyze({moved, "--verify", file});
+    EXPECT_TRUE(contains(other.err, "was made from another bake than " + moved + ": bake_noise "))
+        << other.err;
+    EXPECT_FALSE(contains(other.err, "rays")) << other.err;
+
+    // The very same poses and options, baked again.
+    std::filesystem::remove_all(path("again.bake"));
+    std::filesystem::copy(path("x.bake"), path("again.bake"));
+    EXPECT_EQ(analyze({path("again.bake"), "--verify", file}).err, "");
+    // Files that say nothing of their bake.
+    const std::string silent = state([](json& provenance) {
+        provenance = {{"measured", provenance["measured"]}};
+    });
+    EXPECT_EQ(verify(silent).err, "");
 }
 
 TEST_F(Verify, AllowsForRoundingAndForPessimism) {
@@ -112,6 +179,9 @@ TEST_F(Verify, ComparesUnderTheLightThatWasMeant) {
     EXPECT_TRUE(other["errors"]["transfer_error"]["stated"].is_null());
     EXPECT_GT(other["errors"]["transfer_error"]["measured"], 0.0);
     EXPECT_FALSE(other["errors"]["kg_error"]["stated"].is_null());
+    EXPECT_TRUE(contains(verify(natural, {"--light-spectrum", "flat"}).out,
+                         "within what it states (what it does not state for this light is not "
+                         "compared)\n"));
 
     // A map must be given again.
     Image image(8, 4, Vec3f(1, 1, 1));

@@ -1,0 +1,22 @@
+// Whether a .paim was made from a bake.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "paim/codec/asset.h"
+#include "paim/format/bake/bake_directory.h"
+
+namespace paim {
+
+// One thing that the file says of the bake that it was made from, and what this bake has instead.
+// Empty where there is none.
+struct BakeDifference {
+    std::string name;  // as in the provenance (docs/format.md)
+    std::string of_file, of_bake;
+};
+
+// None if the file says nothing of its bake, or was made from this one. The mesh is not compared.
+std::vector<BakeDifference> bake_differences(const Asset& asset, const BakeReader& bake);
+
+}  // namespace paim
