@@ -1,4 +1,4 @@
-// EXR through OpenEXR's C++ interface, in a form that versions 2.5 and 3 share.
+// Reads EXR through OpenEXR's C++ interface, in a form that versions 2.5 and 3 share.
 #include "paim/image/exr.h"
 
 #include <ImathBox.h>
@@ -6,8 +6,10 @@
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfInputFile.h>
+#include <ImfMultiPartInputFile.h>
 #include <ImfPartType.h>
 #include <ImfRgbaFile.h>
+#include <ImfStandardAttributes.h>
 #include <ImfTiledInputFile.h>
 #include <ImfVersion.h>
 
@@ -24,8 +26,9 @@ namespace paim {
 
 namespace {
 
-// Lines decoded at a time: the largest number that any compression puts into one chunk.
-constexpr int kBlockLines = 256;
+// Bytes of scan lines that are decoded at a time. OpenEXR keeps the chunk that it decoded last, so
+// that a chunk of more lines is not decoded again.
+constexpr size_t kBlockBytes = size_t{1} << 23;
 
 // A rectangle of decoded pixels in the file's coordinates.
 struct Block {
@@ -38,8 +41,8 @@ struct Block {
     int height() const { return box.max.y - box.min.y + 1; }
 };
 
-// Copies the part of the block that lies in the display window.
-void paste(const Block& block, const Imath::Box2i& display, Image& image) {
+// Hands on the part of the block that lies in the display window.
+void hand_on(const Block& block, const Imath::Box2i& display, const ExrRun& on_run) {
     const int x_begin = std::max(block.box.min.x, display.min.x);
     const int x_end = std::min(block.box.max.x, display.max.x) + 1;
     const int y_begin = std::max(block.box.min.y, display.min.y);
@@ -48,9 +51,8 @@ void paste(const Block& block, const Imath::Box2i& display, Image& image) {
     for (int y = y_begin; y < y_end; ++y) {
         const Vec3f* row = block.pixels.data() + static_cast<ptrdiff_t>(y - block.box.min.y) *
                                                      static_cast<ptrdiff_t>(block.width());
-        std::copy(row + (x_begin - block.box.min.x), row + (x_end - block.box.min.x),
-                  &image.at(x_begin - display.min.x, y_begin - display.min.y) +
-                      static_cast<ptrdiff_t>(y - y_begin) * image.width);
+        on_run(x_begin - display.min.x, y - display.min.y,
+               {row + (x_begin - block.box.min.x), row + (x_end - block.box.min.x)});
     }
 }
 
@@ -118,25 +120,26 @@ Coding find_coding(const Imf::InputFile& input, const std::string& file) {
 // The box that blocks of full lines need to cover: the data window's lines within the display's.
 template <typename ReadLines>
 void read_line_blocks(const Imath::Box2i& data, const Imath::Box2i& display, ReadLines read_lines) {
+    const auto row_bytes = sizeof(Vec3f) * (static_cast<size_t>(data.max.x - data.min.x) + 1);
+    const int num_lines = static_cast<int>(std::clamp<size_t>(kBlockBytes / row_bytes, 1, 256));
     const int y_end = std::min(data.max.y, display.max.y) + 1;
-    for (int y = std::max(data.min.y, display.min.y); y < y_end; y += kBlockLines) {
-        read_lines(
-            Imath::Box2i({data.min.x, y}, {data.max.x, std::min(y + kBlockLines, y_end) - 1}));
+    for (int y = std::max(data.min.y, display.min.y); y < y_end; y += num_lines) {
+        read_lines(Imath::Box2i({data.min.x, y}, {data.max.x, std::min(y + num_lines, y_end) - 1}));
     }
 }
 
-void read_scan_lines(Imf::InputFile& file, const Coding& coding, Image& image) {
+void read_scan_lines(Imf::InputFile& file, const Coding& coding, const ExrRun& on_run) {
     const Imath::Box2i& display = file.header().displayWindow();
     read_line_blocks(file.header().dataWindow(), display, [&](const Imath::Box2i& box) {
         Block block(box);
         file.setFrameBuffer(frame_buffer(block, coding.names));
         file.readPixels(box.min.y, box.max.y);
         if (coding.grey) spread_grey(block);
-        paste(block, display, image);
+        hand_on(block, display, on_run);
     });
 }
 
-void read_tiles(Imf::TiledInputFile& file, const Coding& coding, Image& image) {
+void read_tiles(Imf::TiledInputFile& file, const Coding& coding, const ExrRun& on_run) {
     const Imath::Box2i& display = file.header().displayWindow();
     for (int ty = 0; ty < file.numYTiles(0); ++ty) {
         for (int tx = 0; tx < file.numXTiles(0); ++tx) {
@@ -146,13 +149,13 @@ void read_tiles(Imf::TiledInputFile& file, const Coding& coding, Image& image) {
             file.setFrameBuffer(frame_buffer(block, coding.names));
             file.readTile(tx, ty, 0, 0);
             if (coding.grey) spread_grey(block);
-            paste(block, display, image);
+            hand_on(block, display, on_run);
         }
     }
 }
 
 // Reads luminance-chroma images by OpenEXR's own conversion, which gives half precision.
-void read_luminance_chroma(Imf::RgbaInputFile& file, Image& image) {
+void read_luminance_chroma(Imf::RgbaInputFile& file, const ExrRun& on_run) {
     const Imath::Box2i& display = file.displayWindow();
     read_line_blocks(file.dataWindow(), display, [&](const Imath::Box2i& box) {
         Block block(box);
@@ -163,34 +166,54 @@ void read_luminance_chroma(Imf::RgbaInputFile& file, Image& image) {
             file.readPixels(y);
             for (const Imf::Rgba& c : line) *pixel++ = Vec3f(c.r, c.g, c.b);
         }
-        paste(block, display, image);
+        hand_on(block, display, on_run);
     });
 }
 
-Image read_checked(const std::string& name) {
+void read_checked(const std::string& name, const ExrRun& on_run) {
     Imf::InputFile file(name.c_str());
     const Coding coding = find_coding(file, name);
     if (!file.isComplete()) throw_bad_input("{}: truncated: pixels are missing", name);
-    const Imath::Box2i& display = file.header().displayWindow();
-    Image image(display.max.x - display.min.x + 1, display.max.y - display.min.y + 1);
     if (coding.names.empty()) {
         Imf::RgbaInputFile rgba(name.c_str());
-        read_luminance_chroma(rgba, image);
+        read_luminance_chroma(rgba, on_run);
     } else if (is_tiled(file)) {
         Imf::TiledInputFile tiled(name.c_str());
-        read_tiles(tiled, coding, image);
+        read_tiles(tiled, coding, on_run);
     } else {
-        read_scan_lines(file, coding, image);
+        read_scan_lines(file, coding, on_run);
     }
-    return image;
 }
 
-}  // namespace
+std::optional<Chromaticities> find_chromaticities(const Imf::Header& header) {
+    if (!Imf::hasChromaticities(header)) return std::nullopt;
+    const Imf::Chromaticities& stated = Imf::chromaticities(header);
+    const auto xy = [](const Imath::V2f& v) { return Eigen::Vector2d(v.x, v.y); };
+    return Chromaticities{xy(stated.red), xy(stated.green), xy(stated.blue), xy(stated.white)};
+}
 
-Image read_exr(const std::filesystem::path& path, const ExrLimits& limits) {
-    check_exr_header(path, limits);
+ExrHeader read_header(const std::string& name) {
+    const Imf::InputFile file(name.c_str());
+    const Imf::Header& header = file.header();
+    const Imath::Box2i& display = header.displayWindow();
+    ExrHeader result;
+    result.width = display.max.x - display.min.x + 1;
+    result.height = display.max.y - display.min.y + 1;
+    if (Imf::isMultiPart(file.version())) {
+        result.num_parts = Imf::MultiPartInputFile(name.c_str()).parts();
+    }
+    if (header.hasName()) result.part_name = header.name();
+    if (Imf::hasEnvmap(header)) result.envmap = static_cast<int>(Imf::envmap(header));
+    result.chromaticities = find_chromaticities(header);
+    if (Imf::hasWhiteLuminance(header)) result.white_luminance = Imf::whiteLuminance(header);
+    return result;
+}
+
+// Calls the reader, and says what is wrong with the file in our words.
+template <typename Read>
+auto with_errors_of(const std::filesystem::path& path, const Read& read) {
     try {
-        return read_checked(path.string());
+        return read(path.string());
     } catch (const Error&) {
         throw;
     } catch (const std::bad_alloc&) {
@@ -198,6 +221,30 @@ Image read_exr(const std::filesystem::path& path, const ExrLimits& limits) {
     } catch (const std::exception& failure) {
         throw_bad_input("{}: truncated or damaged: {}", path.string(), failure.what());
     }
+}
+
+}  // namespace
+
+ExrHeader read_exr_header(const std::filesystem::path& path, const ExrLimits& limits) {
+    check_exr_header(path, limits);
+    return with_errors_of(path, read_header);
+}
+
+void read_exr_rows(const std::filesystem::path& path, const ExrRun& on_run,
+                   const ExrLimits& limits) {
+    check_exr_header(path, limits);
+    with_errors_of(path, [&](const std::string& name) { read_checked(name, on_run); });
+}
+
+Image read_exr(const std::filesystem::path& path, const ExrLimits& limits) {
+    const ExrHeader header = read_exr_header(path, limits);
+    return with_errors_of(path, [&](const std::string& name) {
+        Image image(header.width, header.height);
+        read_checked(name, [&](int x, int y, std::span<const Vec3f> pixels) {
+            std::copy(pixels.begin(), pixels.end(), &image.at(x, y));
+        });
+        return image;
+    });
 }
 
 }  // namespace paim

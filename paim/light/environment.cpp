@@ -6,49 +6,23 @@
 #include <utility>
 
 #include "paim/base/error.h"
+#include "paim/light/radiance_check.h"
 
 namespace paim {
 
 namespace {
-
-// Largest ratio of negative to positive values of a map. Lossy compression and filters make dark
-// rims around bright lights slightly negative (0.5 % in the maps seen so far). A map with more is
-// not radiance.
-constexpr double kMaxNegativeEnergy = 0.05;
 
 void check_radiance(const Image& image) {
     if (image.width < 1 || image.height < 1) {
         throw_bad_input("environment light: {} x {} pixels, expected at least 1 x 1", image.width,
                         image.height);
     }
-    double positive = 0.0;
-    double negative = 0.0;
-    int worst_x = 0;
-    int worst_y = 0;
-    float worst = 0.0f;
+    RadianceCheck check;
     for (int y = 0; y < image.height; ++y) {
-        const double weight = std::sin(kPi * (y + 0.5) / image.height);  // ∝ solid angle
-        for (int x = 0; x < image.width; ++x) {
-            for (const float value : image.at(x, y)) {
-                if (!std::isfinite(value)) {
-                    throw_bad_input("environment light: pixel ({}, {}) is {}, expected finite", x,
-                                    y, value);
-                }
-                (value < 0.0f ? negative : positive) += weight * std::abs(value);
-                if (value < worst) {
-                    worst = value;
-                    worst_x = x;
-                    worst_y = y;
-                }
-            }
-        }
+        check.add(0, y, {&image.at(0, y), static_cast<size_t>(image.width)},
+                  latlong_row_weight(y, image.height));
     }
-    if (negative > kMaxNegativeEnergy * positive) {
-        throw_bad_input(
-            "environment light: pixel ({}, {}) is {}, and values below zero sum to {:.2g} of those "
-            "above; expected at most {}",
-            worst_x, worst_y, worst, negative / positive, kMaxNegativeEnergy);
-    }
+    check.finish();
 }
 
 }  // namespace
@@ -68,27 +42,44 @@ std::pair<double, double> latlong_from_direction(const Vec3d& direction) {
     return {u < 1.0 ? u : 0.0, std::clamp(0.5 - latitude / kPi, 0.0, 1.0)};
 }
 
-EnvironmentLight::EnvironmentLight(Image image) : image_(std::move(image)) {
-    check_radiance(image_);
+double latlong_row_weight(int y, int height) {
+    return std::sin(kPi * (y + 0.5) / height);
+}
+
+EnvironmentLight::EnvironmentLight(Image image) {
+    check_radiance(image);
+    image_ = std::make_shared<const Image>(std::move(image));
+}
+
+EnvironmentLight EnvironmentLight::of_checked(Image image) {
+    PAIM_CHECK_LE(1, image.width);
+    PAIM_CHECK_LE(1, image.height);
+    return EnvironmentLight(std::make_shared<const Image>(std::move(image)));
 }
 
 LightCoefficients EnvironmentLight::coefficients(int bands) const {
-    return project_latlong(image_, bands);
+    return project_latlong(*image_, bands);
+}
+
+bool EnvironmentLight::is_black() const {
+    return std::all_of(image_->pixels.begin(), image_->pixels.end(),
+                       [](const Vec3f& pixel) { return pixel.isZero(0.0f); });
 }
 
 Vec3f EnvironmentLight::radiance(const Vec3d& direction) const {
+    const Image& image = *image_;
     const auto [u, v] = latlong_from_direction(direction);
-    const double x = u * image_.width - 0.5;
-    const double y = std::clamp(v * image_.height - 0.5, 0.0, image_.height - 1.0);
+    const double x = u * image.width - 0.5;
+    const double y = std::clamp(v * image.height - 0.5, 0.0, image.height - 1.0);
     const double x_floor = std::floor(x);
     const double fx = x - x_floor;
     const int y0 = static_cast<int>(y);
     const double fy = y - y0;
-    const int x0 = (static_cast<int>(x_floor) + image_.width) % image_.width;
-    const int x1 = (x0 + 1) % image_.width;
-    const int y1 = std::min(y0 + 1, image_.height - 1);
+    const int x0 = (static_cast<int>(x_floor) + image.width) % image.width;
+    const int x1 = (x0 + 1) % image.width;
+    const int y1 = std::min(y0 + 1, image.height - 1);
     const auto row = [&](int j) -> Vec3d {
-        return (1.0 - fx) * image_.at(x0, j).cast<double>() + fx * image_.at(x1, j).cast<double>();
+        return (1.0 - fx) * image.at(x0, j).cast<double>() + fx * image.at(x1, j).cast<double>();
     };
     return ((1.0 - fy) * row(y0) + fy * row(y1)).cast<float>();
 }

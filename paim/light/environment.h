@@ -2,6 +2,7 @@
 // Conventions: docs/conventions.md (those of OpenEXR's lat-long maps).
 #pragma once
 
+#include <memory>
 #include <utility>
 
 #include "paim/image/image.h"
@@ -17,6 +18,9 @@ Vec3d direction_from_latlong(double u, double v);
 // The inverse of direction_from_latlong(): u in [0, 1), v in [0, 1]. The direction is not zero; it
 // need not be unit.
 std::pair<double, double> latlong_from_direction(const Vec3d& direction);
+
+// What the pixels of row y of so many rows count, ∝ their solid angle.
+double latlong_row_weight(int y, int height);
 
 // Projects a lat-long map: each pixel is constant over its exact solid angle
 // Δlon · (sin lat_top − sin lat_bottom); the basis is taken at the pixel's centre
@@ -34,7 +38,14 @@ class EnvironmentLight : public LightField {
     // the map.
     explicit EnvironmentLight(Image image);
 
-    const Image& image() const { return image_; }
+    // Of an image that need not be checked. Colours that Rec. 709 does not have may have values
+    // below zero (load_light.h).
+    // image  at least 1 x 1 pixels (checked), all finite
+    static EnvironmentLight of_checked(Image image);
+
+    // A copy of the light has the same image.
+    const Image& image() const { return *image_; }
+    bool is_black() const;
     // Projects the image again at each call. bands  1 … sh::kMaxBands
     LightCoefficients coefficients(int bands) const;
     LightCoefficients at(const Vec3f& /*place*/, int bands) const override {
@@ -45,7 +56,9 @@ class EnvironmentLight : public LightField {
     Vec3f radiance(const Vec3d& direction) const;
 
   private:
-    Image image_;
+    explicit EnvironmentLight(std::shared_ptr<const Image> image) : image_(std::move(image)) {}
+
+    std::shared_ptr<const Image> image_;
 };
 
 }  // namespace paim

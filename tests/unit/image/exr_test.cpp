@@ -6,6 +6,7 @@
 #include <ImfChannelList.h>
 #include <ImfDeepFrameBuffer.h>
 #include <ImfDeepScanLineOutputFile.h>
+#include <ImfFloatAttribute.h>
 #include <ImfFrameBuffer.h>
 #include <ImfInputFile.h>
 #include <ImfMultiPartOutputFile.h>
@@ -13,6 +14,7 @@
 #include <ImfOutputPart.h>
 #include <ImfPartType.h>
 #include <ImfRgbaFile.h>
+#include <ImfStringAttribute.h>
 #include <ImfTiledOutputFile.h>
 #include <gtest/gtest.h>
 
@@ -21,6 +23,7 @@
 #include <string>
 
 #include "paim/base/error.h"
+#include "tests/exr_files.h"
 #include "tests/temporary_directory.h"
 
 namespace paim {
@@ -274,6 +277,54 @@ TEST(Exr, ReadsTheFirstPart) {
         part_1.writePixels(second.height);
     }
     EXPECT_EQ(read_exr(directory / "a.exr").pixels, first.pixels);
+}
+
+TEST(Exr, HeadersSayWhatIsThere) {
+    const TemporaryDirectory directory;
+    const std::filesystem::path path = directory / "a.exr";
+    const Image image = test_image(6, 5);
+    write_exr_with(path, image);
+    ExrHeader header = read_exr_header(path);
+    EXPECT_EQ(header.width, 6);
+    EXPECT_EQ(header.height, 5);
+    EXPECT_EQ(header.num_parts, 1);
+    EXPECT_FALSE(header.envmap || header.chromaticities || header.white_luminance);
+    write_exr_with(path, image, [](Imf::Header& h) {
+        mark_as_cube(h);
+        mark_as_ap0(h);
+        Imf::addWhiteLuminance(h, 80.0f);
+    });
+    header = read_exr_header(path);
+    EXPECT_EQ(header.envmap, 1);
+    EXPECT_EQ(header.white_luminance, 80.0);
+    ASSERT_TRUE(header.chromaticities);
+    EXPECT_LT((header.chromaticities->blue - Eigen::Vector2d(0.0001, -0.077)).norm(), 1e-7);
+    EXPECT_LT((header.chromaticities->white - Eigen::Vector2d(0.32168, 0.33767)).norm(), 1e-7);
+    // Names of attributes that hold something else.
+    write_exr_with(path, image, [](Imf::Header& h) {
+        h.insert("envmap", Imf::StringAttribute("cube"));
+        h.insert("chromaticities", Imf::FloatAttribute(1.0f));
+    });
+    header = read_exr_header(path);
+    EXPECT_FALSE(header.envmap || header.chromaticities);
+    EXPECT_CONTAINS(error_of(path, {5, 5}), "6 x 5");
+    EXPECT_THROW(read_exr_header(path, {5, 5}), Error);
+}
+
+// Every pixel of the data window once, those of a row from left to right.
+TEST(Exr, RowsComeInRuns) {
+    const TemporaryDirectory directory;
+    Image image = test_image(45, 23);
+    for (const bool tiled : {false, true}) {
+        write_window(directory / "a.exr", image, {0, 0}, Imath::Box2i({0, 0}, {44, 22}), tiled);
+        std::vector<int> next(23, 0);
+        read_exr_rows(directory / "a.exr", [&](int x, int y, std::span<const Vec3f> pixels) {
+            ASSERT_EQ(x, next[static_cast<size_t>(y)]);
+            next[static_cast<size_t>(y)] += static_cast<int>(pixels.size());
+            for (const Vec3f& pixel : pixels) ASSERT_EQ(pixel, image.at(x++, y));
+        });
+        EXPECT_EQ(next, std::vector<int>(23, 45));
+    }
 }
 
 TEST(Exr, RefusesDeepImages) {
