@@ -12,6 +12,7 @@
 
 #include "paim/base/error.h"
 #include "paim/image/png.h"
+#include "paim/light/load_light.h"
 #include "player/gl/check.h"
 #include "player/gl/window.h"
 #include "player/prefix_loader.h"
@@ -98,7 +99,7 @@ class App {
         if (const std::string error = loader_->take_error(); !error.empty()) say(error);
         std::optional<LoadedAsset> loaded = loader_->take();
         if (!loaded) return;
-        auto scene = std::make_unique<Scene>();
+        auto scene = std::make_unique<Scene>(Scene{nullptr, scene_->environment, {}, 0, {}});
         scene->asset = std::move(loaded->asset);
         scene->bounds = loaded->bounds;
         scene->size_bytes = loaded->progress.size_bytes;
@@ -111,7 +112,6 @@ class App {
             say(error.what());
             return;
         }
-        scene->environment = std::move(scene_->environment);
         bounds_.emplace(*scene->asset);
         scene_ = std::move(scene);
         const ViewRange before = std::exchange(range_, range());
@@ -228,9 +228,12 @@ class App {
 
     void change_light(const std::filesystem::path& path) {
         try {
-            renderer_->set_environment(load_environment(path));
+            const LoadedLight light = load_light(path, options_.env_mapping);
+            renderer_->set_environment(light.light);
             environment_name_ = path.filename().string();
-            say("light: " + environment_name_);
+            std::string message = "light: " + environment_name_;
+            for (const std::string& note : light.notes) message += "\n" + note;
+            say(message);
         } catch (const Error& error) {
             say(error.what());
         }

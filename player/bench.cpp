@@ -66,8 +66,7 @@ Times measure_gpu(SceneRenderer& renderer, Frame frame, const gl::Target& target
 // The same weights, decoding, turned light and shading; no picture.
 Times measure_cpu(const Options& options, const Scene& scene, Frame frame) {
     const uint32_t bands = options.limits.bands;
-    const LightCoefficients light =
-        EnvironmentLight(scene.environment).coefficients(static_cast<int>(bands));
+    const LightCoefficients light = scene.environment.coefficients(static_cast<int>(bands));
     Playback playback(scene.asset);
     const int num_frames = *options.bench_frames;
     return measure(num_frames, [&](int i) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "paim/base/error.h"
+#include "paim/cli/light_options.h"
 #include "paim/cli/parse.h"
 #include "player/ui/keys.h"
 
@@ -107,7 +108,7 @@ class OptionGroup {
     std::string name_;
 };
 
-void describe_picture(CLI::App& app, RawOptions& raw) {
+void describe_picture(CLI::App& app, RawOptions& raw, Options& options) {
     app.add_option("model", raw.model, "The compressed animation to play")
         ->type_name("X.paim")
         ->required();
@@ -126,9 +127,11 @@ void describe_picture(CLI::App& app, RawOptions& raw) {
         "Where the camera stands. AZ: azimuth about +Y in degrees, -360 to 360, 0 looks along "
         "-Z. EL: elevation in degrees, -89 to 89. F: distance, as a factor from 0.05 to 100 "
         "of the distance from which all poses are seen (default: 28.65,17.19,1)");
-    group.add("--env", raw.environment, "FILE.exr",
-              "Light and background: an OpenEXR image of linear radiance in the latitude-longitude "
-              "projection (default: a built-in sky)");
+    group.add(
+        "--env", raw.environment, "FILE.exr",
+        "Light and background: an OpenEXR image of linear radiance that shows every direction, "
+        "such as a latitude-longitude map (default: a built-in sky)");
+    cli::add_env_mapping(app, options.env_mapping)->group("Picture");
     group.add("--env-rotation", raw.env_rotation, "DEG",
               "Angle by which light and background are turned about +Y, in degrees, -36000 to "
               "36000, counter-clockwise seen from above (default: 0)");
@@ -248,7 +251,7 @@ int parse_options(int argc, const char* const* argv, Options& options) {
                              "changed and turned.\n\n") +
                      kExamples,
                  "paim-play");
-    describe_picture(app, raw);
+    describe_picture(app, raw, options);
     describe_detail(app, raw, options);
     describe_runs(app, raw, options);
     app.set_help_flag("-h,--help", "Print this help and quit");  // once more, to be listed last

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "paim/image/tone.h"
+#include "paim/light/env_mapping.h"
 #include "player/render/codec_words.h"
 #include "player/render/frame.h"
 #include "player/ui/orbit_camera.h"
@@ -32,6 +33,7 @@ struct WantedLimits {
 struct Options {
     std::filesystem::path model_path;
     std::optional<std::filesystem::path> environment_path;  // else the built-in sky
+    EnvMapping env_mapping = EnvMapping::automatic;
     WantedLimits wanted;
     DecodeLimits limits;  // as wanted, but no more than the file has; set when it is loaded
     ToneCurve tone_curve;

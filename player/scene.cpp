@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "paim/base/error.h"
+#include "paim/cli/light_options.h"
 #include "paim/codec/sequence_bounds.h"
-#include "paim/image/exr.h"
-#include "paim/light/environment.h"
+#include "paim/light/load_light.h"
 #include "paim/light/sky.h"
 #include "player/read_asset.h"
 
@@ -29,6 +29,14 @@ uint32_t limit_of(const char* option, const char* what, std::optional<uint32_t> 
     return std::min(wanted.value_or(available), available);
 }
 
+// What the options name, with notes on how it was read, or the built-in sky.
+EnvironmentLight load_environment(const Options& options) {
+    if (!options.environment_path) return EnvironmentLight(make_sky());
+    const LoadedLight loaded = load_light(*options.environment_path, options.env_mapping);
+    cli::print_notes("paim-play", *options.environment_path, loaded.notes);
+    return loaded.light;
+}
+
 }  // namespace
 
 Scene load_scene(Options& options) {
@@ -42,7 +50,7 @@ Scene load_scene(Options& options) {
 }
 
 Scene make_scene(Options& options, LoadedAsset loaded) {
-    Scene scene;
+    Scene scene{nullptr, EnvironmentLight(Image(1, 1)), {}, 0, {}};
     scene.asset = std::move(loaded.asset);
     scene.bounds = loaded.bounds;
     scene.size_bytes = loaded.progress.size_bytes;
@@ -73,18 +81,8 @@ Scene make_scene(Options& options, LoadedAsset loaded) {
     }
     limits.bands = limit_of("--bands", "bands", wanted.bands, mesh.layout.in_bands, true);
 
-    scene.environment =
-        options.environment_path ? load_environment(*options.environment_path) : make_sky();
+    scene.environment = load_environment(options);
     return scene;
-}
-
-Image load_environment(const std::filesystem::path& path) {
-    Image image = read_exr(path);
-    try {
-        return EnvironmentLight(std::move(image)).image();
-    } catch (const Error& error) {
-        throw Error(error.code(), fmt::format("{}: {}", path.string(), error.what()));
-    }
 }
 
 }  // namespace paim::player

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "paim/codec/asset.h"
-#include "paim/image/image.h"
+#include "paim/light/environment.h"
 #include "paim/mesh/bounds.h"
 #include "player/file_prefix.h"
 #include "player/options.h"
@@ -14,7 +14,7 @@ namespace paim::player {
 
 struct Scene {
     std::shared_ptr<const Asset> asset;
-    Image environment;                     // lat-long, linear radiance, finite and not negative
+    EnvironmentLight environment;
     Bounds bounds;                         // of the whole animation
     uint64_t size_bytes = 0;               // of the .paim file, or of the prefix that is there
     std::optional<LoadProgress> progress;  // of the prefix, where the options ask for one
@@ -26,8 +26,5 @@ Scene load_scene(Options& options);
 
 // The same of an animation that has been read: all of it, or a prefix.
 Scene make_scene(Options& options, LoadedAsset loaded);
-
-// Reads a lat-long map that can light a scene. Errors (bad input) name the file.
-Image load_environment(const std::filesystem::path& path);
 
 }  // namespace paim::player

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "paim/image/area_average.h"
 #include "player/gl/check.h"
-#include "player/render/fit_image.h"
 #include "player/shaders/sources.h"
 
 namespace paim::player {
@@ -15,7 +15,10 @@ BackgroundRenderer::BackgroundRenderer()
 }
 
 void BackgroundRenderer::set_environment(const Image& environment) {
-    const Image image = fit_image(environment, gl::max_texture_size());
+    const int max_size = gl::max_texture_size();
+    const bool fits = environment.width <= max_size && environment.height <= max_size;
+    const Image smaller = fits ? Image() : fit_latlong(environment, max_size, max_size);
+    const Image& image = fits ? environment : smaller;
     glBindTexture(GL_TEXTURE_2D, environment_.id());
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);

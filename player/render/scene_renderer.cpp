@@ -7,10 +7,11 @@
 
 namespace paim::player {
 
-SceneRenderer::SceneRenderer(const Asset& asset, const Image& environment,
-                             const DecodeLimits& limits) {
+SceneRenderer::SceneRenderer(const Asset& asset, EnvironmentLight environment,
+                             const DecodeLimits& limits)
+    : environment_(std::move(environment)) {
     set_asset(asset, limits);
-    set_environment(environment);
+    background_renderer_.set_environment(environment_.image());
 }
 
 void SceneRenderer::set_asset(const Asset& asset, const DecodeLimits& limits) {
@@ -19,7 +20,7 @@ void SceneRenderer::set_asset(const Asset& asset, const DecodeLimits& limits) {
         parts.push_back(std::make_unique<MeshRenderer>(mesh, limits));
     }
     parts_ = std::move(parts);
-    if (environment_ && light_.bands != static_cast<int>(plan().layout.in_bands)) project_light();
+    if (light_.bands != static_cast<int>(plan().layout.in_bands)) project_light();
 }
 
 uint64_t SceneRenderer::texture_bytes() const {
@@ -28,14 +29,14 @@ uint64_t SceneRenderer::texture_bytes() const {
     return bytes;
 }
 
-void SceneRenderer::set_environment(const Image& environment) {
-    environment_.emplace(environment);
+void SceneRenderer::set_environment(const EnvironmentLight& environment) {
+    background_renderer_.set_environment(environment.image());
+    environment_ = environment;
     project_light();
-    background_renderer_.set_environment(environment);
 }
 
 void SceneRenderer::project_light() {
-    light_ = environment_->coefficients(static_cast<int>(plan().layout.in_bands));
+    light_ = environment_.coefficients(static_cast<int>(plan().layout.in_bands));
     turned_light_ = light_;
     turned_rad_ = 0.0;
 }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "paim/codec/asset.h"
@@ -18,18 +17,16 @@ namespace paim::player {
 
 class SceneRenderer {
   public:
-    // Keeps a reference to the asset; the environment is copied. Nothing beyond the limits is
-    // uploaded. Errors (unsupported): the asset does not fit into this driver's textures, or this
-    // player does not draw its codec.
-    // environment  lat-long, linear radiance; Error(bad input) if a value is negative or not finite
-    SceneRenderer(const Asset& asset, const Image& environment, const DecodeLimits& limits);
+    // Keeps a reference to the asset. Nothing beyond the limits is uploaded. Errors (unsupported):
+    // the asset does not fit into this driver's textures, or this player does not draw its codec.
+    SceneRenderer(const Asset& asset, EnvironmentLight environment, const DecodeLimits& limits);
 
     // Shows this asset from now on, under the same light, and keeps a reference to it. On an error
     // the old one stays.
     void set_asset(const Asset& asset, const DecodeLimits& limits);
 
     // Replaces light and background. On an error the old ones stay.
-    void set_environment(const Image& environment);
+    void set_environment(const EnvironmentLight& environment);
 
     // What can be shown of the part that moves.
     const UploadPlan& plan() const { return parts_.front()->plan(); }
@@ -48,7 +45,7 @@ class SceneRenderer {
 
     std::vector<std::unique_ptr<MeshRenderer>> parts_;
     BackgroundRenderer background_renderer_;
-    std::optional<EnvironmentLight> environment_;
+    EnvironmentLight environment_;
     LightCoefficients light_;         // not turned
     LightCoefficients turned_light_;  // by turned_rad_
     double turned_rad_ = 0.0;

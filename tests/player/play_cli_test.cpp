@@ -18,6 +18,7 @@
 #include "paim/light/sky.h"
 #include "paim/mesh/planes.h"
 #include "tests/cli/run_tool.h"
+#include "tests/exr_files.h"
 #include "tests/player/ray_cast.h"
 #include "tests/player/test_asset.h"
 #include "tests/player/x_server.h"
@@ -213,6 +214,62 @@ TEST_F(PlayTest, PlaysClusters) {
               std::string::npos);
 }
 
+// The same light as a lat-long map and as a cube map: the same picture, background and all.
+TEST_F(PlayTest, CubeMapsLightLikeLatLongMaps) {
+    const auto radiance = [](const Vec3d& direction) {
+        const Vec3f d = direction.normalized().cast<float>();
+        return Vec3f(Vec3f(0.5f, 0.4f, 0.3f) + 0.3f * d + 0.2f * Vec3f(d.y() * d.z(), 0, d.x()));
+    };
+    constexpr int kFace = 128;
+    Image cube(kFace, 6 * kFace);
+    for (int y = 0; y < cube.height; ++y) {
+        for (int x = 0; x < kFace; ++x) {
+            const double right = (2.0 * x + 1.0) / kFace - 1.0;
+            const double up = 1.0 - (2.0 * (y % kFace) + 1.0) / kFace;
+            const std::vector<Vec3d> faces{{1, up, right},   {-1, up, -right}, {right, 1, up},
+                                           {right, -1, -up}, {-right, up, 1},  {right, up, -1}};
+            cube.at(x, y) = radiance(faces[static_cast<size_t>(y / kFace)]);
+        }
+    }
+    Image latlong(512, 256);
+    for (int y = 0; y < 256; ++y) {
+        for (int x = 0; x < 512; ++x) {
+            latlong.at(x, y) = radiance(direction_from_latlong((x + 0.5) / 512, (y + 0.5) / 256));
+        }
+    }
+    write_exr_with(out("cube.exr"), cube, mark_as_cube);
+    write_exr_with(out("latlong.exr"), latlong);
+    const auto picture = [&](const char* map, const std::string& camera, const char* mapping) {
+        const ToolResult result = play({"--env", out(map), "--snapshot", out("a.exr"), "--size",
+                                        "96x64", "--camera", camera, "--env-mapping", mapping});
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        EXPECT_EQ(result.err.empty(),
+                  std::string(map) != "cube.exr" || std::string(mapping) == "auto")
+            << result.err;
+        return read_exr(out("a.exr"));
+    };
+    for (const std::string camera : {"30,20", "-120,-40", "200,80"}) {
+        const Image expected = picture("latlong.exr", camera, "auto");
+        // Half a pixel of the cube at most.
+        EXPECT_LE(compare(expected, picture("cube.exr", camera, "auto")).mean_relative, 3e-3);
+        EXPECT_GT(compare(expected, picture("cube.exr", camera, "latlong")).mean_relative, 0.05);
+    }
+}
+
+// A note says what was assumed.
+TEST_F(PlayTest, SaysHowAMapWasRead) {
+    write_exr_with(out("square.exr"), Image(6, 6, Vec3f::Ones()));
+    const ToolResult result =
+        play({"--env", out("square.exr"), "--snapshot", out("a.exr"), "--size", "16x16"});
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_EQ(result.err.find("paim-play: note: " + out("square.exr") + ": 6 x 6 pixels"), 0u)
+        << result.err;
+    expect_failure(
+        {"--env", out("square.exr"), "--env-mapping", "cube", "--snapshot", out("a.exr")}, 2,
+        "square.exr: expected N x 6 N pixels");
+    expect_failure({"--env-mapping", "ball"}, 1, "--env-mapping: expected one of auto, latlong");
+}
+
 TEST_F(PlayTest, RefusesCommandLinesThatMakeNoSense) {
     const std::string png = out("a.png");
     expect_failure({"--snapshot", png, "--pose", "5.01"}, 1, "--pose: expected 0 to 5");
@@ -261,6 +318,7 @@ TEST_F(PlayTest, HelpNamesEveryOptionAndKey) {
     const ToolResult result = run_tool({PAIM_PLAY, "--help"});
     EXPECT_EQ(result.exit_code, 0);
     for (const char* word : {"--env",
+                             "--env-mapping",
                              "--env-rotation",
                              "--background",
                              "--geometry-components",

@@ -31,7 +31,7 @@ TEST(PrefixRenderer, DrawsAnotherAssetAsIfItWereTheFirst) {
     options.bands = 3;  // projects the light again
     options.num_poses = 4;
     const Asset other = make_test_asset(options);
-    const Image environment = make_sky();
+    const EnvironmentLight environment(make_sky());
     SceneRenderer renderer(other, environment, {});
     Image last = draw(renderer, other);
     for (const Asset* asset : {&coarse, &whole, &other, &coarse}) {
