@@ -70,6 +70,10 @@ void print_warnings(const std::vector<std::string>& warnings) {
     for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
 }
 
+void print_notes(const std::vector<std::string>& notes) {
+    for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
+}
+
 nlohmann::ordered_json mesh_json(const TopologyReport& report, const PoseReport& total) {
     nlohmann::ordered_json json;
     json["isolated_vertices"] = report.isolated_vertices;

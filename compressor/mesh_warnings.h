@@ -23,6 +23,9 @@ std::vector<std::string> still_mesh_warnings(const std::string& file, const Topo
 // Prints each as a line on stderr.
 void print_warnings(const std::vector<std::string>& warnings);
 
+// The same for notes: what may well be meant, but often is a mistake.
+void print_notes(const std::vector<std::string>& notes);
+
 // All counts, also those that are 0.
 nlohmann::ordered_json mesh_json(const TopologyReport& report, const PoseReport& total);
 

@@ -7,6 +7,7 @@
 #include <new>
 #include <system_error>
 
+#include "compressor/io/frame_notes.h"
 #include "compressor/io/natural_order.h"
 #include "paim/base/error.h"
 
@@ -26,13 +27,24 @@ bool is_obj_file(const fs::path& path) {
 
 std::vector<fs::path> list_folder(const fs::path& folder) {
     std::vector<fs::path> files;
+    size_t num_hidden = 0;
     std::error_code failure;
     for (fs::directory_iterator entry(folder, failure), end; !failure && entry != end;
          entry.increment(failure)) {
-        if (is_obj_file(entry->path())) files.push_back(entry->path());
+        if (!is_obj_file(entry->path())) continue;
+        // Some systems put a hidden file (._x.obj) with other data beside every file.
+        if (entry->path().filename().native().starts_with('.')) {
+            ++num_hidden;
+        } else {
+            files.push_back(entry->path());
+        }
     }
     if (failure) {
         throw_bad_input("{}: cannot read directory: {}", folder.string(), failure.message());
+    }
+    if (files.empty() && num_hidden > 0) {
+        throw_bad_input("{}: no OBJ files in this directory but {} hidden ones (.*.obj)",
+                        folder.string(), num_hidden);
     }
     if (files.empty()) throw_bad_input("{}: no OBJ files in this directory", folder.string());
     return files;
@@ -55,7 +67,8 @@ std::vector<fs::path> expand_pattern(const std::string& pattern) {
 
 }  // namespace
 
-std::vector<fs::path> find_obj_files(const std::vector<std::string>& arguments, bool keep_order) {
+std::vector<fs::path> find_obj_files(const std::vector<std::string>& arguments, bool keep_order,
+                                     std::vector<std::string>* notes) {
     if (arguments.empty()) throw_bad_input("no OBJ files: expected at least one");
     std::vector<fs::path> all;
     for (const std::string& argument : arguments) {
@@ -69,13 +82,15 @@ std::vector<fs::path> find_obj_files(const std::vector<std::string>& arguments, 
         } else {
             files = {argument};
         }
-        std::sort(files.begin(), files.end(), natural_path_less);
+        sort_naturally(files);
+        if (keep_order && notes != nullptr) append_frame_notes(files, *notes);
         all.insert(all.end(), files.begin(), files.end());
     }
     if (!keep_order) {
         for (fs::path& path : all) path = path.lexically_normal();
-        std::sort(all.begin(), all.end(), natural_path_less);
+        sort_naturally(all);
         all.erase(std::unique(all.begin(), all.end()), all.end());
+        if (notes != nullptr) append_frame_notes(all, *notes);
     }
     return all;
 }

@@ -47,12 +47,85 @@ TEST(NaturalOrder, IsATotalOrder) {
     }
 }
 
+// The names in the order that sort_naturally() gives, whatever order they come in.
+std::vector<std::string> sorted(const std::vector<std::string>& names) {
+    std::vector<std::string> result;
+    std::vector<std::string> shuffled = names;
+    for (size_t turn = 0; turn < names.size(); ++turn) {
+        std::vector<std::filesystem::path> paths(shuffled.begin(), shuffled.end());
+        sort_naturally(paths);
+        const std::vector<std::string> now(paths.begin(), paths.end());
+        EXPECT_TRUE(result.empty() || result == now);
+        result = now;
+        // Another order: every third name, then the others backwards.
+        std::rotate(shuffled.begin(), shuffled.begin() + 1, shuffled.end());
+        if (turn % 2 == 1) std::reverse(shuffled.begin(), shuffled.end() - 1);
+    }
+    return result;
+}
+
+// Sorts the names, which are given in the right order.
+void expect_order(const std::vector<std::string>& names) {
+    EXPECT_EQ(sorted(names), names);
+}
+
 TEST(NaturalOrder, KeepsFoldersTogether) {
     // By bytes alone, '-' comes before '/'.
-    EXPECT_TRUE(natural_path_less("run/2.obj", "run-a/1.obj"));
-    EXPECT_TRUE(natural_path_less("run2/9.obj", "run10/1.obj"));
-    EXPECT_TRUE(natural_path_less("run/2.obj", "run/10.obj"));
-    EXPECT_FALSE(natural_path_less("run/2.obj", "run/2.obj"));
+    expect_order(
+        {"run/2.obj", "run/10.obj", "run/a/1.obj", "run-a/1.obj", "run2/9.obj", "run10/1.obj"});
+    expect_order({"x.obj", "x1.obj", "x1a.obj", "a/1.obj"});
+}
+
+TEST(NaturalOrder, TakesHyphensAsSignsWhereOtherNamesShowIt) {
+    // Blender pads to a width that counts the sign.
+    expect_order({"t-004.obj", "t-003.obj", "t-001.obj", "t0000.obj", "t0002.obj", "t0010.obj"});
+    expect_order({"t-010.obj", "t-002.obj", "t0002.obj", "t0010.obj"});
+    // No zero and no padding, but the step goes on.
+    expect_order({"f-3.obj", "f-1.obj", "f1.obj", "f3.obj"});
+    expect_order({"f-10.obj", "f-5.obj", "f0.obj", "f5.obj", "f10.obj"});
+    // Nothing is in front that could be separated.
+    expect_order({"-10.obj", "-2.obj", "-1.obj"});
+    expect_order({"a_-12.obj", "a_-3.obj"});
+    expect_order({"a.-012.obj", "a.-003.obj", "a.0000.obj"});
+    expect_order({"a--2.obj", "a--1.obj", "a-0.obj", "a-1.obj"});
+    // Several numbers, of which one has signs.
+    expect_order({"cam2-f-2.obj", "cam2-f-1.obj", "cam2-f0.obj", "cam10-f-2.obj", "cam10-f0.obj"});
+}
+
+TEST(NaturalOrder, TakesHyphensAsSeparatorsElsewhere) {
+    expect_order({"walk-01.obj", "walk-02.obj", "walk-09.obj", "walk-10.obj"});
+    expect_order({"walk-0.obj", "walk-1.obj", "walk-2.obj", "walk-10.obj"});
+    expect_order({"a-b-3.obj", "a-b-20.obj", "a-c-1.obj"});
+    expect_order({"shot-2-frame-9.obj", "shot-2-frame-10.obj", "shot-10-frame-1.obj"});
+    expect_order({"2024-01-02.obj", "2024-01-10.obj", "2024-02-01.obj"});
+    expect_order({"x1-2.obj", "x1-10.obj", "x2-1.obj"});
+    expect_order({"walk -1.obj", "walk -2.obj"});
+    // Another take in the folder, and names that begin with zero, are no frames 0.
+    expect_order({"horse-01.obj", "horse-02.obj", "horse-03.obj", "horse7.obj"});
+    expect_order({"walk.obj", "walk-1.obj", "walk-2.obj"});
+    expect_order({"a_-00.obj", "a_-01.obj", "a_-02.obj"});
+}
+
+TEST(NaturalOrder, TakesPointsAsDecimalWhereOtherNamesShowIt) {
+    expect_order({"t.1.obj", "t.1.25.obj", "t.1.5.obj", "t.1.75.obj", "t.2.obj", "t.10.obj"});
+    expect_order({"t1.0.obj", "t1.25.obj", "t1.5.obj", "t2.0.obj", "t10.0.obj"});
+    expect_order({"t_0001.05.obj", "t_0001.1.obj", "t_0001.15.obj"});
+    expect_order({"t_0001.obj", "t_0001.125.obj", "t_0001.5.obj", "t_0002.obj"});
+    expect_order({"t-1.5.obj", "t-1.25.obj", "t-1.obj", "t-0.5.obj", "t0.obj", "t0.25.obj",
+                  "t0.5.obj", "t1.obj"});
+    expect_order({"v.2.1.obj", "v.2.1.25.obj", "v.2.1.5.obj", "v.2.2.obj", "v.10.1.obj"});
+}
+
+TEST(NaturalOrder, TakesPointsAsSeparatorsElsewhere) {
+    expect_order({"walk.v1.0001.obj", "walk.v1.0010.obj", "walk.v2.0001.obj"});
+    expect_order({"walk.1.2.obj", "walk.1.10.obj", "walk.2.1.obj"});
+    expect_order({"v.1.obj", "v.1.5.obj", "v.1.9.obj", "v.1.10.obj"});
+    expect_order({"a.1.2.3.obj", "a.1.2.20.obj", "a.1.10.3.obj"});
+    expect_order({"t.0001.obj", "t.0002.obj", "t.0010.obj"});
+}
+
+TEST(NaturalOrder, BreaksTiesOfSortedFilesByBytes) {
+    expect_order({"x_02.OBJ", "x_02.obj", "x_2.obj", "x_03.obj"});
 }
 
 }  // namespace

@@ -59,6 +59,33 @@ TEST_F(FindObjFiles, TakesNamesAsTheyAre) {
     EXPECT_EQ(find({"missing.obj"}), "missing.obj");  // opening it tells
 }
 
+TEST_F(FindObjFiles, PassesOverHiddenFiles) {
+    for (const char* name : {"._x_2.obj", ".x.obj"}) write_file(directory_ / name, "");
+    EXPECT_EQ(find({""}), "odd[1].obj x_1.OBJ x_2.obj x_10.obj");
+    EXPECT_EQ(find({"*2.obj"}), "x_2.obj");
+    EXPECT_EQ(find({"*.obj"}), "odd[1].obj x_2.obj x_10.obj");
+    // Unless they are meant.
+    EXPECT_EQ(find({".*.obj"}), "._x_2.obj .x.obj");
+    EXPECT_EQ(find({".x.obj"}), ".x.obj");
+    fs::create_directory(directory_ / "hidden");
+    write_file(directory_ / "hidden/.a.obj", "");
+    EXPECT_EQ(error("hidden"), "hidden: no OBJ files in this directory but 1 hidden ones (.*.obj)");
+}
+
+TEST_F(FindObjFiles, NotesGapsInWhatItSorts) {
+    const auto notes_of = [&](std::vector<std::string> arguments, bool keep_order) {
+        for (std::string& argument : arguments) argument = (directory_ / argument).string();
+        std::vector<std::string> notes;
+        find_obj_files(arguments, keep_order, &notes);
+        return notes.size();
+    };
+    for (const char* name : {"g_1.obj", "g_2.obj", "g_5.obj"}) write_file(directory_ / name, "");
+    EXPECT_EQ(notes_of({"g_1.obj", "g_2.obj", "g_5.obj"}, false), 1u);
+    EXPECT_EQ(notes_of({"g_*.obj"}, true), 1u);
+    EXPECT_EQ(notes_of({"g_1.obj", "g_2.obj", "g_5.obj"}, true), 0u);
+    EXPECT_EQ(notes_of({"g_1.obj", "g_2.obj"}, false), 0u);
+}
+
 TEST_F(FindObjFiles, NamesWhatHasNone) {
     EXPECT_EQ(error("y_*.obj"), "y_*.obj: no OBJ files match this pattern");
     EXPECT_EQ(error("x_1.m*"), "x_1.m*: no OBJ files match this pattern");
