@@ -182,7 +182,8 @@ class App {
         if (!is_visible()) return;
         const auto [width, height] = window_.framebuffer_size();
         const auto start = Clock::now();
-        const int samples = options_.supersample.value_or(1);
+        const int samples = samples_that_fit(width, height, options_.supersample.value_or(1),
+                                             gl::max_target_size());
         if (!target_ || target_->width() != width * samples ||
             target_->height() != height * samples) {
             target_.emplace(width * samples, height * samples);

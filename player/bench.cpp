@@ -52,11 +52,12 @@ void set_frame(Frame& frame, int i, int num_frames, uint32_t num_poses) {
 }
 
 // Uploads weights and light, draws and waits until the picture is finished.
-Times measure_gpu(SceneRenderer& renderer, Frame frame, const gl::Target& target, int num_frames,
-                  uint32_t num_poses) {
+// target  of the size of a tile
+Times measure_gpu(SceneRenderer& renderer, Frame frame, const Tiling& tiling,
+                  const gl::Target& target, int num_frames, uint32_t num_poses) {
     const Times times = measure(num_frames, [&](int i) {
         set_frame(frame, i, num_frames, num_poses);
-        renderer.draw(frame, target);
+        renderer.draw_tiles(frame, tiling, target);
         glFinish();
     });
     gl::check_errors("drawing");
@@ -85,12 +86,14 @@ void run_bench(const Options& options, const Scene& scene) {
     frame.bounds.extend(scene.bounds.lower);  // of every pose
     frame.bounds.extend(scene.bounds.upper);
     SceneRenderer renderer(*scene.asset, scene.environment, options.limits);
-    const gl::Target target(options.size.first * samples, options.size.second * samples);
+    const auto [width, height] = options.size;
+    const Tiling tiling = plan_tiles(width, height, samples, gl::max_target_size());
+    const gl::Target target(tiling.tile_width * samples, tiling.tile_height * samples);
     const gl::Target pixel(1, 1);  // so that almost all of the work is that of the vertices
     const int num_frames = *options.bench_frames;
     const uint32_t num_poses = scene.asset->num_poses();
-    const Times whole = measure_gpu(renderer, frame, target, num_frames, num_poses);
-    const Times vertices = measure_gpu(renderer, frame, pixel, num_frames, num_poses);
+    const Times whole = measure_gpu(renderer, frame, tiling, target, num_frames, num_poses);
+    const Times vertices = measure_gpu(renderer, frame, {1, 1, 1, 1}, pixel, num_frames, num_poses);
     const Times cpu = measure_cpu(options, scene, frame);
     const double ratio = vertices.median_ms / cpu.median_ms;
     const int num_threads = max_parallelism();
@@ -115,7 +118,7 @@ void run_bench(const Options& options, const Scene& scene) {
                    times.min_ms);
     };
     fmt::print("{}\n{} frames of {} x {} samples, {} vertices\n", context->description(),
-               num_frames, target.width(), target.height(),
+               num_frames, width * samples, height * samples,
                scene.asset->moving().topology.num_vertices);
     const Cost cost = frame_cost(scene.asset->moving(), options.limits);
     fmt::print("{:.3f} MB of textures, {} multiply-adds a vertex, positions included",

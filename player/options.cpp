@@ -145,9 +145,11 @@ void describe_picture(CLI::App& app, RawOptions& raw, Options& options) {
     group.add("--gamma", raw.gamma, "G",
               "Display curve x^(1/G), 0.1 to 10, or 0 for the sRGB curve; for PNG files and the "
               "window (default: 0)");
-    group.add("--supersample", raw.supersample, "N",
-              "Average N x N samples for each pixel, 1 to 8 (default: 2 with --snapshot, otherwise "
-              "1)");
+    group.add(
+        "--supersample", raw.supersample, "N",
+        "Average N x N samples for each pixel, 1 to 8. Pictures of any --size can have all of "
+        "them; a window has no more than fit into the driver's largest picture (default: 2 "
+        "with --snapshot, otherwise 1)");
 }
 
 void describe_detail(CLI::App& app, RawOptions& raw, Options& options) {

@@ -45,6 +45,9 @@ void BackgroundRenderer::draw(const Frame& frame, float aspect) const {
     program_.use();
     program_.set("light_axes", Eigen::Matrix3f(light_from_world * frame.camera.axes()));
     program_.set("half_extent", Eigen::Vector2f(half_height * aspect, half_height));
+    const PictureRegion& region = frame.region;
+    program_.set("region_corner", Eigen::Vector2f(region.left, region.bottom));
+    program_.set("region_size", Eigen::Vector2f(region.width, region.height));
     program_.set_texture("environment", 0, environment_);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LEQUAL);  // the triangle lies on the far plane, at the depth that was cleared to

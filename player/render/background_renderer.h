@@ -21,6 +21,7 @@ class BackgroundRenderer {
     void clear(const Frame& frame) const;
 
     // Draws the environment, if the frame shows it, where there is no mesh.
+    // aspect  of the whole picture
     void draw(const Frame& frame, float aspect) const;
 
   private:

@@ -66,7 +66,7 @@ void MeshRenderer::draw(const Frame& frame, const LightCoefficients& light, floa
     const LowRank& geometry = mesh_.positions;
     program_.set("geometry_step", Vec3f(geometry.step(0), geometry.step(1), geometry.step(2)));
     const DepthRange depth = depth_range(frame.camera, frame.bounds);
-    program_.set("clip_from_world", clip_from_world(frame.camera, aspect, depth));
+    program_.set("clip_from_world", clip_from_world(frame.camera, aspect, depth, frame.region));
 
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);

@@ -27,7 +27,8 @@ class MeshRenderer {
     uint64_t texture_bytes() const;
 
     // Draws the frame's pose under the light over what the current target holds.
-    // light  already turned; bands beyond the light's are dark
+    // light   already turned; bands beyond the light's are dark
+    // aspect  of the whole picture
     void draw(const Frame& frame, const LightCoefficients& light, float aspect);
 
   private:

@@ -1,6 +1,7 @@
 // All parts of an asset under a light before their background: all that one frame needs.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "player/render/background_renderer.h"
 #include "player/render/frame.h"
 #include "player/render/mesh_renderer.h"
+#include "player/render/tiles.h"
 
 namespace paim::player {
 
@@ -34,13 +36,21 @@ class SceneRenderer {
     // Of all parts.
     uint64_t texture_bytes() const;
 
-    // Draws into the target.
+    // Draws the whole picture into the target.
     void draw(const Frame& frame, const gl::Target& target);
 
-    // The picture of width × height pixels, each the mean of samples × samples.
+    // Draws the tiles of a picture one after the other into the target, which has the size of a
+    // tile.
+    // on_tile  called with column and row after each
+    void draw_tiles(const Frame& frame, const Tiling& tiling, const gl::Target& target,
+                    const std::function<void(int, int)>& on_tile = {});
+
+    // The picture of width × height pixels, each the mean of samples × samples. Large ones are
+    // drawn in tiles (render/tiles.h).
     Image render(const Frame& frame, int width, int height, int samples);
 
   private:
+    void draw(const Frame& frame, const gl::Target& target, float aspect);
     void project_light();
 
     std::vector<std::unique_ptr<MeshRenderer>> parts_;

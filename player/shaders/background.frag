@@ -4,6 +4,8 @@
 uniform sampler2D environment;  // lat-long, row 0 on top, as in OpenEXR
 uniform mat3 light_axes;        // right, up, backward of the camera, in the light's own frame
 uniform vec2 half_extent;       // of the picture at distance 1: tan(fov / 2) * (aspect, 1)
+uniform vec2 region_corner;     // of the part of the picture that is drawn, lower left, 0 to 1
+uniform vec2 region_size;       // of that part; 1 is the picture
 
 in vec2 image_position;
 out vec4 radiance;
@@ -16,7 +18,8 @@ vec3 texel(ivec2 at, ivec2 size) {
 }
 
 void main() {
-    vec2 offset = (2.0 * image_position - 1.0) * half_extent;
+    vec2 place_in_picture = region_corner + region_size * image_position;
+    vec2 offset = (2.0 * place_in_picture - 1.0) * half_extent;
     vec3 direction = normalize(light_axes * vec3(offset, -1.0));
 
     float longitude = atan(direction.x, direction.z);

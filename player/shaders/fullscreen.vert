@@ -1,5 +1,5 @@
 // A triangle that covers the screen, on the far plane, from gl_VertexID alone. image_position runs from (0, 0) at the
-// lower left to (1, 1) at the upper right corner of the picture.
+// lower left to (1, 1) at the upper right corner of the target.
 out vec2 image_position;
 
 void main() {

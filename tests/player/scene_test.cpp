@@ -199,6 +199,51 @@ TEST_P(SceneTest, SupersamplesAreAveraged) {
     EXPECT_EQ(difference.mean_relative, 0.0);
 }
 
+// Mesh and background of tiles fit together to the picture that is drawn in one go. Positions are
+// rounded in another frame, to 1e-7 of the picture, so that the samples along edges of triangles may
+// fall to either side.
+TEST_P(SceneTest, TilesMakeTheSamePicture) {
+    const Asset asset = make_test_asset({});
+    SceneRenderer renderer(asset, EnvironmentLight(make_environment()), {});
+    Frame frame;
+    frame.bounds = pose_bounds(asset, 0.0, frame.limits.geometry_components);
+    frame.camera = frame_bounds(frame.bounds, kAspect);
+    frame.env_rotation_rad = 0.7;
+    const Image expected = renderer.render(frame, kWidth, kHeight, 1);
+    for (const Tiling& tiling :
+         {Tiling{kWidth, kHeight, 32, 16}, Tiling{kWidth, kHeight, 7, kHeight}}) {
+        const gl::Target target(tiling.tile_width, tiling.tile_height);
+        Image picture(kWidth, kHeight);
+        renderer.draw_tiles(frame, tiling, target, [&](int column, int row) {
+            const Image tile = target.read();
+            for (int y = 0; y < kHeight; ++y) {
+                for (int x = 0; x < kWidth; ++x) {
+                    if (x / tiling.tile_width != column || y / tiling.tile_height != row) continue;
+                    picture.at(x, y) = tile.at(x % tiling.tile_width, y % tiling.tile_height);
+                }
+            }
+        });
+        const Difference difference = compare(expected, picture);
+        EXPECT_LT(difference.mean_relative, 1e-4);
+        EXPECT_LT(difference.fraction_off, 1e-3);
+    }
+}
+
+// Wider than any driver draws at once: 90,000 samples.
+TEST_P(SceneTest, LargePicturesAreDrawnInTiles) {
+    const Asset asset = make_test_asset({});
+    SceneRenderer renderer(asset, EnvironmentLight(make_environment()), {});
+    Frame frame;
+    frame.bounds = pose_bounds(asset, 0.0, frame.limits.geometry_components);
+    frame.camera = frame_bounds(frame.bounds, 1.0f);
+    constexpr int kLarge = 11250, kSamples = 8;
+    const Image tiled = renderer.render(frame, kLarge, 4, kSamples);
+    // One sample a pixel fits. All but the few pixels in front of the camera see what hardly changes
+    // over a pixel.
+    const Image whole = renderer.render(frame, kLarge, 4, 1);
+    EXPECT_LT(compare(whole, tiled).mean_relative, 1e-3);
+}
+
 TEST_P(SceneTest, EnvironmentsAreReplaced) {
     const Asset asset = make_empty_asset();
     SceneRenderer renderer(asset, EnvironmentLight(make_environment()), {});
