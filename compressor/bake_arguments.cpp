@@ -22,7 +22,11 @@ constexpr uint32_t kMaxRays = 16384;
 
 void add_input_options(CLI::App& app, CompressOptions& options, BakeArguments& arguments) {
     constexpr const char* kGroup = "Input";
-    app.add_flag("--keep-order", options.keep_order, "Take the files in the order given")
+    app.add_flag("--keep-order", options.keep_order,
+                 "Take the files in the order given. Without it, files are sorted by the numbers "
+                 "in their names: x_2 before x_10; t-2, t-1, t0; t.1, t.1.25, t.1.5. '-' and '.' "
+                 "are a sign and a decimal point only where other names of the folder show it, and "
+                 "separate numbers elsewhere: walk-01 before walk-02")
         ->group(kGroup);
     cli::add_choice(app, "--normals", options.normals, {"faces", "file"},
                     "Vertex normals: 'faces' averages the faces around a vertex, 'file' takes the "
@@ -32,6 +36,15 @@ void add_input_options(CLI::App& app, CompressOptions& options, BakeArguments& a
                    "Diffuse reflectance of the poses, linear, three numbers or one for all, 0 to "
                    "1. Default: the vertex colours, else Kd of the materials, else 0.8")
         ->type_name("R,G,B")
+        ->group(kGroup);
+    cli::add_choice<ColourCurve>(app, "--vertex-colours", options.vertex_colours,
+                                 {{"auto", ColourCurve::automatic},
+                                  {"linear", ColourCurve::linear},
+                                  {"srgb", ColourCurve::srgb}},
+                                 "What the vertex colours of OBJ files are: linear values or sRGB "
+                                 "ones, which are made linear. 'auto' takes them as sRGB if the "
+                                 "file names an exporter that writes sRGB (Blender, MeshLab), else "
+                                 "as linear. The report says which")
         ->group(kGroup);
 }
 
@@ -117,7 +130,8 @@ void apply_noise_target(const BakeArguments& arguments, CompressOptions& options
 void add_everyday_bake_options(CLI::App& app, CompressOptions& options, BakeArguments& arguments) {
     app.add_option("OBJ", options.inputs,
                    "The poses: OBJ files, quoted patterns ('poses/*.obj') or directories. All have "
-                   "the same faces. Taken in natural order: x_2 before x_10")
+                   "the same faces. Taken in natural order: x_2 before x_10. Hidden files are "
+                   "passed over. Gaps in the numbers are noted")
         ->type_name("");
     app.add_option(
            "--rays", arguments.rays,

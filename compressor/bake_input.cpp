@@ -22,13 +22,16 @@ bool is_quiet(const CompressOptions& options) {
 }
 
 ObjSequence open_sequence(const CompressOptions& options) {
-    const auto files = find_obj_files(options.inputs, options.keep_order);
+    std::vector<std::string> notes;
+    const auto files = find_obj_files(options.inputs, options.keep_order, &notes);
+    print_notes(notes);
     // Shared, because the sequence keeps the callback.
     const auto checking =
         std::make_shared<cli::Progress>("checking", "files", files.size(), is_quiet(options));
     ObjOptions obj_options;
     obj_options.normals_from_file = options.normals == "file";
     obj_options.albedo = options.albedo;
+    obj_options.vertex_colours = options.vertex_colours;
     obj_options.on_file_checked = [checking] { checking->advance(); };
     ObjSequence sequence(files, obj_options);
     checking->finish();
@@ -76,13 +79,15 @@ void BakeInput::add_still_mesh(const CompressOptions& options, const std::string
     ObjOptions obj_options;
     obj_options.normals_from_file = options.normals == "file";
     obj_options.origin = sequence_.origin();
+    obj_options.vertex_colours = options.vertex_colours;
     const ObjSequence still({file}, obj_options);
     print_warnings(still.warnings());
     surroundings_.still_mesh.add(still);
     const Topology& mesh = still.topology();
     const auto positions =
         std::span(surroundings_.still_mesh.pose.positions).last(mesh.num_vertices);
-    still_meshes_.push_back({file, report_topology(mesh), report_pose(mesh, positions)});
+    still_meshes_.push_back(
+        {file, report_topology(mesh), report_pose(mesh, positions), still.vertex_colours()});
     const StillMeshReport& report = still_meshes_.back();
     print_warnings(still_mesh_warnings(file, report.topology, report.pose));
 }
@@ -107,6 +112,7 @@ BakeReport BakeInput::report() const {
     report.origin_y = sequence_.origin().y();
     report.still_vertices = surroundings_.still_mesh.topology.num_vertices;
     report.still_triangles = surroundings_.still_mesh.topology.triangles.size();
+    report.vertex_colours = sequence_.vertex_colours();
     report.topology = topology_;
     report.still_meshes = still_meshes_;
     return report;

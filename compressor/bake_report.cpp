@@ -54,6 +54,21 @@ std::string surroundings_text(const BakeReport& report) {
     return text;
 }
 
+// What the vertex colours of a mesh are taken as; `of` says of which.
+std::string colours_text(const VertexColours& colours, const std::string& of) {
+    if (!colours.used) return {};
+    std::string text =
+        fmt::format("  vertex colours{} are taken as {}", of, colours.srgb ? "sRGB" : "linear");
+    if (!colours.chosen && colours.srgb)
+        text += fmt::format(", as {} writes them", colours.exporter);
+    if (!colours.chosen && !colours.srgb) text += "; if they are not: --vertex-colours srgb";
+    return text + '\n';
+}
+
+void add_colours(ordered_json& json, const VertexColours& colours) {
+    if (colours.used) json["vertex_colours"] = colours.srgb ? "srgb" : "linear";
+}
+
 }  // namespace
 
 double BakeReport::rays_per_vertex() const {
@@ -96,10 +111,12 @@ ordered_json report_json(const BakeReport& report) {
     json["rays_blocked"] = total.occluded;
     json["vertices_without_normal"] = total.zero_normals;
     json["relative_noise"] = total.relative_noise();
+    add_colours(json, report.vertex_colours);
     json["mesh"] = mesh_json(report.topology, total.mesh);
     for (const StillMeshReport& mesh : report.still_meshes) {
         ordered_json& entry = json["static_mesh"].emplace_back();
         entry["file"] = mesh.file;
+        add_colours(entry, mesh.vertex_colours);
         entry.update(mesh_json(mesh.topology, mesh.pose));
     }
     return json;
@@ -116,6 +133,10 @@ std::string report_text(const BakeReport& report) {
         "  {:.0f} rays per vertex, {:.1f} % occluded; estimated noise {:.2f} % of the transfer\n",
         report.rays_per_vertex(), 100.0 * report.occluded_share(), 100.0 * total.relative_noise());
     text += noise_target_text(report) + bounces_text(report) + surroundings_text(report);
+    text += colours_text(report.vertex_colours, "");
+    for (const StillMeshReport& mesh : report.still_meshes) {
+        text += colours_text(mesh.vertex_colours, " of " + mesh.file);
+    }
     if (total.zero_normals > 0) {
         text += fmt::format("  {} vertices (over all poses) have no normal; their transfer is 0\n",
                             total.zero_normals);

@@ -9,6 +9,7 @@
 
 #include "compressor/bake/bake_options.h"
 #include "compressor/bake/bake_sequence.h"
+#include "compressor/io/vertex_colours.h"
 #include "paim/mesh/mesh_report.h"
 
 namespace paim {
@@ -18,6 +19,7 @@ struct StillMeshReport {
     std::string file;
     TopologyReport topology;
     PoseReport pose;
+    VertexColours vertex_colours;
 };
 
 struct BakeReport {
@@ -32,7 +34,8 @@ struct BakeReport {
     double origin_y = 0.0;  // y of the origin of the floor's height, scene units
     uint32_t still_vertices = 0;
     size_t still_triangles = 0;
-    TopologyReport topology;  // of the poses without their floor
+    VertexColours vertex_colours;  // of the poses
+    TopologyReport topology;       // of the poses without their floor
     std::vector<StillMeshReport> still_meshes;
     BakeSummary summary;
 

@@ -9,6 +9,7 @@
 
 #include "compressor/bake/bake_options.h"
 #include "compressor/encode/options.h"
+#include "compressor/io/vertex_colours.h"
 #include "compressor/scene/floor.h"
 
 namespace paim {
@@ -22,6 +23,7 @@ struct CompressOptions {
     BakeOptions bake;
     std::string normals = "faces";  // or "file"
     std::optional<Vec3f> albedo;
+    ColourCurve vertex_colours = ColourCurve::automatic;
     std::optional<FloorOptions> floor;
     std::vector<std::string> statics;  // OBJ files of still meshes
     std::string poses;                 // "A-B", empty for all

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "compressor/io/vertex_colours.h"
 #include "paim/base/check.h"
 
 namespace paim {
@@ -20,12 +21,13 @@ Vec3d clamp_color(const Vec3d& color, size_t& num_clamped) {
     return clamped;
 }
 
-Albedo albedo_of_colors(const std::string& name, const std::vector<Vec3d>& colors,
+Albedo albedo_of_colors(const std::string& name, const std::vector<Vec3d>& colors, bool srgb,
                         std::vector<std::string>& warnings) {
     Albedo albedo{{}};
     size_t num_clamped = 0;
     for (const Vec3d& color : colors) {
-        albedo.values.push_back(clamp_color(color, num_clamped).cast<float>());
+        const Vec3d clamped = clamp_color(color, num_clamped);
+        albedo.values.push_back((srgb ? linear_from_srgb(clamped) : clamped).cast<float>());
     }
     if (num_clamped > 0) {
         warnings.push_back(fmt::format("{}: {} vertex colours clamped to 0..1", name, num_clamped));
@@ -60,8 +62,8 @@ std::vector<Vec3d> material_colors(const std::string& name, const ParsedObj& par
 }  // namespace
 
 Albedo obj_albedo(const std::string& name, const Polygons& faces, const ParsedObj& parsed,
-                  std::vector<std::string>& warnings) {
-    if (!parsed.colors.empty()) return albedo_of_colors(name, parsed.colors, warnings);
+                  bool srgb, std::vector<std::string>& warnings) {
+    if (!parsed.colors.empty()) return albedo_of_colors(name, parsed.colors, srgb, warnings);
     if (parsed.materials.empty()) return {};
 
     PAIM_CHECK_EQ(parsed.face_materials.size(), faces.num_faces());

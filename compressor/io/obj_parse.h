@@ -23,17 +23,12 @@ struct ParsedObj {
     std::vector<std::string> warnings;  // each once; about materials
 };
 
-struct ObjParseOptions {
-    // Read the material libraries named by mtllib, relative to this folder.
-    bool read_materials = false;
-    std::filesystem::path material_folder;
-};
-
 // text  as rewritten by scan_obj(), which returned `scan` with positions. Those of tinyobjloader
 //       are not used, because they may be wrong by some roundings.
+// folder  of the file. The material libraries of a scan with materials are relative to it.
 // Unreadable material libraries give warnings. Errors (bad input): tinyobjloader refuses the file,
 // or finds other faces than the scan.
 ParsedObj parse_obj(const std::string& name, std::span<char> text, const ObjScan& scan,
-                    const ObjParseOptions& options = {});
+                    const std::filesystem::path& folder = {});
 
 }  // namespace paim

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <limits>
 #include <optional>
+#include <unordered_map>
 
 #include "compressor/io/obj_text.h"
 #include "paim/base/error.h"
@@ -17,7 +18,7 @@ namespace {
 
 // Parsers store indices as int.
 constexpr int64_t kMaxIndex = std::numeric_limits<int32_t>::max();
-constexpr int kMaxCorners = 255;
+constexpr uint32_t kMaxCorners = 1000000;
 
 // The range of indices into one kind of element (v, vt or vn). They are checked as far as possible
 // before the number of elements is known.
@@ -77,10 +78,8 @@ class Scanner {
             } else if (keyword == "vt") {
                 text_.blank_rest_of_line();
                 ++texture_coordinates_.num_elements;
-            } else if (!keyword.empty() && keyword[0] != '#' && keyword != "usemtl" &&
-                       keyword != "mtllib") {
-                if (keyword == "p" || keyword == "l") ++scan_.num_other_shapes;
-                text_.comment_out_line();
+            } else if (!keyword.empty() && keyword[0] != '#') {
+                other_line(keyword);
             }
         }
         check_whole();
@@ -117,10 +116,27 @@ class Scanner {
             text_.fail(fmt::format("normal: expected 3 numbers, got {}", num_values));
     }
 
+    void other_line(std::string_view keyword) {
+        if (keyword == "p" || keyword == "l") ++scan_.num_other_shapes;
+        if (options_.read_materials && keyword == "mtllib") {
+            scan_.libraries.emplace_back(text_.read_rest_of_line());
+        } else if (options_.read_materials && keyword == "usemtl") {
+            use_material(std::string(text_.read_rest_of_line()));
+        }
+        text_.comment_out_line();
+    }
+
+    void use_material(const std::string& name) {
+        const auto next = static_cast<int32_t>(scan_.materials.size());
+        const auto [known, is_new] = materials_.try_emplace(name, next);
+        if (is_new) scan_.materials.push_back(name);
+        material_ = known->second;
+    }
+
     void face() {
         const size_t line = text_.line();
         const size_t first_corner = scan_.faces.corners.size();
-        int num_corners = 0;
+        uint32_t num_corners = 0;
         while (text_.find_word()) {
             if (++num_corners > kMaxCorners) {
                 text_.fail(fmt::format("face: expected at most {} vertices", kMaxCorners));
@@ -134,8 +150,9 @@ class Scanner {
             ++scan_.num_small_faces;
             return;
         }
-        scan_.faces.sizes.push_back(static_cast<uint8_t>(num_corners));
+        scan_.faces.sizes.push_back(num_corners);
         face_lines_.push_back(line);
+        if (options_.read_materials) scan_.face_materials.push_back(material_);
     }
 
     void corner() {
@@ -235,6 +252,8 @@ class Scanner {
     IndexRange normals_{"normal index"};
     std::vector<size_t> face_lines_;
     std::vector<bool> corner_has_normal_;
+    std::unordered_map<std::string, int32_t> materials_;  // indices into those of the scan
+    int32_t material_ = -1;
 };
 
 }  // namespace

@@ -3,7 +3,7 @@
 //
 // General OBJ parsers read garbage as 0 and check little, so every file is scanned before it is
 // parsed. The scan also rewrites the text in place, so that the parser sees only what was checked:
-// v, vn, vt, f, usemtl and mtllib lines, without comments and continued lines.
+// v, vn, vt and f lines, without comments and continued lines.
 #pragma once
 
 #include <cstdint>
@@ -23,6 +23,11 @@ struct ObjScan {
     bool has_colors = false;        // every vertex is x y z r g b
     uint64_t num_small_faces = 0;   // faces of fewer than 3 corners, which are ignored
     uint64_t num_other_shapes = 0;  // points and lines, which are ignored
+
+    // Empty unless read_materials.
+    std::vector<std::string> libraries;   // what follows each mtllib
+    std::vector<std::string> materials;   // the names that follow usemtl, each once
+    std::vector<int32_t> face_materials;  // per face: index into materials, or -1
 };
 
 // The first file of a sequence, with which later ones are compared.
@@ -37,6 +42,7 @@ struct ObjScanOptions {
     bool check_normals = false;
     const ObjReference* reference = nullptr;
     bool read_positions = false;  // to the nearest double
+    bool read_materials = false;
 };
 
 // name  of the file, for messages
@@ -44,9 +50,9 @@ struct ObjScanOptions {
 // Lines end with LF, CRLF or CR; a backslash at the end of a v, vn, f line continues it.
 // Errors (bad input); of several of the same kind, the first in the file is reported:
 //   bytes that are not text; a coordinate that is not a finite number within float's range; a face
-//   corner that is not v, v/vt, v//vn or v/vt/vn; more than 255 corners; no vertices, no faces;
-//   another number of vertices than the reference; indices out of range; other faces than the
-//   reference.
+//   corner that is not v, v/vt, v//vn or v/vt/vn; more than 1,000,000 corners; no vertices, no
+//   faces; another number of vertices than the reference; indices out of range; other faces than
+//   the reference.
 ObjScan scan_obj(const std::string& name, std::span<char> text, const ObjScanOptions& options = {});
 
 }  // namespace paim

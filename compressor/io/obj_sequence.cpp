@@ -12,7 +12,6 @@
 #include "compressor/io/obj_albedo.h"
 #include "compressor/io/obj_normals.h"
 #include "compressor/io/obj_parse.h"
-#include "compressor/io/triangulate.h"
 #include "paim/base/check.h"
 #include "paim/base/error.h"
 #include "paim/base/file.h"
@@ -39,13 +38,14 @@ ObjSequence::ObjSequence(std::vector<std::filesystem::path> files, const ObjOpti
     : files_(std::move(files)), options_(options) {
     if (files_.empty()) throw_bad_input("no OBJ files: expected at least one");
     if (files_.size() > UINT32_MAX) throw_bad_input("{} OBJ files: too many", files_.size());
-    check_files();
-    build_from_first();
+    build(check_files());
 }
 
-void ObjSequence::check_files() {
+// Returns the triangles of the faces.
+Triangulation ObjSequence::check_files() {
     checksums_.resize(files_.size());
     std::vector<BoundsD> bounds(files_.size());  // of vertices of faces
+    std::optional<Triangulator> triangulator;
     const auto check = [&](size_t i) {
         std::vector<char> text = read_file(files_[i], kMaxFileBytes);
         checksums_[i] = xxh3(text.data(), text.size());
@@ -53,8 +53,16 @@ void ObjSequence::check_files() {
         ObjScan scan = scan_obj(files_[i].string(), text,
                                 {options_.normals_from_file, i > 0 ? &reference : nullptr, true});
         for (const uint32_t v : scan.faces.corners) bounds[i].extend(scan.positions[v]);
-        scan.positions = {};
-        if (i == 0) first_ = std::move(scan);
+        const Vec3d origin = options_.origin.value_or(choose_origin(bounds[i]));
+        if (i > 0) {
+            triangulator->review(static_cast<uint32_t>(i), scan.positions, origin);
+        } else {
+            origin_ = origin;  // of this file; that of all is not known yet
+            const std::vector<Vec3f> positions = local(scan.positions);
+            scan.positions = {};
+            first_ = std::move(scan);
+            triangulator.emplace(first_.faces, positions);
+        }
         if (options_.on_file_checked) options_.on_file_checked();
     };
     check(0);
@@ -81,6 +89,7 @@ void ObjSequence::check_files() {
     check_size(all);
     origin_ = options_.origin.value_or(choose_origin(all));
     for (size_t i = 0; i < files_.size(); ++i) check_local(i, bounds[i]);
+    return triangulator->finish();
 }
 
 // Error for meshes below the normal floats. Such floats have fewer digits, so rays would start
@@ -111,31 +120,53 @@ std::vector<Vec3f> ObjSequence::local(const std::vector<Vec3d>& positions) const
     return moved;
 }
 
-ParsedObj ObjSequence::parse(uint32_t p, bool with_materials) const {
-    const std::string name = pose_name(p);
+std::vector<char> ObjSequence::read_unchanged(uint32_t p) const {
     std::vector<char> text = read_file(files_[p], kMaxFileBytes);
     if (xxh3(text.data(), text.size()) != checksums_[p]) {
-        throw_bad_input("{}: changed since the sequence was opened", name);
+        throw_bad_input("{}: changed since the sequence was opened", pose_name(p));
     }
-    // Scanned again for the rewritten text, which takes a tenth of the time of parsing.
-    const ObjScan scan = scan_obj(name, text, {options_.normals_from_file, nullptr, true});
-    return parse_obj(name, text, scan, {with_materials, files_[p].parent_path()});
+    return text;
 }
 
-void ObjSequence::build_from_first() {
+ParsedObj ObjSequence::parse(uint32_t p) const {
+    const std::string name = pose_name(p);
+    std::vector<char> text = read_unchanged(p);
+    // Scanned again for the rewritten text, which takes a tenth of the time of parsing.
+    const ObjScan scan = scan_obj(name, text, {options_.normals_from_file, nullptr, true});
+    return parse_obj(name, text, scan);
+}
+
+// With materials, if they give the albedo, and with what the vertex colours are taken as.
+ParsedObj ObjSequence::parse_first() {
+    const std::string name = pose_name(0);
+    std::vector<char> text = read_unchanged(0);
+    if (!options_.albedo && first_.has_colors) {
+        const ColourCurve curve = options_.vertex_colours;
+        vertex_colours_ = {true, curve == ColourCurve::srgb, curve != ColourCurve::automatic,
+                           srgb_exporter(text)};
+        if (curve == ColourCurve::automatic) {
+            vertex_colours_.srgb = !vertex_colours_.exporter.empty();
+        }
+    }
     const bool materials_count = !options_.albedo && !first_.has_colors;
-    ParsedObj parsed = parse(0, materials_count);
+    const ObjScan scan =
+        scan_obj(name, text, {options_.normals_from_file, nullptr, true, materials_count});
+    return parse_obj(name, text, scan, files_[0].parent_path());
+}
+
+void ObjSequence::build(Triangulation cut) {
+    ParsedObj parsed = parse_first();
     const std::string name = pose_name(0);
     warnings_ = std::move(parsed.warnings);
 
-    Triangulation cut = triangulate(first_.faces, local(parsed.positions));
     if (cut.triangles.empty()) {
         throw_bad_input("{}: no faces with three different vertices", name);
     }
     topology_ = {first_.num_vertices, std::move(cut.triangles)};
     distinct_ = without_duplicate_faces(topology_);
-    albedo_ = options_.albedo ? Albedo{{*options_.albedo}}
-                              : obj_albedo(name, first_.faces, parsed, warnings_);
+    albedo_ = options_.albedo
+                  ? Albedo{{*options_.albedo}}
+                  : obj_albedo(name, first_.faces, parsed, vertex_colours_.srgb, warnings_);
 
     const auto warn = [&](uint64_t count, const char* what) {
         if (count > 0) warnings_.push_back(fmt::format("{}: {} {}", name, count, what));
@@ -158,7 +189,7 @@ uint64_t ObjSequence::pose_checksum(uint32_t p) const {
 
 Pose ObjSequence::load_pose(uint32_t p) const {
     PAIM_CHECK_LT(p, num_poses());
-    const ParsedObj parsed = parse(p, false);
+    const ParsedObj parsed = parse(p);
     Pose pose;
     pose.positions = local(parsed.positions);
     pose.normals = options_.normals_from_file

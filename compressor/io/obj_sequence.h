@@ -9,6 +9,8 @@
 
 #include "compressor/io/obj_parse.h"
 #include "compressor/io/obj_scan.h"
+#include "compressor/io/triangulate.h"
+#include "compressor/io/vertex_colours.h"
 #include "paim/mesh/bounds.h"
 #include "paim/mesh/pose_source.h"
 
@@ -20,6 +22,8 @@ struct ObjOptions {
     bool normals_from_file = false;
     // Overrides the colours and materials of the file; linear, 0..1.
     std::optional<Vec3f> albedo;
+    // What the colours of vertices are taken as.
+    ColourCurve vertex_colours = ColourCurve::automatic;
     // Origin of positions, instead of the one that mesh/origin.h chooses.
     std::optional<Vec3d> origin;
     // Called whenever a file has been checked, by several threads at once.
@@ -30,8 +34,8 @@ struct ObjOptions {
 // groups, smoothing, points and lines are ignored.
 class ObjSequence : public PoseSource {
   public:
-    // Checks all files (obj_scan.h) first, in parallel. The faces are
-    // triangulated by the geometry of the first one, which also gives the albedo (obj_albedo.h).
+    // Checks all files (obj_scan.h) first, in parallel. The first one gives the albedo
+    // (obj_albedo.h), and the cuts of polygons where they are right in all poses (triangulate.h).
     // files  at least one; find_obj_files() gives them. The same file may be several poses.
     // Errors (bad input): any file unreadable, above 4 GiB, damaged, unlike the first, or with a
     // vertex of a face whose coordinates are no finite floats relative to the origin; or a mesh
@@ -51,13 +55,17 @@ class ObjSequence : public PoseSource {
 
     // Oddities that are not errors: lines, each with the name of the file.
     const std::vector<std::string>& warnings() const { return warnings_; }
+    // Of the first file.
+    const VertexColours& vertex_colours() const { return vertex_colours_; }
 
   private:
-    void check_files();
+    Triangulation check_files();
     void check_size(const BoundsD& bounds) const;
     void check_local(size_t file, const BoundsD& bounds) const;
-    void build_from_first();
-    ParsedObj parse(uint32_t p, bool with_materials) const;
+    void build(Triangulation cut);
+    ParsedObj parse(uint32_t p) const;
+    ParsedObj parse_first();
+    std::vector<char> read_unchanged(uint32_t p) const;
     std::vector<Vec3f> local(const std::vector<Vec3d>& positions) const;
 
     std::vector<std::filesystem::path> files_;
@@ -68,6 +76,7 @@ class ObjSequence : public PoseSource {
     Topology topology_;
     Topology distinct_;  // without duplicate faces, for the normals
     Albedo albedo_;
+    VertexColours vertex_colours_;
     std::vector<std::string> warnings_;
 };
 

@@ -9,7 +9,7 @@
 namespace paim {
 
 struct Polygons {
-    std::vector<uint8_t> sizes;     // [faces] corners of each, 3 to 255
+    std::vector<uint32_t> sizes;    // [faces] corners of each, 3 or more
     std::vector<uint32_t> corners;  // [sum of sizes] vertex indices from 0
 
     size_t num_faces() const { return sizes.size(); }

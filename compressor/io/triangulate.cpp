@@ -1,9 +1,9 @@
 // Triangulates polygons, once for all poses.
-// Based on: G. H. Meisters, Polygons Have Ears, 1975
 #include "compressor/io/triangulate.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "paim/base/check.h"
 
@@ -11,175 +11,15 @@ namespace paim {
 
 namespace {
 
-using Vec2d = Eigen::Vector2d;
 using Corners = std::vector<uint32_t>;
 
-// Twice the area vector of the polygon, of a best-fitting plane if it is not flat. Zero without
-// area.
-Vec3d newell_normal(const std::vector<Vec3d>& points) {
-    Vec3d sum = Vec3d::Zero();
-    for (size_t i = 1; i + 1 < points.size(); ++i) {
-        sum += (points[i] - points[0]).cross(points[i + 1] - points[0]);
-    }
-    return sum;
-}
-
-// Twice the signed area of a triangle, positive if counter-clockwise.
-double cross(const Vec2d& a, const Vec2d& b, const Vec2d& c) {
-    return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
-}
-
-// Triangulates one polygon at a time, with scratch memory that is reused.
-class Cutter {
-  public:
-    explicit Cutter(std::vector<Triangle>& triangles) : triangles_(triangles) {}
-
-    // Returns false if the polygon is degenerate; it is triangulated in any case.
-    bool cut(const Corners& corners, std::span<const Vec3f> positions) {
-        corners_ = &corners;
-        points_.clear();
-        // Coordinates relative to the first corner, scaled to unit size, so that products neither
-        // underflow nor overflow.
-        const Vec3d origin = positions[corners[0]].cast<double>();
-        double extent = 0.0, magnitude = 0.0;
-        for (const uint32_t v : corners) {
-            points_.push_back(positions[v].cast<double>() - origin);
-            extent = std::max(extent, points_.back().cwiseAbs().maxCoeff());
-            magnitude = std::max(magnitude, double{positions[v].cwiseAbs().maxCoeff()});
-        }
-        if (extent > 0.0) {
-            for (Vec3d& point : points_) point /= extent;
-        }
-        // The rounding of coordinates to float, in these units.
-        tolerance_ = extent > 0.0 ? 0x1p-24 * magnitude / extent : 0.0;
-
-        if (corners.size() == 3) {
-            emit(0, 1, 2);
-            return true;  // a triangle needs no cut, with or without area
-        }
-        return corners.size() == 4 ? cut_quad() : cut_polygon();
-    }
-
-  private:
-    void emit(size_t a, size_t b, size_t c) {
-        triangles_.push_back({(*corners_)[a], (*corners_)[b], (*corners_)[c]});
-    }
-
-    bool cut_quad() {
-        const Vec3d normal = newell_normal(points_);
-        const auto faces_along = [&](size_t a, size_t b, size_t c) {
-            return (points_[b] - points_[a]).cross(points_[c] - points_[a]).dot(normal) > 0.0;
-        };
-        const bool valid_02 = faces_along(0, 1, 2) && faces_along(0, 2, 3);
-        const bool valid_13 = faces_along(0, 1, 3) && faces_along(1, 2, 3);
-        const double length_02 = (points_[2] - points_[0]).norm();
-        const double length_13 = (points_[3] - points_[1]).norm();
-        const bool shorter_13 = length_13 < length_02 * (1.0 - 1e-5);
-        if (valid_02 == valid_13 ? shorter_13 : valid_13) {
-            emit(0, 1, 3);
-            emit(1, 2, 3);
-        } else {
-            emit(0, 1, 2);
-            emit(0, 2, 3);
-        }
-        return valid_02 || valid_13;
-    }
-
-    bool cut_polygon() {
-        remaining_.clear();
-        for (size_t i = 0; i < points_.size(); ++i) remaining_.push_back(i);
-        const bool has_area = project();
-        // Nearly straight corners are clipped only if no others are left.
-        bool clipped = has_area && (clip_ears(4.0 * tolerance_) || clip_ears(0.0));
-        if (!clipped) {
-            for (size_t i = 1; i + 1 < remaining_.size(); ++i) {
-                emit(remaining_[0], remaining_[i], remaining_[i + 1]);
-            }
-        }
-        return clipped;
-    }
-
-    // Projects into the plane of the Newell normal, counter-clockwise. Returns false without area.
-    bool project() {
-        const Vec3d normal = newell_normal(points_);
-        const double length = normal.norm();
-        if (length <= 1e-15) return false;  // rounding of the cross products
-        const Vec3d u = normal.unitOrthogonal();
-        const Vec3d v = (normal / length).cross(u);
-        flat_.clear();
-        for (const Vec3d& point : points_) flat_.emplace_back(point.dot(u), point.dot(v));
-        return true;
-    }
-
-    // Clips ears until one triangle is left, which is added, too. Returns false if there is no ear.
-    // tolerance  areas up to this count as zero
-    bool clip_ears(double tolerance) {
-        is_ear_.clear();
-        for (size_t i = 0; i < remaining_.size(); ++i) is_ear_.push_back(test_ear(i, tolerance));
-        size_t at = 0;
-        bool fresh = true;  // every entry of is_ear_ was tested against the remaining polygon
-        while (remaining_.size() > 3) {
-            const size_t num = remaining_.size();
-            size_t steps = 0;
-            while (steps < num && !is_ear_[at]) {
-                at = at + 1 < num ? at + 1 : 0;
-                ++steps;
-            }
-            if (steps == num) {
-                if (fresh) return false;
-                for (size_t i = 0; i < num; ++i) is_ear_[i] = test_ear(i, tolerance);
-                fresh = true;
-                continue;
-            }
-            emit(remaining_[before(at)], remaining_[at], remaining_[after(at)]);
-            remaining_.erase(remaining_.begin() + static_cast<std::ptrdiff_t>(at));
-            is_ear_.erase(is_ear_.begin() + static_cast<std::ptrdiff_t>(at));
-            if (at == remaining_.size()) at = 0;
-            // In a simple polygon only these two corners change.
-            is_ear_[at] = test_ear(at, tolerance);
-            is_ear_[before(at)] = test_ear(before(at), tolerance);
-            fresh = false;
-        }
-        emit(remaining_[0], remaining_[1], remaining_[2]);
-        return true;
-    }
-
-    uint32_t vertex(size_t i) const { return (*corners_)[remaining_[i]]; }
-    size_t before(size_t i) const { return i > 0 ? i - 1 : remaining_.size() - 1; }
-    size_t after(size_t i) const { return i + 1 < remaining_.size() ? i + 1 : 0; }
-
-    // Whether corner i is an ear: it is convex, and no corner that is not convex lies in its
-    // triangle or on its edges. A triangle that names a vertex twice (a spike, or the rest of a
-    // bridge) is an ear.
-    bool test_ear(size_t i, double tolerance) const {
-        const uint32_t v_before = vertex(before(i)), v_here = vertex(i), v_after = vertex(after(i));
-        if (v_before == v_here || v_here == v_after || v_after == v_before) return true;
-        const Vec2d& a = flat_[remaining_[before(i)]];
-        const Vec2d& b = flat_[remaining_[i]];
-        const Vec2d& c = flat_[remaining_[after(i)]];
-        if (cross(a, b, c) <= tolerance) return false;
-        for (size_t k = 0; k < remaining_.size(); ++k) {
-            const Vec2d& p = flat_[remaining_[k]];
-            if (p == a || p == b || p == c) continue;  // also the other end of a bridge to a hole
-            if (cross(a, b, p) < -tolerance || cross(b, c, p) < -tolerance ||
-                cross(c, a, p) < -tolerance) {
-                continue;
-            }
-            if (cross(flat_[remaining_[before(k)]], p, flat_[remaining_[after(k)]]) <= tolerance) {
-                return false;
-            }
-        }
-        return true;
-    }
-
-    std::vector<Triangle>& triangles_;
-    const Corners* corners_ = nullptr;
-    std::vector<Vec3d> points_;
-    std::vector<Vec2d> flat_;
-    std::vector<size_t> remaining_;
-    std::vector<char> is_ear_;
-    double tolerance_ = 0.0;
-};
+// How much more area for its extent a polygon needs in another pose to be cut there.
+constexpr double kFarMoreArea = 16.0;
+// PolygonCutter::area() is 8 at most.
+constexpr double kGreatestArea = 8.0;
+// Against this share of the squared area, a triangle that faces the other way is rounding.
+constexpr double kRounding = 1e-4;
+constexpr double kNotchWeight = 16.0;
 
 bool repeats_vertex(Corners corners) {
     std::sort(corners.begin(), corners.end());
@@ -192,38 +32,169 @@ void merge_neighbours(Corners& corners) {
     while (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
 }
 
+// Removes triangles that name a vertex twice, from `first` on.
+void drop_repeating(std::vector<Triangle>& triangles, size_t first) {
+    const auto from = triangles.begin() + static_cast<std::ptrdiff_t>(first);
+    triangles.erase(std::remove_if(from, triangles.end(),
+                                   [](const Triangle& t) {
+                                       return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+                                   }),
+                    triangles.end());
+}
+
+// One polygon on its way to the cutter.
+struct Shape {
+    Corners corners;
+    std::vector<Vec3d> points;
+    bool repeats = false;
+
+    // Takes the corners. Returns false if fewer than three different neighbours are left.
+    bool take(std::span<const uint32_t> from) {
+        corners.assign(from.begin(), from.end());
+        repeats = repeats_vertex(corners);
+        if (repeats) merge_neighbours(corners);
+        return corners.size() >= 3;
+    }
+};
+
+double score_of(const PolygonCutter& cutter) {
+    return cutter.area() * (1.0 + kNotchWeight * static_cast<double>(cutter.num_notches())) *
+           std::sqrt(cutter.extent());
+}
+
+Vec3d area_vector(const Triangle& t, std::span<const Vec3d> positions) {
+    const Vec3d& a = positions[t[0]];
+    return (positions[t[1]] - a).cross(positions[t[2]] - a);
+}
+
 }  // namespace
 
-Triangulation triangulate(const Polygons& polygons, std::span<const Vec3f> positions) {
-    Triangulation result;
-    std::vector<Triangle>& triangles = result.triangles;
-    Cutter cutter(triangles);
-    Corners corners;
+Triangulator::Triangulator(const Polygons& polygons, std::span<const Vec3f> positions)
+    : polygons_(polygons) {
+    std::vector<Triangle>& triangles = result_.triangles;
+    PolygonCutter cutter;
+    Shape shape;
     size_t first_corner = 0;
-    for (const uint8_t size : polygons.sizes) {
-        const auto begin = polygons.corners.begin() + static_cast<std::ptrdiff_t>(first_corner);
-        corners.assign(begin, begin + size);
+    for (const uint32_t size : polygons.sizes) {
+        const auto from = std::span(polygons.corners).subspan(first_corner, size);
+        for (const uint32_t v : from) PAIM_CHECK_LT(v, positions.size());
+        const bool is_polygon = shape.take(from);
+        if (shape.repeats) ++result_.num_repeating;
+        if (is_polygon) {
+            const size_t first_triangle = triangles.size();
+            shape.points.clear();
+            for (const uint32_t v : shape.corners) {
+                shape.points.push_back(positions[v].cast<double>());
+            }
+            cutter.set(shape.corners, shape.points);
+            const bool whole = cutter.cut(triangles);
+            if (!whole) ++result_.num_degenerate;
+            if (shape.repeats) drop_repeating(triangles, first_triangle);
+            if (shape.corners.size() > 3) {
+                cuts_.push_back({static_cast<uint32_t>(first_corner), size,
+                                 static_cast<uint32_t>(first_triangle),
+                                 static_cast<uint32_t>(triangles.size() - first_triangle),
+                                 whole ? static_cast<float>(cutter.area()) : 0.0f,
+                                 whole ? static_cast<float>(score_of(cutter)) : 0.0f, !whole});
+            }
+        }
         first_corner += size;
-        for (const uint32_t v : corners) PAIM_CHECK_LT(v, positions.size());
-
-        const bool repeats = repeats_vertex(corners);
-        if (repeats) {
-            ++result.num_repeating;
-            merge_neighbours(corners);
-            if (corners.size() < 3) continue;
-        }
-        const size_t first_triangle = triangles.size();
-        if (!cutter.cut(corners, positions)) ++result.num_degenerate;
-        if (repeats) {
-            const auto new_ones = triangles.begin() + static_cast<std::ptrdiff_t>(first_triangle);
-            triangles.erase(std::remove_if(new_ones, triangles.end(),
-                                           [](const Triangle& t) {
-                                               return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-                                           }),
-                            triangles.end());
-        }
     }
-    return result;
+}
+
+// The area of the polygon for its extent, as PolygonCutter::area().
+double Triangulator::relative_area(const Cut& cut, std::span<const Vec3d> positions) const {
+    const auto corners = std::span(polygons_.corners).subspan(cut.first_corner, cut.num_corners);
+    double extent = 0.0;
+    for (const uint32_t v : corners) {
+        const Vec3d difference = positions[v] - positions[corners[0]];
+        extent = std::max(extent, difference.cwiseAbs().maxCoeff());
+    }
+    if (!(extent > 0.0)) return 0.0;
+    Vec3d sum = Vec3d::Zero();
+    for (size_t i = 1; i + 1 < corners.size(); ++i) {
+        const Vec3d& a = positions[corners[0]];
+        sum +=
+            ((positions[corners[i]] - a) / extent).cross((positions[corners[i + 1]] - a) / extent);
+    }
+    return sum.norm();
+}
+
+// Whether the triangles face as their polygon does. Their area vectors sum to that of the polygon.
+bool Triangulator::is_right(const Cut& cut, std::span<const Vec3d> positions) const {
+    const auto triangles =
+        std::span(result_.triangles).subspan(cut.first_triangle, cut.num_triangles);
+    if (triangles.size() == 2) {  // of a quad, without computing anything twice
+        const Vec3d a = area_vector(triangles[0], positions);
+        const Vec3d b = area_vector(triangles[1], positions);
+        const Vec3d both = a + b;
+        return std::min(a.dot(both), 0.0) + std::min(b.dot(both), 0.0) >=
+               -kRounding * both.squaredNorm();
+    }
+    Vec3d sum = Vec3d::Zero();
+    for (const Triangle& t : triangles) sum += area_vector(t, positions);
+    double wrong = 0.0;
+    for (const Triangle& t : triangles) {
+        wrong += std::min(area_vector(t, positions).dot(sum), 0.0);
+    }
+    return wrong >= -kRounding * sum.squaredNorm();
+}
+
+void Triangulator::review(uint32_t pose, std::span<const Vec3d> positions, const Vec3d& origin) {
+    for (size_t i = 0; i < cuts_.size(); ++i) {
+        const Cut& cut = cuts_[i];
+        const bool may_be_larger = kFarMoreArea * double{cut.area} < kGreatestArea;
+        if (is_right(cut, positions) &&
+            !(may_be_larger && relative_area(cut, positions) > kFarMoreArea * double{cut.area})) {
+            continue;
+        }
+        try_pose(i, pose, positions, origin);
+    }
+}
+
+void Triangulator::try_pose(size_t index, uint32_t pose, std::span<const Vec3d> positions,
+                            const Vec3d& origin) {
+    const Cut& cut = cuts_[index];
+    Shape shape;
+    shape.take(std::span(polygons_.corners).subspan(cut.first_corner, cut.num_corners));
+    for (const uint32_t v : shape.corners) shape.points.push_back(positions[v] - origin);
+    PolygonCutter cutter;
+    cutter.set(shape.corners, shape.points);
+    BetterCut better{score_of(cutter), pose, {}};
+    const auto wins = [&](const auto& known) {
+        if (known == better_.end()) return better.score > double{cut.score};
+        return std::pair(-better.score, pose) < std::pair(-known->second.score, known->second.pose);
+    };
+    {
+        const std::lock_guard lock(mutex_);
+        if (!wins(better_.find(index))) return;
+    }
+    if (!cutter.cut(better.triangles)) return;
+    if (shape.repeats) drop_repeating(better.triangles, 0);
+    const std::lock_guard lock(mutex_);
+    if (wins(better_.find(index))) better_[index] = std::move(better);
+}
+
+Triangulation Triangulator::finish() {
+    if (better_.empty()) return std::move(result_);
+    const std::vector<Triangle> old = std::move(result_.triangles);
+    std::vector<Triangle>& triangles = result_.triangles;
+    triangles.clear();
+    size_t copied = 0;
+    for (const auto& [index, better] : better_) {
+        const Cut& cut = cuts_[index];
+        const auto at = [&](size_t i) { return old.begin() + static_cast<std::ptrdiff_t>(i); };
+        triangles.insert(triangles.end(), at(copied), at(cut.first_triangle));
+        triangles.insert(triangles.end(), better.triangles.begin(), better.triangles.end());
+        copied = cut.first_triangle + cut.num_triangles;
+        if (cut.degenerate) --result_.num_degenerate;
+    }
+    triangles.insert(triangles.end(), old.begin() + static_cast<std::ptrdiff_t>(copied), old.end());
+    return std::move(result_);
+}
+
+Triangulation triangulate(const Polygons& polygons, std::span<const Vec3f> positions) {
+    return Triangulator(polygons, positions).finish();
 }
 
 }  // namespace paim

@@ -11,7 +11,7 @@ const std::string kThree = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 TEST(ObjScan, TakesTheFormsThatFilesUse) {
     const ObjScan expected = scan_text(kTriangleObj);
     EXPECT_EQ(expected.num_vertices, 3u);
-    EXPECT_EQ(expected.faces.sizes, (std::vector<uint8_t>{3}));
+    EXPECT_EQ(expected.faces.sizes, (std::vector<uint32_t>{3}));
     EXPECT_EQ(expected.faces.corners, (std::vector<uint32_t>{0, 1, 2}));
     EXPECT_FALSE(expected.has_colors);
     for (const std::string text : {
@@ -116,11 +116,22 @@ TEST(ObjScan, RefusesCornersOfNoKnownForm) {
     }
 }
 
-TEST(ObjScan, RefusesMoreThan255Corners) {
+TEST(ObjScan, TakesManyCorners) {
     std::string face = "f";
-    for (int i = 0; i < 255; ++i) face += " 1";
-    EXPECT_EQ(scan_text(kThree + face).faces.sizes, (std::vector<uint8_t>{255}));
-    EXPECT_EQ(scan_error(kThree + face + " 1"), "x.obj:4: face: expected at most 255 vertices");
+    for (int i = 0; i < 1000000; ++i) face += " 1";
+    EXPECT_EQ(scan_text(kThree + face).faces.sizes, (std::vector<uint32_t>{1000000}));
+    EXPECT_EQ(scan_error(kThree + face + " 1"), "x.obj:4: face: expected at most 1000000 vertices");
+}
+
+TEST(ObjScan, ReadsMaterialLinesWhereTheyAreWanted) {
+    const std::string text = "mtllib a b.mtl\t\n" + kThree +
+                             "f 1 2 3\nusemtl skin body \nf 1 2 3\nusemtl\tskin\r\nf 1\nf 1 3 2\n"
+                             "usemtl skin body\nf 2 3 1\nmtllib sub\\x.mtl\n";
+    const ObjScan scan = scan_text(text, {false, nullptr, false, true});
+    EXPECT_EQ(scan.libraries, (std::vector<std::string>{"a b.mtl", "sub\\x.mtl"}));
+    EXPECT_EQ(scan.materials, (std::vector<std::string>{"skin body", "skin"}));
+    EXPECT_EQ(scan.face_materials, (std::vector<int32_t>{-1, 0, 1, 0}));
+    EXPECT_TRUE(scan_text(text).face_materials.empty());
 }
 
 TEST(ObjScan, RefusesFilesWithoutAMesh) {

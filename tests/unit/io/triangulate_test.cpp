@@ -15,7 +15,7 @@ using Triangles = std::vector<Triangle>;
 
 // One polygon with the corners 0, 1, 2, ...
 Polygons polygon_of(const std::vector<Vec3f>& points) {
-    Polygons polygons{{static_cast<uint8_t>(points.size())}, {}};
+    Polygons polygons{{static_cast<uint32_t>(points.size())}, {}};
     polygons.corners.resize(points.size());
     std::iota(polygons.corners.begin(), polygons.corners.end(), 0u);
     return polygons;
