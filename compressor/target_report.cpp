@@ -75,10 +75,16 @@ std::string transfer_text(const TargetSummary& summary) {
 std::string geometry_text(const TargetSummary& summary) {
     const GeometryError& geometry = summary.error.geometry;
     return fmt::format(
-        "  geometry: {} components, RMS distance {:.3g} measured, {:.3g} allowed ({:.2g} % of the "
-        "diagonal), worst {:.3g}; KG {:.3g} %, E_RMS {:.3g}\n",
-        summary.geometry_components, geometry.rms(), summary.geometry_target,
-        100.0 * geometry.relative_rms(), geometry.worst(), geometry.kg_error(), geometry.e_rms());
+               "  geometry: {} components, RMS distance {:.3g} measured, {:.3g} allowed ({:.2g} % of the "
+               "diagonal), worst {:.3g}; KG {:.3g} %, E_RMS {:.3g}\n",
+               summary.geometry_components, geometry.rms(), summary.geometry_target,
+               100.0 * geometry.relative_rms(), geometry.worst(), geometry.kg_error(),
+               geometry.e_rms()) +
+           fmt::format(
+               "  shape, worst piece of the mesh: STED {:.3g} %, face normals turn by {:.3g} degrees on "
+               "average\n",
+               100.0 * summary.error.shape.worst.sted(),
+               summary.error.shape.worst.normal_angle_deg);
 }
 
 std::string still_mesh_text(const MeshError& still_mesh) {

@@ -87,6 +87,7 @@ void LowRank::keep_components(uint32_t count) {
     weights.resize(size_t{count} * num_poses);
     if (!weight_steps.empty()) weight_steps.resize(count);
     if (!singular_indices.empty()) singular_indices.resize(count);
+    if (!smoothing.empty()) smoothing.resize((1 + size_t{count}) * num_planes);
 }
 
 std::vector<double> magnitude_bounds(const LowRank& matrix) {

@@ -37,6 +37,10 @@ struct PAIM_EXPORT LowRank {
     // [K] The weights of component k are integer multiples of this. Empty: weights are arbitrary
     // floats.
     std::vector<float> weight_steps;
+    // Integers that are smoothed when they are read (surface_smoothing.h) are multiples of
+    // 2^-fraction_bits of those in the file, and so are steps. 0: they are as in the file.
+    uint32_t fraction_bits = 0;
+    std::vector<uint32_t> smoothing;      // [1 + K][planes] rounds, of the mean and each component
     std::vector<double> singular_values;  // [rank of the full matrix], descending, unshrunk
     // [K] Index of the singular value of each component, ascending. Empty: component k has the
     // k-th. An index is missing where quantisation rounded a whole component to zero.

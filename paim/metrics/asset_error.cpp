@@ -91,10 +91,11 @@ TransferError measure_transfer(const CodedMesh& mesh, const BakedPart& bake,
 }
 
 // counted  vertices of the file that a face has, ascending
-GeometryError measure_geometry(const CodedMesh& mesh, const BakedPart& bake,
-                               const std::vector<uint32_t>& old_vertex,
-                               const std::vector<uint32_t>& counted) {
-    GeometryError error;
+SurfaceError measure_surface(const CodedMesh& mesh, const BakedPart& bake,
+                             const std::vector<uint32_t>& old_vertex,
+                             const std::vector<uint32_t>& counted) {
+    SurfaceError error;
+    ShapeErrorMeter shape(mesh.topology);
     PositionDecoder decoder;
     std::vector<float> decoded, baked;
     for (uint32_t p = 0; p < bake.num_poses(); ++p) {
@@ -102,12 +103,15 @@ GeometryError measure_geometry(const CodedMesh& mesh, const BakedPart& bake,
         bake.read_position_rows(p, 0, baked.size(), baked.data());
         reorder_planes(baked, old_vertex);
         decoder.decode(mesh.positions, p, mesh.positions.num_components, decoded);
+        shape.add(decoded, baked);
         for (auto* const planes : {&baked, &decoded}) {
             keep_vertices(*planes, bake.num_vertices(), counted);
         }
-        error.add(decoded, baked, p);
+        error.geometry.add(decoded, baked, p);
     }
-    error.distance.worst_vertex = counted[error.distance.worst_vertex];
+    DistanceError& distance = error.geometry.distance;
+    distance.worst_vertex = counted[distance.worst_vertex];
+    error.shape = shape.result();
     return error;
 }
 
@@ -119,8 +123,8 @@ MeshError measure_part(const Asset& asset, size_t number, const BakeReader& bake
     const std::vector<uint32_t> old_vertex = check_same_part(asset, number, bake, baked);
     const CodedMesh& mesh = asset.parts[number];
     const std::vector<uint32_t> counted = face_vertices(mesh.topology);
-    return {measure_transfer(mesh, baked, bake.identity().layout, spectrum, old_vertex, counted),
-            measure_geometry(mesh, baked, old_vertex, counted)};
+    return {measure_surface(mesh, baked, old_vertex, counted),
+            measure_transfer(mesh, baked, bake.identity().layout, spectrum, old_vertex, counted)};
 }
 
 uint64_t measure_part_bytes(uint64_t num_vertices, uint64_t num_poses, uint64_t num_components,
@@ -159,7 +163,11 @@ std::vector<NamedError> named_errors(const AssetError& error) {
         {"position_relative_rms", geometry.relative_rms(), false},
         {"position_relative_worst", geometry.relative_worst(), false},
         {"kg_error", geometry.kg_error(), false},
-        {"e_rms", geometry.e_rms(), false}};
+        {"e_rms", geometry.e_rms(), false},
+        {"sted", error.shape.whole.sted(), false},
+        {"sted_worst_piece", error.shape.worst.sted(), false},
+        {"normal_angle_deg", error.shape.whole.normal_angle_deg, false},
+        {"normal_angle_deg_worst_piece", error.shape.worst.normal_angle_deg, false}};
     if (!error.still) return errors;
     const TransferError& still = error.still->transfer;
     errors.insert(errors.end(), {{"scenery_transfer_error", still.error, true},

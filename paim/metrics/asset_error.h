@@ -10,15 +10,19 @@
 #include "paim/format/bake/bake_directory.h"
 #include "paim/metrics/band_power.h"
 #include "paim/metrics/geometry_error.h"
+#include "paim/metrics/shape_error.h"
 #include "paim/metrics/transfer_error.h"
 
 namespace paim {
 
 // Errors of one part. Transfer errors are relative to the transfer of this part; position errors
 // use the diagonal of this part.
-struct MeshError {
-    TransferError transfer;
+struct SurfaceError {
     GeometryError geometry;
+    PieceShapeError shape;
+};
+struct MeshError : SurfaceError {
+    TransferError transfer;
 };
 
 // Errors of the moving part, and of the still part if there is one.

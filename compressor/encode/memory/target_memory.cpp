@@ -9,6 +9,7 @@
 #include "compressor/encode/quantise/quantise.h"
 #include "compressor/encode/svd/tsqr.h"
 #include "paim/base/error.h"
+#include "paim/codec/surface_smoothing.h"
 #include "paim/format/pack/plane_encoder.h"
 #include "paim/metrics/asset_error.h"
 
@@ -66,7 +67,7 @@ struct Need {
     uint64_t mesh() const {
         constexpr uint64_t kPredicting = PlanePredictor::kBytesAVertex + sizeof(uint32_t);
         return 4 * mesh_bytes(size.streamed.num_triangles, size.streamed.num_colours) +
-               vertices() * (2 * kPredicting + sizeof(uint64_t)) +
+               vertices() * (2 * kPredicting + 3 * sizeof(uint32_t)) +
                4 * size.streamed.still_mesh_bytes + kPoseNameBytes * poses();
     }
 
@@ -79,8 +80,9 @@ struct Need {
     }
 
     uint64_t measuring() const {
-        return measure_part_bytes(vertices(), poses(), most_components(), codecs.num_points,
-                                  size.streamed.num_threads);
+        return std::max(measure_part_bytes(vertices(), poses(), most_components(),
+                                           codecs.num_points, size.streamed.num_threads),
+                        ShapeErrorMeter::bytes(vertices(), size.streamed.num_triangles));
     }
 
     // Floats of everything, to find the error that these components leave.
@@ -93,6 +95,12 @@ struct Need {
         return std::min<uint64_t>(2 * kSampledValues, transfer_values() + geometry_values()) *
                    kFloat +
                least_squares_bytes(size.num_planes, most_components(), size.streamed.num_threads);
+    }
+
+    // A plane of positions on each thread: exact, stored, smoothed and of the round before.
+    uint64_t smoothing() const {
+        return SurfaceSmoother::bytes(vertices(), size.streamed.num_triangles) +
+               size.streamed.num_threads * 4 * vertices() * kFloat;
     }
 
     // Sections while they are compressed, one on each thread.
@@ -108,7 +116,7 @@ struct Need {
     uint64_t held() const { return factors() + mesh() + codecs.kept_bytes; }
 
     uint64_t searching() const {
-        const uint64_t refining = models() + std::max({trying(), measuring(), packing()});
+        const uint64_t refining = models() + std::max({trying(), smoothing(), measuring(), packing()});
         return std::max(codecs.preparing_bytes, codecs.coding_bytes + refining);
     }
 };

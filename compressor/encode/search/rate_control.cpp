@@ -1,6 +1,7 @@
 // Steps that meet a target, measured.
 #include "compressor/encode/search/rate_control.h"
 
+#include "compressor/encode/quantise/choose_smoothing.h"
 #include "compressor/encode/quantise/float_matrix.h"
 #include "compressor/encode/quantise/trim_bands.h"
 #include "compressor/encode/search/step_scaling.h"
@@ -15,7 +16,7 @@ Asset build(const EncodeProblem& problem, const QuantisedStill& still, const Cod
     if (still.mesh) *asset.still() = *still.mesh;
     CodedMesh& mesh = asset.moving();
     mesh.positions = is_integer(coding.geometry_precision)
-                         ? quantise(problem.geometry, coding.geometry)
+                         ? smoothed(problem.geometry, coding.geometry, mesh.topology)
                          : float_matrix(problem.geometry, coding.geometry.num_components,
                                         coding.geometry_precision);
     const TransferCoding& transfer = coding.transfer;

@@ -22,6 +22,8 @@ constexpr Tag kSingularValues[2] = {Tag("GSPC"), Tag("TSPC")};  // f64 or f32 [n
 // Only if values (weights) are integers.
 constexpr Tag kSteps[2] = {Tag("GSTP"), Tag("TSTP")};        // f32 [planes]
 constexpr Tag kWeightSteps[2] = {Tag("GWST"), Tag("TWST")};  // f32 [K]
+// Only if geometry is smoothed: i16 [1 + K][3], rounds of the mean and each component.
+constexpr Tag kSmoothing("GSMO");
 
 // .paim: the still part; all four or none.
 constexpr Tag kStillTriangles("STRI");  // u32 [F][3]

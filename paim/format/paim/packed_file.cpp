@@ -11,6 +11,7 @@
 #include "paim/base/error.h"
 #include "paim/base/half.h"
 #include "paim/base/parallel.h"
+#include "paim/codec/surface_smoothing.h"
 #include "paim/format/container/sections.h"
 #include "paim/format/pack/index_encoder.h"
 #include "paim/format/pack/plane_encoder.h"
@@ -109,12 +110,24 @@ class Packer {
                 }};
     }
     Task operator()(const WeightSteps& row) const { return steps(row.matrix->weight_steps); }
-    Task operator()(const Steps& row) const { return steps(row.matrix->steps); }
+    Task operator()(const Steps& row) const {
+        std::vector<float> stored = row.matrix->steps;
+        const auto bits = static_cast<int>(row.matrix->fraction_bits);
+        for (float& step : stored) step = std::ldexp(step, bits);
+        Task task = steps(stored);
+        task.compress = [stored = std::move(stored)] {
+            return zstd_compress(as_bytes(std::span<const float>(stored)));
+        };
+        return task;
+    }
     Task operator()(const MatrixValues& row) const {
         PAIM_CHECK(row.values != nullptr);
         // Floats of still parts are few and smooth enough to be worth compressing.
         const bool is_still = row.matrix->num_poses == 1 && row_.part > 0;
         if (is_still && row.values->holds_floats()) return floats(row.values->floats());
+        if (row.matrix->fraction_bits > 0) {
+            return integers(stored_integers(*row.values, row.matrix->fraction_bits));
+        }
         const Precision precision = row.is_component ? row.matrix->precision : Precision::f32;
         return values(*row.values, precision);
     }
@@ -153,6 +166,13 @@ class Packer {
             }
         }
         return floats(values);
+    }
+    Task integers(StoredValues values) const {
+        SectionSpec spec = this->spec(values.holds_i8() ? ScalarType::i8 : ScalarType::i16);
+        PAIM_CHECK_EQ(values.size(), spec.num_values());
+        return {spec, SectionCodec::planes,
+                [values = std::move(values), num_rows = row_.shape[0], &predictor = predictor_,
+                 effort = effort_] { return encode_planes(values, num_rows, predictor, effort); }};
     }
     // Integers are predicted, floats stored as they are.
     Task values(const StoredValues& values, Precision precision) const {

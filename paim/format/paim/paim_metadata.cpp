@@ -36,6 +36,9 @@ std::string paim_metadata(const Asset& asset) {
     }
     root["geometry_components"] = mesh.positions.num_components;
     root["transfer_components"] = mesh.transfer->matrix.num_components;
+    if (const uint32_t bits = mesh.positions.fraction_bits; bits > 0) {
+        root["geometry_fraction_bits"] = bits;
+    }
     for (const Attribute attribute : {Attribute::geometry, Attribute::transfer}) {
         const std::vector<uint32_t>& indices = mesh.attribute(attribute).singular_indices;
         if (!indices.empty()) root[kSingularIndices[static_cast<size_t>(attribute)]] = indices;

@@ -97,6 +97,9 @@ CodedMesh start_moving(const Metadata& metadata) {
     const uint32_t num_poses = metadata.integer("num_poses", 1, kMaxPoses);
     mesh.positions =
         start_matrix(metadata, "geometry_components", mesh.topology.num_vertices, 3, num_poses);
+    if (metadata.root().contains("geometry_fraction_bits")) {
+        mesh.positions.fraction_bits = metadata.integer("geometry_fraction_bits", 2, 4);
+    }
     mesh.transfer = start_transfer(metadata);
     const uint32_t num_points = mesh.transfer->start(mesh.topology.num_vertices);
     mesh.transfer->matrix = start_matrix(metadata, "transfer_components", num_points,

@@ -7,6 +7,7 @@
 
 #include "paim/base/check.h"
 #include "paim/base/error.h"
+#include "paim/codec/surface_smoothing.h"
 #include "paim/format/container/mesh_sections.h"
 #include "paim/format/container/sections.h"
 #include "paim/format/pack/plane_predictor.h"
@@ -308,6 +309,8 @@ void read_sections(const ContainerReader& reader, const ComponentCounts& counts,
                std::pair(b.section->spec.tag.text, b.section->spec.index);
     });
     read_values(reader, jobs);
+    check_smoothing(reader, asset.moving().positions);
+    smooth_stored(asset.moving().positions, asset.moving().topology);
     for (const CodedMesh& mesh : asset.parts) check_magnitudes(reader, mesh);
 }
 

@@ -6,6 +6,7 @@
 
 #include "paim/base/check.h"
 #include "paim/base/error.h"
+#include "paim/codec/surface_smoothing.h"
 #include "paim/format/container/sections.h"
 
 namespace paim {
@@ -43,6 +44,10 @@ class TableBuilder {
         for (const SectionRow& row : moving.transfer->sections()) add_codec_row(row);
         LowRank* const matrices[] = {&moving.positions, &moving.transfer->matrix};
         for (size_t i = 0; i < 2; ++i) add_frame(i, *matrices[i]);
+        if (LowRank& positions = moving.positions; positions.fraction_bits > 0) {
+            add(section::kSmoothing, {1 + positions.num_components, positions.num_planes},
+                SmallNumbers{&positions.smoothing, kMaxSmoothingRounds + 1});
+        }
         for (size_t i = 0; i < 2; ++i) {
             add_values(section::kMean[i], 0, {matrices[i], &matrices[i]->mean, false}, i);
         }

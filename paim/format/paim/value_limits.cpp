@@ -6,6 +6,7 @@
 
 #include "paim/base/error.h"
 #include "paim/codec/low_rank.h"
+#include "paim/codec/surface_smoothing.h"
 
 namespace paim {
 
@@ -32,6 +33,21 @@ void check_singular_values(const ContainerReader& reader, const LowRank& matrix)
     if (matrix.singular_values.size() < matrix.num_components) {
         throw_bad_input("{}: {} singular values, expected at least the {} components'",
                         reader.name(), matrix.singular_values.size(), matrix.num_components);
+    }
+}
+
+void check_smoothing(const ContainerReader& reader, const LowRank& positions) {
+    if (positions.fraction_bits == 0) return;
+    if (positions.holds_floats()) {
+        throw_bad_input(
+            "{}: positions are floats, expected integers, as they have {} fraction bits",
+            reader.name(), positions.fraction_bits);
+    }
+    const uint32_t most = smoothing_fraction_bits(positions);
+    if (positions.fraction_bits > most) {
+        throw_bad_input(
+            "{}: positions of {} fraction bits, expected at most {} with integers so large",
+            reader.name(), positions.fraction_bits, most);
     }
 }
 

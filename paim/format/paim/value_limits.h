@@ -16,6 +16,9 @@ std::vector<float> read_steps(const ContainerReader& reader, const Section& sect
 // Singular values are finite and descend from at least 0, one or more for every component.
 void check_singular_values(const ContainerReader& reader, const LowRank& matrix);
 
+// Positions that are to be smoothed are integers that leave room for so many fraction bits.
+void check_smoothing(const ContainerReader& reader, const LowRank& positions);
+
 // Positions and transfer cannot overflow in any pose with any number of components.
 void check_magnitudes(const ContainerReader& reader, const CodedMesh& mesh);
 
