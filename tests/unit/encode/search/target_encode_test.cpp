@@ -279,6 +279,25 @@ TEST_F(TargetEncode, MeetsVeryFineTargetsDownToSixteenBits) {
     EXPECT_EQ(read_paim(output_).moving().positions.precision, Precision::f32);
 }
 
+// Where 16 bits just suffice by an estimate, they may not once they are measured. There is no gap
+// between integers and floats.
+TEST_F(TargetEncode, PositionsAreMetAroundTheEndOfSixteenBits) {
+    const BakeReader bake = this->bake({.width = 6, .num_poses = 3, .noise = 0.0});
+    const EncodeProblem problem = read_problem(bake, options_, target(bake, 1e-6));
+    const double distance = std::sqrt(error_of_sixteen_bits(problem.geometry, {1.0, 1.0, 1.0}) /
+                                      (36.0 * bake.num_poses()));
+    EncodeTarget fine = target(bake, 0.01, "svd");
+    size_t num_floats = 0, num_integers = 0;
+    for (double factor = 0.7; factor < 1.3; factor += 0.01) {
+        fine.geometry_error = factor * distance / problem.best_achievable.geometry.diagonal;
+        EXPECT_LE(encode(bake, fine).error.geometry.rms(), factor * distance);
+        const bool floats = read_paim(output_).moving().positions.mean.holds_floats();
+        ++(floats ? num_floats : num_integers);
+    }
+    EXPECT_GT(num_floats, 0u);
+    EXPECT_GT(num_integers, 0u);
+}
+
 // Positions of floats with a transfer of integers are a file as any other.
 TEST_F(TargetEncode, PositionsFinerThanSixteenBitsAreFloats) {
     const BakeReader bake = this->bake();
