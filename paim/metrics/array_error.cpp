@@ -15,13 +15,21 @@ bool is_worse(double error, double worst) {
     return !(error <= worst) && !std::isnan(worst);
 }
 
+constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+
+double root_mean(double squared_sum, uint64_t count) {
+    if (count == 0) return kNothing;
+    return std::sqrt(squared_sum / static_cast<double>(count));
+}
+
 }  // namespace
 
 double ArrayError::rms() const {
-    return num_values > 0 ? std::sqrt(squared_sum / static_cast<double>(num_values)) : 0.0;
+    return root_mean(squared_sum, num_values);
 }
 
 double ArrayError::relative() const {
+    if (num_values == 0) return kNothing;
     if (reference_squared_sum > 0.0) return std::sqrt(squared_sum / reference_squared_sum);
     return squared_sum > 0.0 ? std::numeric_limits<double>::infinity() : squared_sum;
 }
@@ -44,7 +52,7 @@ void ArrayError::add(std::span<const float> values, std::span<const float> refer
 }
 
 double DistanceError::rms() const {
-    return num_vertices > 0 ? std::sqrt(squared_sum / static_cast<double>(num_vertices)) : 0.0;
+    return root_mean(squared_sum, num_vertices);
 }
 
 void DistanceError::add(std::span<const float> planes, std::span<const float> reference,

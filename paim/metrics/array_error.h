@@ -16,8 +16,9 @@ struct ArrayError {
     uint64_t worst_index = 0;
     uint32_t worst_pose = 0;
 
+    // Both are not a number if nothing was added.
     double rms() const;
-    double relative() const;  // ‖a − b‖ / ‖b‖; 0 where both are 0
+    double relative() const;  // ‖a − b‖ / ‖b‖; 0 where values were compared that are all 0
 
     // Adds the values of one pose; the spans have the same length (checked).
     void add(std::span<const float> values, std::span<const float> reference, uint32_t pose);
@@ -32,7 +33,7 @@ struct DistanceError {
     uint32_t worst_vertex = 0;
     uint32_t worst_pose = 0;
 
-    double rms() const;
+    double rms() const;  // not a number if nothing was added
 
     void add(std::span<const float> planes, std::span<const float> reference, uint32_t pose);
 };

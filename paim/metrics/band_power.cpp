@@ -2,33 +2,22 @@
 // Based on: Dror, Willsky and Adelson 2004 (see the header)
 #include "paim/metrics/band_power.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 #include "paim/base/check.h"
 #include "paim/base/error.h"
-#include "paim/image/exr.h"
-#include "paim/light/environment.h"
+#include "paim/light/load_light.h"
 
 namespace paim {
 
 namespace {
 
-// Adds the path to errors of EnvironmentLight, which does not know it.
-EnvironmentLight read_light(const std::filesystem::path& path) {
-    Image image = read_exr(path);
-    try {
-        return EnvironmentLight(std::move(image));
-    } catch (const Error& error) {
-        throw Error(error.code(), fmt::format("{}: {}", path.string(), error.what()));
-    }
-}
-
-BandPower measured(const std::filesystem::path& path) {
-    const LightCoefficients light = read_light(path).coefficients(static_cast<int>(sh::kMaxBands));
-    BandPower spectrum{path.filename().string(), {}, 0.0};
+BandPower measured(const std::filesystem::path& path, EnvMapping mapping) {
+    LoadedLight loaded = load_light(path, mapping);
+    const LightCoefficients light = loaded.light.coefficients(static_cast<int>(sh::kMaxBands));
+    BandPower spectrum{path.filename().string(), {}, 0.0, std::move(loaded.notes)};
     for (int l = 0; l < sh::kMaxBands; ++l) {
         double sum = 0.0;
         for (int m = -l; m <= l; ++m) {
@@ -58,7 +47,7 @@ BandPower BandPower::natural() {
     return {"natural", {}, 2.0};
 }
 
-BandPower parse_band_power(std::string_view text, uint32_t bands) {
+BandPower parse_band_power(std::string_view text, uint32_t bands, EnvMapping mapping) {
     PAIM_CHECK(bands >= 1 && bands <= static_cast<uint32_t>(sh::kMaxBands));
     if (text == "flat") return BandPower::flat(bands);
     if (text == "natural") return BandPower::natural();
@@ -66,7 +55,7 @@ BandPower parse_band_power(std::string_view text, uint32_t bands) {
     if (!path.has_extension()) {
         throw_usage("light spectrum: expected flat, natural or an OpenEXR file, got '{}'", text);
     }
-    return measured(path);
+    return measured(path, mapping);
 }
 
 }  // namespace paim

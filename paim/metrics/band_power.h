@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "paim/light/env_mapping.h"
+
 namespace paim {
 
 // Relative variance of the coefficients of a light in each band. Only ratios between bands count.
@@ -16,6 +18,8 @@ struct BandPower {
     std::vector<double> weights;  // of the first bands
     // The power of band l after those is (l + 1)^-decay, or 0 if decay is 0.
     double decay = 0.0;
+    // Of the map that it was measured on (load_light.h).
+    std::vector<std::string> notes{};
 
     double weight(uint32_t band) const;
 
@@ -28,10 +32,12 @@ struct BandPower {
 };
 
 // bands  of the bake, 1 … sh::kMaxBands
-// text   "flat", "natural", or the path of a lat-long map (OpenEXR): its own mean square
+// text   "flat", "natural", or the path of an environment map (OpenEXR): its own mean square
 //        coefficient of each of sh::kMaxBands bands over the channels, 1 in band 0
+// mapping  of the map
 // Errors: usage if the text is none of these; bad input, naming the file, if the map cannot be
-// read, is not valid light (light/environment.h), or has no power in band 0.
-BandPower parse_band_power(std::string_view text, uint32_t bands);
+// read as light (light/load_light.h), or has no power in band 0.
+BandPower parse_band_power(std::string_view text, uint32_t bands,
+                           EnvMapping mapping = EnvMapping::automatic);
 
 }  // namespace paim

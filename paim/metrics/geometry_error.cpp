@@ -20,15 +20,20 @@ double ratio(double part, double whole) {
 
 }  // namespace
 
+double GeometryError::worst() const {
+    return distance.num_vertices > 0 ? distance.worst : std::numeric_limits<double>::quiet_NaN();
+}
+
 double GeometryError::relative_rms() const {
     return ratio(distance.rms(), diagonal);
 }
 
 double GeometryError::relative_worst() const {
-    return ratio(distance.worst, diagonal);
+    return ratio(worst(), diagonal);
 }
 
 double GeometryError::kg_error() const {
+    if (distance.num_vertices == 0) return std::numeric_limits<double>::quiet_NaN();
     return 100.0 * ratio(std::sqrt(distance.squared_sum), std::sqrt(centred_squared_sum));
 }
 

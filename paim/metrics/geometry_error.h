@@ -12,7 +12,8 @@
 namespace paim {
 
 // Errors over all poses that are added, each once. Relative errors are infinite if their
-// denominator is 0 and the error is not.
+// denominator is 0 and the error is not, and 0 if both are. No error is a number if nothing was
+// added.
 struct GeometryError {
     DistanceError distance;            // RMS and worst, scene units
     double centred_squared_sum = 0.0;  // Σ |p − mean of its pose|², of the reference
@@ -20,7 +21,7 @@ struct GeometryError {
     double diagonal = 0.0;
 
     double rms() const { return distance.rms(); }  // scene units
-    double worst() const { return distance.worst; }
+    double worst() const;
     double relative_rms() const;  // relative to the diagonal
     double relative_worst() const;
 

@@ -8,7 +8,8 @@ namespace paim {
 
 double ImageError::visual_error() const {
     if (reference_sum > 0.0) return absolute_sum / reference_sum;
-    return absolute_sum > 0.0 ? std::numeric_limits<double>::infinity() : 0.0;
+    return absolute_sum > 0.0 ? std::numeric_limits<double>::infinity()
+                              : std::numeric_limits<double>::quiet_NaN();
 }
 
 void ImageError::add(const ImageError& other) {

@@ -16,7 +16,8 @@ struct ImageError {
     double worst = 0.0;          // largest |I − I_reference| of a channel
     int worst_x = 0, worst_y = 0;
 
-    // E6, the paper's visual error: Σ|I_full − I_K| / Σ|I_full|; 0 where both are 0.
+    // E6, the paper's visual error: Σ|I_full − I_K| / Σ|I_full|. Not a number where both are 0: in
+    // black images nothing is to be seen, and no error was measured.
     double visual_error() const;
 
     void add(const ImageError& other);

@@ -54,8 +54,11 @@ TEST(GeometryError, RelativeFiguresDoNotDependOnPlaceOrSize) {
 
 TEST(GeometryError, OfPointsIsNothingOrInfinite) {
     GeometryError error;
-    EXPECT_EQ(error.kg_error(), 0.0);
     error.add({}, {}, 0);
+    for (const double nothing : {error.rms(), error.worst(), error.relative_rms(),
+                                 error.relative_worst(), error.kg_error(), error.e_rms()}) {
+        EXPECT_TRUE(std::isnan(nothing));
+    }
     error.add(std::vector<float>{1, 2, 3}, std::vector<float>{1, 2, 3}, 1);
     EXPECT_EQ(error.relative_rms(), 0.0);
     EXPECT_EQ(error.relative_worst(), 0.0);

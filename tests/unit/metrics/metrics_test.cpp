@@ -36,8 +36,32 @@ TEST(ImageError, SumsAndFindsTheWorstPixel) {
     EXPECT_DOUBLE_EQ(error.worst, 0.5);
     EXPECT_EQ(error.worst_x, 1);
     EXPECT_EQ(error.worst_y, 0);
-    EXPECT_EQ(compare_images(Image(2, 2), Image(2, 2)).visual_error(), 0.0);
+    EXPECT_EQ(compare_images(reference, reference).visual_error(), 0.0);
     EXPECT_TRUE(std::isinf(compare_images(reference, Image(2, 2)).visual_error()));
+}
+
+// In black pictures nothing is to be seen, so that no error was measured: 0 would say that nothing
+// is lost.
+TEST(ImageError, OfBlackPicturesIsNoNumber) {
+    ImageError error;
+    EXPECT_TRUE(std::isnan(error.visual_error()));
+    error.add(compare_images(Image(2, 2), Image(2, 2)));
+    EXPECT_TRUE(std::isnan(error.visual_error()));
+    // One picture that is not black is enough.
+    const Image grey(2, 2, Vec3f(1, 1, 1));
+    error.add(compare_images(grey, grey));
+    EXPECT_EQ(error.visual_error(), 0.0);
+}
+
+TEST(ArrayError, OfNothingIsNoNumber) {
+    ArrayError error;
+    EXPECT_TRUE(std::isnan(error.rms()));
+    EXPECT_TRUE(std::isnan(error.relative()));
+    EXPECT_TRUE(std::isnan(DistanceError().rms()));
+    // Zeros that were compared with zeros differ by nothing.
+    error.add(std::vector<float>{0, 0}, std::vector<float>{0, 0}, 0);
+    EXPECT_EQ(error.rms(), 0.0);
+    EXPECT_EQ(error.relative(), 0.0);
 }
 
 TEST(ArrayError, RelativeRmsAndWorst) {
