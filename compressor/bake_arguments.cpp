@@ -29,8 +29,13 @@ void add_input_options(CLI::App& app, CompressOptions& options, BakeArguments& a
                  "separate numbers elsewhere: walk-01 before walk-02")
         ->group(kGroup);
     cli::add_choice(app, "--normals", options.normals, {"faces", "file"},
-                    "Vertex normals: 'faces' averages the faces around a vertex, 'file' takes the "
-                    "vn of the files")
+                    "Vertex normals: 'faces' averages the faces around a vertex, each by its angle "
+                    "there, also across vertices that are doubled along seams; 'file' takes the "
+                    "vn of the files, with hard edges where they have some")
+        ->group(kGroup);
+    app.add_flag("--orient", options.orient,
+                 "Turn closed parts of the mesh that face inwards, which are named in warnings. "
+                 "Parts inside another one stay, as they may be walls of a cavity")
         ->group(kGroup);
     app.add_option("--albedo", arguments.albedo,
                    "Diffuse reflectance of the poses, linear, three numbers or one for all, 0 to "

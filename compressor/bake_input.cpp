@@ -30,6 +30,7 @@ ObjSequence open_sequence(const CompressOptions& options) {
         std::make_shared<cli::Progress>("checking", "files", files.size(), is_quiet(options));
     ObjOptions obj_options;
     obj_options.normals_from_file = options.normals == "file";
+    obj_options.orient = options.orient;
     obj_options.albedo = options.albedo;
     obj_options.vertex_colours = options.vertex_colours;
     obj_options.on_file_checked = [checking] { checking->advance(); };
@@ -78,6 +79,7 @@ void BakeInput::add_floor(const CompressOptions& options) {
 void BakeInput::add_still_mesh(const CompressOptions& options, const std::string& file) {
     ObjOptions obj_options;
     obj_options.normals_from_file = options.normals == "file";
+    obj_options.orient = options.orient;
     obj_options.origin = sequence_.origin();
     obj_options.vertex_colours = options.vertex_colours;
     const ObjSequence still({file}, obj_options);
@@ -87,7 +89,8 @@ void BakeInput::add_still_mesh(const CompressOptions& options, const std::string
     const auto positions =
         std::span(surroundings_.still_mesh.pose.positions).last(mesh.num_vertices);
     still_meshes_.push_back(
-        {file, report_topology(mesh), report_pose(mesh, positions), still.vertex_colours()});
+        {file, report_topology(mesh), report_pose(mesh, positions), still.vertex_colours(),
+         still.num_inward()});
     const StillMeshReport& report = still_meshes_.back();
     print_warnings(still_mesh_warnings(file, report.topology, report.pose));
 }
@@ -114,6 +117,7 @@ BakeReport BakeInput::report() const {
     report.still_triangles = surroundings_.still_mesh.topology.triangles.size();
     report.vertex_colours = sequence_.vertex_colours();
     report.topology = topology_;
+    report.num_inward = sequence_.num_inward();
     report.still_meshes = still_meshes_;
     return report;
 }

@@ -113,11 +113,13 @@ ordered_json report_json(const BakeReport& report) {
     json["relative_noise"] = total.relative_noise();
     add_colours(json, report.vertex_colours);
     json["mesh"] = mesh_json(report.topology, total.mesh);
+    json["mesh"]["inward_parts"] = report.num_inward;
     for (const StillMeshReport& mesh : report.still_meshes) {
         ordered_json& entry = json["static_mesh"].emplace_back();
         entry["file"] = mesh.file;
         add_colours(entry, mesh.vertex_colours);
         entry.update(mesh_json(mesh.topology, mesh.pose));
+        entry["inward_parts"] = mesh.num_inward;
     }
     return json;
 }

@@ -20,6 +20,7 @@ struct StillMeshReport {
     TopologyReport topology;
     PoseReport pose;
     VertexColours vertex_colours;
+    size_t num_inward = 0;
 };
 
 struct BakeReport {
@@ -36,6 +37,7 @@ struct BakeReport {
     size_t still_triangles = 0;
     VertexColours vertex_colours;  // of the poses
     TopologyReport topology;       // of the poses without their floor
+    size_t num_inward = 0;         // closed parts that face inwards, or did before they were turned
     std::vector<StillMeshReport> still_meshes;
     BakeSummary summary;
 

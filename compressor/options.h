@@ -22,6 +22,7 @@ struct CompressOptions {
     bool keep_order = false;
     BakeOptions bake;
     std::string normals = "faces";  // or "file"
+    bool orient = false;
     std::optional<Vec3f> albedo;
     ColourCurve vertex_colours = ColourCurve::automatic;
     std::optional<FloorOptions> floor;

@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 #include <unordered_map>
+#include <utility>
 
 #include "compressor/io/obj_text.h"
 #include "paim/base/error.h"
@@ -118,6 +119,7 @@ class Scanner {
 
     void other_line(std::string_view keyword) {
         if (keyword == "p" || keyword == "l") ++scan_.num_other_shapes;
+        if (keyword == "o" || keyword == "g") name(keyword == "o");
         if (options_.read_materials && keyword == "mtllib") {
             scan_.libraries.emplace_back(text_.read_rest_of_line());
         } else if (options_.read_materials && keyword == "usemtl") {
@@ -153,6 +155,17 @@ class Scanner {
         scan_.faces.sizes.push_back(num_corners);
         face_lines_.push_back(line);
         if (options_.read_materials) scan_.face_materials.push_back(material_);
+    }
+
+    void name(bool is_object) {
+        if (options_.reference != nullptr || (has_objects_ && !is_object)) return;
+        has_objects_ = has_objects_ || is_object;
+        ObjName name{printable(text_.read_rest_of_line()), scan_.faces.num_faces()};
+        if (!scan_.names.empty() && scan_.names.back().first_face == name.first_face) {
+            scan_.names.back() = std::move(name);
+        } else {
+            scan_.names.push_back(std::move(name));
+        }
     }
 
     void corner() {
@@ -254,6 +267,7 @@ class Scanner {
     std::vector<bool> corner_has_normal_;
     std::unordered_map<std::string, int32_t> materials_;  // indices into those of the scan
     int32_t material_ = -1;
+    bool has_objects_ = false;
 };
 
 }  // namespace

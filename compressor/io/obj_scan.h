@@ -16,6 +16,12 @@
 
 namespace paim {
 
+// An object or group of a file.
+struct ObjName {
+    std::string name;       // printable
+    size_t first_face = 0;  // the faces from here to that of the next name are its own
+};
+
 struct ObjScan {
     uint32_t num_vertices = 0;
     Polygons faces;                 // in the order of the file, all objects and groups together
@@ -28,6 +34,8 @@ struct ObjScan {
     std::vector<std::string> libraries;   // what follows each mtllib
     std::vector<std::string> materials;   // the names that follow usemtl, each once
     std::vector<int32_t> face_materials;  // per face: index into materials, or -1
+    // For messages, without a reference only: objects, or groups before the first object.
+    std::vector<ObjName> names;
 };
 
 // The first file of a sequence, with which later ones are compared.

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <exception>
 #include <limits>
+#include <mutex>
 #include <utility>
 
 #include "compressor/io/obj_albedo.h"
@@ -19,7 +20,10 @@
 #include "paim/base/parallel.h"
 #include "paim/mesh/mesh_report.h"
 #include "paim/mesh/normals.h"
+#include "paim/mesh/orientation.h"
 #include "paim/mesh/origin.h"
+#include "paim/mesh/places.h"
+#include "paim/mesh/seams.h"
 
 namespace paim {
 
@@ -46,6 +50,7 @@ Triangulation ObjSequence::check_files() {
     checksums_.resize(files_.size());
     std::vector<BoundsD> bounds(files_.size());  // of vertices of faces
     std::optional<Triangulator> triangulator;
+    std::mutex places_mutex;
     const auto check = [&](size_t i) {
         std::vector<char> text = read_file(files_[i], kMaxFileBytes);
         checksums_[i] = xxh3(text.data(), text.size());
@@ -53,6 +58,7 @@ Triangulation ObjSequence::check_files() {
         ObjScan scan = scan_obj(files_[i].string(), text,
                                 {options_.normals_from_file, i > 0 ? &reference : nullptr, true});
         for (const uint32_t v : scan.faces.corners) bounds[i].extend(scan.positions[v]);
+        find_places(i, scan.positions, places_mutex);
         const Vec3d origin = options_.origin.value_or(choose_origin(bounds[i]));
         if (i > 0) {
             triangulator->review(static_cast<uint32_t>(i), scan.positions, origin);
@@ -90,6 +96,21 @@ Triangulation ObjSequence::check_files() {
     origin_ = options_.origin.value_or(choose_origin(all));
     for (size_t i = 0; i < files_.size(); ++i) check_local(i, bounds[i]);
     return triangulator->finish();
+}
+
+// Keeps the places that vertices of this file share, too. The files after the first may come in any
+// order: the result is what all of them share.
+void ObjSequence::find_places(size_t file, std::span<const Vec3d> positions, std::mutex& mutex) {
+    if (options_.normals_from_file) return;
+    if (file == 0) {
+        places_ = first_places_ = first_at_position(positions);
+        return;
+    }
+    if (first_places_.empty()) return;
+    const std::vector<uint32_t> places = first_at_position(positions, first_places_);
+    if (places == first_places_) return;
+    const std::lock_guard lock(mutex);
+    places_ = shared_places(places_, places);
 }
 
 // Error for meshes below the normal floats. Such floats have fewer digits, so rays would start
@@ -159,11 +180,15 @@ void ObjSequence::build(Triangulation cut) {
     const std::string name = pose_name(0);
     warnings_ = std::move(parsed.warnings);
 
+    const std::vector<Vec3f> positions = local(parsed.positions);
     if (cut.triangles.empty()) {
         throw_bad_input("{}: no faces with three different vertices", name);
     }
     topology_ = {first_.num_vertices, std::move(cut.triangles)};
+    check_orientation(positions);
     distinct_ = without_duplicate_faces(topology_);
+    seams_ = find_seams(distinct_, places_, positions);
+    places_ = first_places_ = {};
     albedo_ = options_.albedo
                   ? Albedo{{*options_.albedo}}
                   : obj_albedo(name, first_.faces, parsed, vertex_colours_.srgb, warnings_);
@@ -175,6 +200,45 @@ void ObjSequence::build(Triangulation cut) {
     warn(first_.num_other_shapes, "points and lines ignored");
     warn(cut.num_repeating, "faces name a vertex twice");
     warn(cut.num_degenerate, "faces without area or tangled, cut as fans");
+}
+
+// Names the closed parts that face inwards; turns them if asked.
+void ObjSequence::check_orientation(std::span<const Vec3f> positions) {
+    constexpr size_t kMaxNamed = 6;
+    const std::vector<InwardPart> parts = find_inward_parts(topology_, positions);
+    num_inward_ = parts.size();
+    for (size_t i = 0; i < std::min(parts.size(), kMaxNamed); ++i) {
+        warnings_.push_back(
+            fmt::format("{}: {} is closed ({} triangles) and faces inwards: {}", pose_name(0),
+                        part_name(parts[i].first_vertex), parts[i].triangles.size(),
+                        options_.orient ? "turned" : "--orient turns it, so that its outside is lit"));
+    }
+    if (parts.size() > kMaxNamed) {
+        warnings_.push_back(fmt::format("{}: {} more closed parts face inwards{}", pose_name(0),
+                                        parts.size() - kMaxNamed,
+                                        options_.orient ? ": turned" : ""));
+    }
+    if (!options_.orient) return;
+    for (const InwardPart& part : parts) turn_triangles(part.triangles, topology_);
+}
+
+// The object or group of the first face with this vertex, and the vertex.
+std::string ObjSequence::part_name(uint32_t vertex) const {
+    const std::vector<uint32_t>& corners = first_.faces.corners;
+    const auto corner =
+        static_cast<size_t>(std::find(corners.begin(), corners.end(), vertex) - corners.begin());
+    size_t face = 0;
+    for (size_t end = 0; face < first_.faces.num_faces(); ++face) {
+        end += first_.faces.sizes[face];
+        if (corner < end) break;
+    }
+    const ObjName* name = nullptr;
+    for (const ObjName& entry : first_.names) {
+        if (entry.first_face <= face) name = &entry;
+    }
+    const std::string place = fmt::format("vertex {}", uint64_t{vertex} + 1);
+    if (name == nullptr || name->name.empty()) return fmt::format("the part with {}", place);
+    return fmt::format("the part with {} in '{}'", place, name->name);
 }
 
 std::string ObjSequence::pose_name(uint32_t p) const {
@@ -194,7 +258,7 @@ Pose ObjSequence::load_pose(uint32_t p) const {
     pose.positions = local(parsed.positions);
     pose.normals = options_.normals_from_file
                        ? obj_normals(distinct_, first_.faces, parsed, pose.positions)
-                       : vertex_normals(distinct_, pose.positions);
+                       : vertex_normals(distinct_, pose.positions, seams_);
     return pose;
 }
 

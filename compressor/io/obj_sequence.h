@@ -3,7 +3,9 @@
 
 #include <filesystem>
 #include <functional>
+#include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,9 +19,12 @@
 namespace paim {
 
 struct ObjOptions {
-    // False: normals are computed from the faces (mesh/normals.h).
+    // False: normals are computed from the faces (mesh/normals.h), and vertices on both sides of a
+    // seam share them (mesh/seams.h).
     // True: they are averaged from the file's vn (obj_normals.h).
     bool normals_from_file = false;
+    // Whether closed parts that face inwards (mesh/orientation.h) are turned.
+    bool orient = false;
     // Overrides the colours and materials of the file; linear, 0..1.
     std::optional<Vec3f> albedo;
     // What the colours of vertices are taken as.
@@ -53,6 +58,9 @@ class ObjSequence : public PoseSource {
     // Error (bad input) if the file has changed since the sequence was opened.
     Pose load_pose(uint32_t p) const override;
 
+    // Closed parts of the first pose that face inwards, or did before they were turned.
+    size_t num_inward() const { return num_inward_; }
+
     // Oddities that are not errors: lines, each with the name of the file.
     const std::vector<std::string>& warnings() const { return warnings_; }
     // Of the first file.
@@ -60,9 +68,12 @@ class ObjSequence : public PoseSource {
 
   private:
     Triangulation check_files();
+    void find_places(size_t file, std::span<const Vec3d> positions, std::mutex& mutex);
     void check_size(const BoundsD& bounds) const;
     void check_local(size_t file, const BoundsD& bounds) const;
     void build(Triangulation cut);
+    void check_orientation(std::span<const Vec3f> positions);
+    std::string part_name(uint32_t vertex) const;
     ParsedObj parse(uint32_t p) const;
     ParsedObj parse_first();
     std::vector<char> read_unchanged(uint32_t p) const;
@@ -75,8 +86,13 @@ class ObjSequence : public PoseSource {
     Vec3d origin_ = Vec3d::Zero();
     Topology topology_;
     Topology distinct_;  // without duplicate faces, for the normals
+    // Vertices that share places (mesh/places.h): in the first file, and in every one. Until seams
+    // are found.
+    std::vector<uint32_t> first_places_, places_;
+    std::vector<uint32_t> seams_;  // vertices that share normals (mesh/seams.h)
     Albedo albedo_;
     VertexColours vertex_colours_;
+    size_t num_inward_ = 0;
     std::vector<std::string> warnings_;
 };
 

@@ -2,13 +2,13 @@
 #include "paim/mesh/mesh_report.h"
 
 #include <algorithm>
-#include <numeric>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "paim/base/check.h"
 #include "paim/mesh/normals.h"
+#include "paim/mesh/places.h"
 
 namespace paim {
 
@@ -57,30 +57,6 @@ std::vector<Copy> find_copies(std::span<const Triangle> faces) {
         }
     }
     return copies;
-}
-
-// [V] The lowest number of the vertices that lie exactly where this one does. Empty if no two
-// vertices have the same position.
-std::vector<uint32_t> first_at_position(std::span<const Vec3f> positions) {
-    // −0 and 0 compare equal.
-    const auto key = [&](uint32_t v) {
-        return std::tie(positions[v].x(), positions[v].y(), positions[v].z());
-    };
-    std::vector<uint32_t> order(positions.size());
-    std::iota(order.begin(), order.end(), 0u);
-    std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
-        return std::tuple_cat(key(a), std::tie(a)) < std::tuple_cat(key(b), std::tie(b));
-    });
-    std::vector<uint32_t> first(positions.size());
-    std::iota(first.begin(), first.end(), 0u);
-    bool any = false;
-    for (size_t i = 1; i < order.size(); ++i) {
-        if (key(order[i]) != key(order[i - 1])) continue;
-        first[order[i]] = first[order[i - 1]];
-        any = true;
-    }
-    if (!any) first.clear();
-    return first;
 }
 
 void count_edges(std::span<const Triangle> faces, const std::vector<Copy>& copies,

@@ -10,7 +10,8 @@ namespace paim {
 
 class PoseSet : public PoseSource {
   public:
-    // Vertex normals are computed from the faces (mesh/normals.h).
+    // Vertex normals are computed from the faces (mesh/normals.h) and shared across seams
+    // (mesh/seams.h).
     // positions  [P][V], at least one pose, each with topology.num_vertices entries
     PoseSet(Topology topology, std::vector<std::vector<Vec3f>> positions, Albedo albedo = {});
 
@@ -23,7 +24,8 @@ class PoseSet : public PoseSource {
 
   private:
     Topology topology_;
-    Topology distinct_;  // without duplicate faces, for the normals
+    Topology distinct_;            // without duplicate faces, for the normals
+    std::vector<uint32_t> seams_;  // vertices that share normals (mesh/seams.h)
     std::vector<std::vector<Vec3f>> positions_;
     Albedo albedo_;
 };

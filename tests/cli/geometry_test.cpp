@@ -52,7 +52,7 @@ TEST_F(Geometry, OddMeshesAreCountedAndExplained) {
     const nlohmann::json expected{
         {"isolated_vertices", 1}, {"duplicate_faces", 1},  {"back_faces", 1},
         {"boundary_edges", 8},    {"flipped_edges", 1},    {"non_manifold_edges", 0},
-        {"zero_area_faces", 1},   {"coincident_faces", 2},
+        {"zero_area_faces", 1},   {"coincident_faces", 2}, {"inward_parts", 0},
     };
     EXPECT_EQ(json["mesh"], expected);
 }
@@ -68,6 +68,29 @@ TEST_F(Geometry, OneTriangleMeetsATargetWithEveryCodec) {
                                  "10%", "--codec", codec}));
         expect_success(info({path("t.paim")}));
     }
+}
+
+TEST_F(Geometry, PartsThatFaceInwardsAreNamedAndTurned) {
+    std::filesystem::create_directory(directory_ / "t");
+    // Two tetrahedra; the second faces inwards.
+    write("t/0.obj",
+          "o good\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+          "o bad one\nv 5 0 0\nv 6 0 0\nv 5 1 0\nv 5 0 1\nf 5 6 7\nf 5 8 6\nf 5 7 8\nf 6 8 7\n");
+    Arguments bake{"bake", path("t"), "-o", path("in.bake"), "--rays", "2", "--bands", "1"};
+    ToolResult result = compress(bake);
+    expect_success(result);
+    EXPECT_TRUE(contains(result.err,
+                         "0.obj: the part with vertex 5 in 'bad one' is closed (4 triangles) and "
+                         "faces inwards: --orient turns it"))
+        << result.err;
+    bake[3] = path("out.bake");
+    bake.insert(bake.end(), {"--orient", "--json"});
+    result = compress(bake);
+    expect_success(result);
+    EXPECT_TRUE(contains(result.err, "faces inwards: turned\n")) << result.err;
+    const auto json = parse_object(result);
+    EXPECT_EQ(json["mesh"]["inward_parts"], 1);
+    EXPECT_EQ(json["rays_blocked"], 0);
 }
 
 TEST_F(Geometry, NothingIsSaidOfCleanMeshes) {

@@ -58,6 +58,67 @@ TEST(ObjSequence, TriangulatesAllPosesLikeTheFirst) {
     EXPECT_EQ(turned.topology().triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
 }
 
+// Two squares that meet at a right angle along the y axis, with vertices of their own there, and
+// one more pose in which the second square has moved by this.
+std::vector<std::string> seam_poses(double moved_by) {
+    const auto pose = [](double x) {
+        return fmt::format(
+            "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+            "v {0} 0 0\nv {0} 1 0\nv {0} 1 1\nv {0} 0 1\n"
+            "vn 0 0 1\nvn 1 0 0\nf 1//1 2//1 3//1 4//1\nf 5//2 6//2 7//2 8//2\n",
+            x);
+    };
+    return {pose(0.0), pose(0.0), pose(moved_by), pose(0.0)};
+}
+
+TEST(ObjSequence, SharesNormalsAcrossSeamsOfAllPoses) {
+    const Vec3f both = Vec3f(1, 0, 1).normalized();
+    const ObjTestFiles together(seam_poses(0.0)), apart(seam_poses(1e-6));
+    const ObjSequence closed(together.files()), opens(apart.files());
+    for (const uint32_t p : {0u, 2u}) {
+        const Pose pose = closed.load_pose(p);
+        for (const size_t v : {0, 3, 4, 5}) {
+            EXPECT_LT((pose.normals[v] - both).norm(), 1e-6f) << p << ' ' << v;
+        }
+        EXPECT_LT((pose.normals[1] - Vec3f(0, 0, 1)).norm(), 1e-6f);
+        // One pose in which they part is enough, in the poses before it, too.
+        EXPECT_LT((opens.load_pose(p).normals[0] - Vec3f(0, 0, 1)).norm(), 1e-6f) << p;
+        EXPECT_LT((opens.load_pose(p).normals[4] - Vec3f(1, 0, 0)).norm(), 1e-6f) << p;
+    }
+    ObjOptions options;
+    options.normals_from_file = true;
+    EXPECT_EQ(ObjSequence(together.files(), options).load_pose(0).normals[0], Vec3f(0, 0, 1));
+}
+
+TEST(ObjSequence, NamesPartsThatFaceInwards) {
+    const std::string good = "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+    const std::string bad = "f 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n";
+    const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
+    const auto warnings = [](const std::string& text, bool orient = false) {
+        const ObjTestFiles files({text});
+        ObjOptions options;
+        options.orient = orient;
+        const ObjSequence sequence(files.files(), options);
+        std::string all;
+        for (const std::string& line : sequence.warnings()) all += files.shortened(line);
+        return all;
+    };
+    EXPECT_EQ(warnings("o x\n" + corners + good), "");
+    EXPECT_EQ(warnings(corners + bad),
+              "0.obj: the part with vertex 1 is closed (4 triangles) and faces inwards: --orient "
+              "turns it, so that its outside is lit");
+    EXPECT_EQ(warnings("g a\no body\ng skin\n" + corners + bad, true),
+              "0.obj: the part with vertex 1 in 'body' is closed (4 triangles) and faces inwards: "
+              "turned");
+    EXPECT_EQ(warnings("g hand left\n" + corners + bad + "g other\nv 9 9 9\nf 1 2 5\n", true), "");
+    const ObjTestFiles files({corners + bad});
+    ObjOptions options;
+    options.orient = true;
+    const ObjSequence turned(files.files(), options);
+    EXPECT_EQ(turned.num_inward(), 1u);
+    EXPECT_LT((turned.load_pose(0).normals[0] - Vec3f(-1, -1, -1).normalized()).norm(), 1e-6f);
+}
+
 TEST(ObjSequence, AveragesNormalsOfTheFile) {
     ObjOptions options;
     options.normals_from_file = true;

@@ -1,0 +1,112 @@
+// Closed parts that face inwards, and those that rightly do.
+#include "paim/mesh/orientation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "poses/shapes.h"
+
+namespace paim {
+namespace {
+
+struct Mesh {
+    Topology topology;
+    std::vector<Vec3f> positions;
+
+    Mesh& add_sphere(float radius, const Vec3f& centre, bool inward) {
+        const auto sphere = poses::make_sphere_sequence(50);
+        Topology faces = sphere->topology();
+        if (inward) {
+            std::vector<uint32_t> all(faces.triangles.size());
+            std::iota(all.begin(), all.end(), 0u);
+            turn_triangles(all, faces);
+        }
+        topology.append(faces);
+        for (const Vec3f& x : sphere->positions(0, 1)) positions.push_back(radius * x + centre);
+        return *this;
+    }
+    std::vector<uint32_t> inward() const {
+        std::vector<uint32_t> first;
+        for (const auto& part : find_inward_parts(topology, positions)) {
+            first.push_back(part.first_vertex);
+        }
+        return first;
+    }
+};
+
+using Vertices = std::vector<uint32_t>;
+
+TEST(Orientation, ClosedPartsThatFaceInwardsAreFoundAndTurned) {
+    for (const float scale : {1e-30f, 1.0f, 1e30f}) {
+        Mesh mesh;
+        mesh.add_sphere(scale, {0, 0, 0}, false)
+            .add_sphere(scale, {5 * scale, 0, 0}, true)
+            .add_sphere(scale, {0, 9 * scale, 0}, false)
+            .add_sphere(0.1f * scale, {0, 0, 40 * scale}, true);
+        EXPECT_EQ(mesh.inward(), (Vertices{42, 126}));
+        const Topology before = mesh.topology;
+        for (const InwardPart& part : find_inward_parts(mesh.topology, mesh.positions)) {
+            EXPECT_EQ(part.triangles.size(), 80u);
+            turn_triangles(part.triangles, mesh.topology);
+        }
+        EXPECT_TRUE(mesh.inward().empty());
+        EXPECT_FALSE(mesh.topology == before);
+    }
+}
+
+TEST(Orientation, WallsOfCavitiesFaceTheirInside) {
+    Mesh hollow;  // an outer wall, a cavity, a ball in the cavity that faces inwards
+    hollow.add_sphere(4, {0, 0, 0}, false).add_sphere(2, {1, 0, 0}, true);
+    EXPECT_TRUE(hollow.inward().empty());
+    hollow.add_sphere(0.5f, {1, 0, 0}, true);
+    EXPECT_EQ(hollow.inward(), (Vertices{84}));
+    // All inside out: only the outer wall is known to be wrong. Within another's bounds but not
+    // inside it, a part is on its own.
+    Mesh inside_out;
+    inside_out.add_sphere(4, {0, 0, 0}, true).add_sphere(2, {1, 0, 0}, false);
+    inside_out.add_sphere(0.2f, {3.7f, 3.7f, 3.7f}, true);
+    EXPECT_EQ(inside_out.inward(), (Vertices{0, 84}));
+}
+
+TEST(Orientation, OpenFlatAndTangledPartsAreNotJudged) {
+    Mesh open;
+    open.add_sphere(1, {0, 0, 0}, true);
+    open.topology.triangles.pop_back();
+    EXPECT_TRUE(open.inward().empty());
+    Mesh tangled;  // one face the other way round
+    tangled.add_sphere(1, {0, 0, 0}, true);
+    turn_triangles(Vertices{7}, tangled.topology);
+    EXPECT_TRUE(tangled.inward().empty());
+    Mesh flat;
+    flat.add_sphere(1, {0, 0, 0}, true);
+    for (Vec3f& x : flat.positions) x.z() = 0.0f;
+    EXPECT_TRUE(flat.inward().empty());
+    Mesh point;
+    point.add_sphere(0, {1, 2, 3}, true);
+    EXPECT_TRUE(point.inward().empty());
+}
+
+TEST(Orientation, PartsThatAreCutAlongSeamsAreClosed) {
+    Mesh whole;
+    whole.add_sphere(1, {0, 0, 0}, true);
+    Mesh cut;  // into its triangles
+    for (const Triangle& t : whole.topology.triangles) {
+        const uint32_t n = cut.topology.num_vertices;
+        cut.topology.triangles.push_back({n, n + 1, n + 2});
+        cut.topology.num_vertices += 3;
+        for (const uint32_t v : t) cut.positions.push_back(whole.positions[v]);
+    }
+    const auto parts = find_inward_parts(cut.topology, cut.positions);
+    ASSERT_EQ(parts.size(), 1u);
+    EXPECT_EQ(parts[0].triangles.size(), 80u);
+    // Two of them side by side share places, not edges.
+    Mesh two = cut;
+    two.topology.append(cut.topology);
+    for (const Vec3f& x : cut.positions) two.positions.push_back(x + Vec3f(2, 0, 0));
+    EXPECT_EQ(two.inward(), (Vertices{0, 240}));
+}
+
+}  // namespace
+}  // namespace paim
