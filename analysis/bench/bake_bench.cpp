@@ -3,7 +3,7 @@
 #include "analysis/bench/bare_rays.h"
 #include "analysis/bench/ratio.h"
 #include "compressor/bake/cosine_directions.h"
-#include "compressor/bake/ray_offset.h"
+#include "compressor/bake/ray_start.h"
 #include "compressor/bake/transfer_baker.h"
 #include "paim/base/check.h"
 #include "paim/base/seed.h"
@@ -21,12 +21,13 @@ constexpr size_t kOriginsPerPiece = 64;  // as the baker
 // The rays that TransferBaker traces for pose 0.
 RayList rays_of_bake(const PoseSource& source, const Pose& pose, const BakeOptions& options) {
     const CosineDirections generator(0, options.rays / 2);
-    const std::vector<float> offsets = ray_offsets(source.topology(), pose.positions);
+    const RayStarts starts(source.topology(), pose.positions, pose.normals);
+    PAIM_CHECK_EQ(starts.num_fans(), size_t{0});  // of the octopus; their rays are other work
     RayList rays;
     rays.per_origin = options.rays;
     DirectionArrays half;
     for (uint32_t v = 0; v < source.topology().num_vertices; ++v) {
-        rays.origins.push_back(pose.positions[v] + offsets[v] * pose.normals[v]);
+        rays.origins.push_back(starts[v].origin);
         for (uint32_t h = 0; h < 2; ++h) {
             generator.generate(pose.normals[v], stream_key(options.seed, 0, v, h), half);
             for (uint32_t j = 0; j < generator.count(); ++j) {

@@ -2,22 +2,21 @@
 #include "compressor/bake/ray_offset.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "paim/base/check.h"
 #include "paim/mesh/normals.h"
 
 namespace paim {
 
-std::vector<float> ray_offsets(const Topology& topology, std::span<const Vec3f> positions,
-                               const RayOffsetRule& rule) {
+std::vector<VertexFaces> measure_vertex_faces(const Topology& topology,
+                                              std::span<const Vec3f> positions,
+                                              std::span<const Vec3f> normals) {
     PAIM_CHECK_EQ(positions.size(), topology.num_vertices);
-    constexpr double kNone = std::numeric_limits<double>::infinity();
-    std::vector<double> shortest(positions.size(), kNone);  // edge
-    std::vector<float> largest(positions.size(), 0.0f);     // coordinate
+    std::vector<VertexFaces> vertices(positions.size());
     for (const Triangle& t : topology.triangles) {
         // Faces without area cannot be hit, and do not show the size of details of the surface.
-        if (face_normal(positions[t[0]], positions[t[1]], positions[t[2]]).isZero(0.0)) continue;
+        const Vec3d normal = face_normal(positions[t[0]], positions[t[1]], positions[t[2]]);
+        if (normal.isZero(0.0)) continue;
         // The place where a ray crosses a face depends on all three corners.
         float coordinate = 0.0f;
         for (const uint32_t v : t) {
@@ -28,16 +27,28 @@ std::vector<float> ray_offsets(const Topology& topology, std::span<const Vec3f> 
             const uint32_t b = t[(corner + 1) % 3];
             const double length =
                 (positions[a].cast<double>() - positions[b].cast<double>()).stableNorm();
-            for (const uint32_t v : {a, b}) shortest[v] = std::min(shortest[v], length);
-            largest[a] = std::max(largest[a], coordinate);
+            for (const uint32_t v : {a, b}) {
+                vertices[v].shortest = std::min(vertices[v].shortest, length);
+            }
+            VertexFaces& vertex = vertices[a];
+            vertex.largest = std::max(vertex.largest, coordinate);
+            if (normals.empty()) continue;
+            const double cosine = normal.dot(normals[a].cast<double>());
+            vertex.lowest_cosine = std::min(vertex.lowest_cosine, cosine);
+            vertex.highest_cosine = std::max(vertex.highest_cosine, cosine);
         }
     }
+    return vertices;
+}
+
+std::vector<float> ray_offsets(const Topology& topology, std::span<const Vec3f> positions,
+                               const RayOffsetRule& rule) {
+    const std::vector<VertexFaces> vertices = measure_vertex_faces(topology, positions, {});
     std::vector<float> offsets(positions.size(), 0.0f);
     for (size_t v = 0; v < positions.size(); ++v) {
-        if (shortest[v] == kNone) continue;
-        const double rounding = std::numeric_limits<float>::epsilon() * double{largest[v]};
-        offsets[v] =
-            static_cast<float>(std::max(rule.of_edge * shortest[v], rule.of_coordinate * rounding));
+        if (!vertices[v].any()) continue;
+        offsets[v] = static_cast<float>(std::max(rule.of_edge * vertices[v].shortest,
+                                                 rule.of_coordinate * vertices[v].rounding()));
     }
     return offsets;
 }

@@ -20,12 +20,12 @@ constexpr size_t kRaysPerFlush = 32 * kBatch;
 SplitTracer::SplitTracer(const sh::BatchBasis& basis)
     : basis_(basis), lanes_(static_cast<size_t>(basis.bands() * basis.bands()) * kSumLanes) {}
 
-void SplitTracer::trace(const RayScene& scene, const Vec3f& origin, const Vec3f& normal,
+void SplitTracer::trace(const RayScene& scene, const RayStart& start, const Vec3f& normal,
                         const DirectionSampler& sampler, uint64_t key, SplitEstimate& sums) {
     sampler.generate(normal, key, rays_);
     occluded_.resize(rays_.num_rays);
-    sums.num_occluded += scene.occluded(origin, rays_.x.data(), rays_.y.data(), rays_.z.data(),
-                                        rays_.num_rays, occluded_.data());
+    sums.num_occluded += occluded_from(scene, start, rays_.x.data(), rays_.y.data(), rays_.z.data(),
+                                       rays_.num_rays, occluded_.data());
     sums.num_points += sampler.num_points();
     sums.num_rays += rays_.num_rays;
 }

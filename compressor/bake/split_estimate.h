@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "compressor/bake/direction_sampler.h"
+#include "compressor/bake/ray_start.h"
 #include "paim/sh/basis.h"
 #include "paim/trace/ray_scene.h"
 
@@ -30,7 +31,7 @@ class SplitTracer {
     explicit SplitTracer(const sh::BatchBasis& basis);
 
     // Traces and counts rays. The sums do not change before add().
-    void trace(const RayScene& scene, const Vec3f& origin, const Vec3f& normal,
+    void trace(const RayScene& scene, const RayStart& start, const Vec3f& normal,
                const DirectionSampler& sampler, uint64_t key, SplitEstimate& sums);
 
     // Adds the rays that were traced last to the sums.

@@ -10,7 +10,7 @@
 #include <numeric>
 
 #include "compressor/bake/noise_target.h"
-#include "compressor/bake/ray_offset.h"
+#include "compressor/bake/ray_start.h"
 #include "compressor/bake/split_estimate.h"
 #include "paim/base/check.h"
 #include "paim/base/parallel.h"
@@ -74,7 +74,7 @@ class TransferBaker::PoseBake {
           albedo_(albedo),
           still_mesh_(still_mesh),
           scene_(topology, pose.positions, still_mesh.topology, still_mesh.pose.positions),
-          offsets_(ray_offsets(topology, pose.positions)),
+          starts_(topology, pose.positions, pose.normals),
           lobe_(cosine_lobe_by_coefficient(options_.bands)),
           num_rays_(topology.num_vertices),
           num_occluded_(topology.num_vertices),
@@ -108,17 +108,16 @@ class TransferBaker::PoseBake {
 
     size_t num_coefficients() const { return lobe_.size(); }
     bool has_normal(size_t v) const { return !pose_.normals[v].isZero(0.0f); }
-    Vec3f ray_origin(size_t v) const { return pose_.positions[v] + offsets_[v] * pose_.normals[v]; }
 
     // Traces another batch of a vertex's rays. Adds them up only if the result depends on their
     // sums.
     void shoot(size_t v, const DirectionSampler& batch, bool is_only_batch, Halves& halves,
                Workspace& work) const {
         const Vec3f& normal = pose_.normals[v];
-        const Vec3f origin = ray_origin(v);
+        const RayStart start = starts_[v];
         for (uint32_t h = 0; h < 2; ++h) {
             const uint64_t key = half_key(options_, p_, static_cast<uint32_t>(v), h);
-            work.tracers[h].trace(scene_, origin, normal, batch, key, halves[h]);
+            work.tracers[h].trace(scene_, start, normal, batch, key, halves[h]);
         }
         const uint64_t num_rays = halves[0].num_rays + halves[1].num_rays;
         const uint64_t num_occluded = halves[0].num_occluded + halves[1].num_occluded;
@@ -217,12 +216,12 @@ class TransferBaker::PoseBake {
             row.clear();
             if (num_occluded_[v] == 0) return;
             const Vec3f& normal = pose_.normals[v];
-            const Vec3f origin = ray_origin(v);
-            const uint64_t key =
-                half_key(options_, p_, static_cast<uint32_t>(v), static_cast<uint32_t>(half));
+            const auto vertex = static_cast<uint32_t>(v);
+            const RayStart start = starts_[v];
+            const uint64_t key = half_key(options_, p_, vertex, static_cast<uint32_t>(half));
             HitTracer tracer(scene_, topology, positions);
             for (size_t b = 0; b < num_batches_[v]; ++b) {
-                tracer.trace(origin, normal, *baker_.batches_[b], key);
+                tracer.trace(vertex, start, normal, *baker_.batches_[b], key);
             }
             num_back_hits[half][v] = tracer.num_back_hits();
             tracer.end(row);
@@ -271,7 +270,7 @@ class TransferBaker::PoseBake {
     const Albedo& albedo_;
     const StillMesh& still_mesh_;
     const RayScene scene_;
-    const std::vector<float> offsets_;
+    const RayStarts starts_;
     const std::vector<double> lobe_;  // [C]
     // [planes][V] the estimates of both halves; of one channel until bounced light is added
     std::array<std::vector<float>, 2> halves_;

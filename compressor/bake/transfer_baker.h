@@ -20,7 +20,7 @@ namespace paim {
 
 // Raised whenever the same options give other bytes, so that results of different builds are not
 // mixed.
-constexpr uint32_t kBakerVersion = 4;
+constexpr uint32_t kBakerVersion = 5;
 
 // Every vertex traces its rays in two halves with random numbers of their own (split_estimate.h).
 // The mean of their estimates is the transfer. Half their difference is its noise: one draw with

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "compressor/bake/direction_sampler.h"
+#include "compressor/bake/ray_start.h"
 #include "paim/mesh/topology.h"
 #include "paim/trace/ray_scene.h"
 
@@ -29,10 +30,11 @@ class HitTracer {
     HitTracer(const RayScene& scene, const Topology& topology, std::span<const Vec3f> positions)
         : scene_(scene), topology_(topology), positions_(positions) {}
 
-    // Adds a batch of rays to the row. A triangle that is hit from behind blocks the ray and gives
-    // no light.
-    void trace(const Vec3f& origin, const Vec3f& normal, const DirectionSampler& sampler,
-               uint64_t key);
+    // Adds a batch of rays of a vertex to the row. A triangle that is hit from behind blocks the
+    // ray and gives no light. A direction that the fan of the start hides meets the faces round the
+    // vertex at the vertex itself.
+    void trace(uint32_t vertex, const RayStart& start, const Vec3f& normal,
+               const DirectionSampler& sampler, uint64_t key);
 
     void end(TransportRow& row);
 
@@ -40,6 +42,10 @@ class HitTracer {
     uint32_t num_back_hits() const { return num_back_hits_; }
 
   private:
+    Vec3d direction(size_t ray) const;
+    void find_hits(const RayStart& start);
+    void add_hit(const Hit& hit, size_t ray);
+
     const RayScene& scene_;
     const Topology& topology_;
     std::span<const Vec3f> positions_;

@@ -220,17 +220,24 @@ void RayScene::intersect(const Vec3f& origin, const float* x, const float* y, co
     }
 }
 
-std::optional<Hit> RayScene::intersect_first(const Vec3f& origin, const Vec3f& direction) const {
+std::optional<Hit> RayScene::intersect_first(const Vec3f& origin, const Vec3f& direction,
+                                             std::span<const uint32_t> ignored) const {
     embree::Context context;
     RTCRayHit query;
-    query.ray = make_ray(impl_->scale * origin, direction);
-    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    context.intersect(impl_->scene, query);
-    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-    return Hit{query.ray.tfar / impl_->scale,
-               impl_->first_triangle[query.hit.geomID] + query.hit.primID, query.hit.u,
-               query.hit.v};
+    for (float after = 0.0f;;) {
+        query.ray = make_ray(impl_->scale * origin, direction);
+        query.ray.tnear = after;
+        query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+        query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+        context.intersect(impl_->scene, query);
+        if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+        const uint32_t triangle = impl_->first_triangle[query.hit.geomID] + query.hit.primID;
+        if (!std::binary_search(ignored.begin(), ignored.end(), triangle)) {
+            return Hit{query.ray.tfar / impl_->scale, triangle, query.hit.u, query.hit.v};
+        }
+        // Goes on behind it, by more than the rounding of distances: coordinates are about 1 here.
+        after = query.ray.tfar * (1.0f + 0x1p-21f) + 0x1p-100f;
+    }
 }
 
 }  // namespace paim

@@ -53,7 +53,9 @@ class RayScene {
                    uint32_t count, Hit* hits) const;
 
     // The nearest hit at distance > 0, if any.
-    std::optional<Hit> intersect_first(const Vec3f& origin, const Vec3f& direction) const;
+    // ignored  numbers of triangles that the ray passes through, in ascending order
+    std::optional<Hit> intersect_first(const Vec3f& origin, const Vec3f& direction,
+                                       std::span<const uint32_t> ignored = {}) const;
 
   private:
     struct Impl;

@@ -216,18 +216,18 @@ TEST(OddMesh, ASheetWithAFlippedCopyIsLitOnBothSides) {
 }
 
 TEST(OddMesh, FlippedNeighboursKeepTheirSides) {
-    // A strip of two squares, the right one turned round. Where both meet, the side of most faces
-    // wins.
+    // A strip of two quads, the right one turned round. Where both meet, the side of the larger
+    // angle wins.
     const Mesh strip{{6, {{0, 1, 4}, {0, 4, 3}, {1, 5, 2}, {1, 4, 5}}},
-                     {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0}}};
+                     {{0, 0, 0}, {1, 0, 0}, {2, -1, 0}, {0, 1, 0}, {1, 1, 0}, {2, 2, 0}}};
     EXPECT_EQ(report_topology(strip.topology).flipped_edges, 1u);
     const BakedPose baked = bake(strip.pose_set());
     for (const size_t v : {0u, 3u}) expect_lobe(baked, v, Vec3d(0, 0, 1));
     for (const size_t v : {2u, 5u}) expect_lobe(baked, v, Vec3d(0, 0, -1));
-    // Vertex 1 has one face of the left and two of the right, vertex 4 two of the left.
+    // On the left a right angle, on the right half a one more.
     expect_lobe(baked, 1, Vec3d(0, 0, -1));
-    expect_lobe(baked, 4, Vec3d(0, 0, 1));
-    // Where they are as many the normals cancel: no side is left, and the vertex is dark and
+    expect_lobe(baked, 4, Vec3d(0, 0, -1));
+    // Where angles are equal the normals cancel: no side is left, and the vertex is dark and
     // counted.
     const Mesh two{{4, {{0, 1, 2}, {1, 2, 3}}}, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}};
     EXPECT_EQ(report_topology(two.topology).flipped_edges, 1u);

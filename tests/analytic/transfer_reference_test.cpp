@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "compressor/bake/ray_offset.h"
+#include "compressor/bake/ray_start.h"
 #include "compressor/bake/transfer_baker.h"
 #include "paim/base/seed.h"
 #include "paim/sh/basis_reference.h"
@@ -32,7 +32,8 @@ TEST(TransferReference, EveryBandAgreesToTheNoiseOfTheReference) {
     // So many rays that its own noise is far below the reference's.
     const BakedPose baked = TransferBaker({kBands, 16384, 1}).bake(octopus.topology(), pose, 0);
     const RayScene scene(octopus.topology(), pose.positions);
-    const std::vector<float> offsets = ray_offsets(octopus.topology(), pose.positions);
+    const RayStarts starts(octopus.topology(), pose.positions, pose.normals);
+    ASSERT_EQ(starts.num_fans(), 0u);
 
     double chi_squared[kBands] = {};
     int num_values[kBands] = {};
@@ -44,8 +45,7 @@ TEST(TransferReference, EveryBandAgreesToTheNoiseOfTheReference) {
         int num_open = 0;
         for (int j = 0; j < kRays; ++j) {
             const Vec3d w = cosine_direction(pose.normals[v].cast<double>(), random);
-            const Vec3f origin = pose.positions[v] + offsets[v] * pose.normals[v];
-            if (scene.intersect_first(origin, w.cast<float>())) continue;
+            if (scene.intersect_first(starts[v].origin, w.cast<float>())) continue;
             ++num_open;
             for (int l = 0; l < kBands; ++l) {
                 for (int m = -l; m <= l; ++m) {

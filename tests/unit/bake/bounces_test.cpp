@@ -153,8 +153,8 @@ TEST(HitRows, AreTheMeanOfWhatSingleRaysHit) {
         const Vec3f origin = from_inside ? Vec3f(0.1f, -0.5f, 0.2f) : Vec3f(0.1f, -1.5f, 0.2f);
         const Vec3f normal = Vec3f(0.3f, from_inside ? -1.0f : 1.0f, 0.1f).normalized();
         HitTracer tracer(scene, topology, positions);
-        tracer.trace(origin, normal, *sampler, 3);
-        tracer.trace(origin, normal, *more, 3);
+        tracer.trace(0, {origin, nullptr}, normal, *sampler, 3);
+        tracer.trace(0, {origin, nullptr}, normal, *more, 3);
         TransportRow row;
         tracer.end(row);
 
@@ -186,6 +186,42 @@ TEST(HitRows, AreTheMeanOfWhatSingleRaysHit) {
         }
         EXPECT_EQ(*std::max_element(expected.begin(), expected.end()), 0.0);
     }
+}
+
+// A vertex at the bottom of a slit, whose rays start at the vertex itself: what its faces hide gives
+// it its own light, and the rest meets a lid over half of the slit.
+TEST(HitRows, OfSteepFacesMeetTheVertexItself) {
+    const float t = 1e-3f;
+    const Topology topology{
+        10, {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {0, 5, 6}, {0, 6, 1}, {7, 8, 9}}};
+    const std::vector<Vec3f> positions{{0, 0, 0},  {1, t, 1},  {0, t, 1},  {-1, t, 1}, {-1, -t, 1},
+                                       {0, -t, 1}, {1, -t, 1}, {0, -9, 2}, {0, 9, 2},  {40, 0, 2}};
+    std::vector<Vec3f> normals(10, Vec3f::Zero());
+    normals[0] = Vec3f(0, 0, 1);
+    const RayStarts starts(topology, positions, normals);
+    ASSERT_EQ(starts.num_fans(), 1u);
+    const RayScene scene(topology, positions);
+    const auto sampler = make_sampler(SamplerKind::cosine, 0, 1 << 16);
+    HitTracer tracer(scene, topology, positions);
+    tracer.trace(0, starts[0], normals[0], *sampler, 3);
+    TransportRow row;
+    tracer.end(row);
+    EXPECT_EQ(tracer.num_back_hits(), 0u);
+    RaySet rays;
+    sampler->generate(normals[0], 3, rays);
+    std::vector<float> occluded(rays.num_rays);
+    const uint32_t num_occluded = occluded_from(scene, starts[0], rays.x.data(), rays.y.data(),
+                                                rays.z.data(), rays.num_rays, occluded.data());
+    EXPECT_LT(num_occluded, rays.num_rays);
+    double own = 0.0, lid = 0.0;
+    for (const HitWeight& share : row) {
+        EXPECT_TRUE(share.vertex == 0 || share.vertex >= 7) << share.vertex;
+        (share.vertex == 0 ? own : lid) += static_cast<double>(share.weight);
+    }
+    EXPECT_GT(own, 0.9);
+    EXPECT_GT(lid, 0.0);
+    // Each ray weighs the same.
+    EXPECT_NEAR(own + lid, static_cast<double>(num_occluded) / (1 << 16), 1e-5);
 }
 
 }  // namespace

@@ -83,6 +83,37 @@ TEST(RayScene, PacketsAnswerAsSingleRays) {
     EXPECT_LT(total, 4500u);  // not of all
 }
 
+TEST(RayScene, PassesThroughTrianglesThatAreIgnored) {
+    // Three triangles over each other, the middle one twice.
+    for (const float scale : {1e-30f, 1.0f, 1e30f}) {
+        Topology topology{12, {}};
+        std::vector<Vec3f> positions;
+        for (const float z : {0.0f, 1.0f, 1.0f, 2.0f}) {
+            const auto n = static_cast<uint32_t>(positions.size());
+            topology.triangles.push_back({n, n + 1, n + 2});
+            for (const Vec3f& x : kCorners) positions.push_back(scale * (x + Vec3f(0, 0, z)));
+        }
+        const RayScene scene(topology, positions);
+        const auto first = [&](const std::vector<uint32_t>& ignored) {
+            const auto hit =
+                scene.intersect_first(scale * Vec3f(0.2f, 0.2f, 3), {0, 0, -1}, ignored);
+            return hit ? hit->triangle : kNoTriangle;
+        };
+        EXPECT_EQ(first({}), 3u);
+        EXPECT_EQ(first({0}), 3u);
+        EXPECT_TRUE(first({3}) == 1 || first({3}) == 2);
+        EXPECT_EQ(first({1, 2, 3}), 0u);
+        EXPECT_EQ(first({0, 1, 2, 3}), kNoTriangle);
+        // From a corner of ignored triangles, in their plane and out of it.
+        for (const Vec3f& d : {Vec3f(1, 0, 0), Vec3f(1, 1, 0), Vec3f(0.3f, 0.2f, -0.9f)}) {
+            const auto hit = scene.intersect_first(scale * Vec3f(0, 0, 1), d.normalized(),
+                                                   std::vector<uint32_t>{1, 2});
+            EXPECT_EQ(hit.has_value(), d.z() < 0.0f) << d.transpose();
+            EXPECT_EQ(hit ? hit->triangle : 0u, 0u);
+        }
+    }
+}
+
 TEST(RayScene, HitsTheSameAtAnyScale) {
     // Powers of two, so that the scaled mesh is exactly the same.
     for (const int exponent : {-120, -60, 0, 60, 120}) {
