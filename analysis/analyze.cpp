@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <limits>
 
 #include "analysis/csv.h"
@@ -82,6 +83,18 @@ nlohmann::ordered_json curve_json(const Curve& curve, const std::vector<NamedLig
     return points;
 }
 
+// On stderr, for each light under which nothing was to be seen.
+void say_what_was_not_measured(const std::vector<Curve>& curves,
+                               const std::vector<NamedLight>& lights) {
+    for (size_t light = 0; light < lights.size(); ++light) {
+        if (!std::isnan(curves.front().points.front().visual_error[light])) continue;
+        fmt::print(stderr,
+                   "paim-analyze: note: light {}: {}; no visual error was measured (nan in CSV, "
+                   "null in JSON)\n",
+                   lights[light].name, why_nothing_is_seen(lights[light]));
+    }
+}
+
 }  // namespace
 
 void analyze(const AnalyzeOptions& options) {
@@ -92,7 +105,7 @@ void analyze(const AnalyzeOptions& options) {
         throw_usage("--output {}: is a bake, expected another directory", options.output.string());
     }
     const std::vector<NamedLight> lights =
-        load_lights(options.environments, bake.identity().layout.in_bands);
+        load_lights(options.environments, options.env_mapping, bake.identity().layout.in_bands);
     const size_t most_settings = 2 * (options.components.size() + 1) + options.bands.size() + 1;
     check_memory(options, most_settings * lights.size());
     const bool with_plots = have_gnuplot();
@@ -108,6 +121,7 @@ void analyze(const AnalyzeOptions& options) {
     const std::vector<Image> references =
         measure_curves(bake, asset, stage, curves, [&] { progress.advance(); });
     progress.finish();
+    say_what_was_not_measured(curves, lights);
 
     nlohmann::ordered_json json;
     json["directory"] = options.output.string();

@@ -24,11 +24,12 @@ struct CurvePoint {
     double energy_error = 0.0;
     uint64_t size_bytes = 0;  // of the .paim with this setting, and everything else
 
-    std::vector<double> visual_error;  // [lights] E6 over all measured poses
-    DistanceError distance;            // of positions to the bake's
-    ArrayError transfer;               // to the bake's transfer; dropped values count as zero
-    double decode_ms = 0.0;            // to rebuild one pose on the CPU, median over measured poses
-    std::vector<Image> images;         // [lights] of the first measured pose
+    // [lights] E6 over all measured poses; not a number if the bake's own pictures are black.
+    std::vector<double> visual_error;
+    DistanceError distance;     // of positions to the bake's
+    ArrayError transfer;        // to the bake's transfer; dropped values count as zero
+    double decode_ms = 0.0;     // to rebuild one pose on the CPU, median over measured poses
+    std::vector<Image> images;  // [lights] of the first measured pose
 };
 
 struct Curve {

@@ -5,6 +5,7 @@
 
 #include "paim/base/error.h"
 #include "paim/base/vector.h"
+#include "paim/cli/light_options.h"
 #include "paim/cli/parse.h"
 #include "paim/sh/index.h"
 #include "paim/shade/camera.h"
@@ -59,8 +60,8 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
     app.add_option("-o,--output", options.output,
                    "Directory for the results, required without --verify");
     app.add_option("--env", options.environments,
-                   "Lat-long environment map (OpenEXR); may be given several times; default: the "
-                   "built-in sky");
+                   "Environment map (OpenEXR) of the light; may be given several times; default: "
+                   "the built-in sky");
     app.add_option("--components", components, "Component counts to measure, besides all")
         ->capture_default_str();
     app.add_option("--bands", bands,
@@ -98,6 +99,7 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
                    "bake's bands), 'natural' (real light on average) or an environment map "
                    "(OpenEXR); default: what the file's errors are of")
         ->needs(verify);
+    cli::add_env_mapping(app, options.env_mapping);
     app.add_option("--threads", options.num_threads, "Threads, 0 to 1024; 0 takes every core")
         ->check(cli::in_range(0, 1024))
         ->capture_default_str();

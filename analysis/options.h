@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "paim/light/env_mapping.h"
+
 namespace paim {
 
 struct AnalyzeOptions {
@@ -14,6 +16,7 @@ struct AnalyzeOptions {
     std::filesystem::path verify;                     // a .paim to check instead; empty: none
     std::string band_power;                           // for --verify; empty: that of the file
     std::vector<std::filesystem::path> environments;  // none: the built-in sky
+    EnvMapping env_mapping = EnvMapping::automatic;   // of all maps
     std::vector<uint32_t> components{20, 7, 4, 2};    // in addition to all
     std::vector<uint32_t> bands{7, 4, 2};             // in addition to all
     int size_pixels = 256;

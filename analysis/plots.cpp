@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstdio>
 #include <functional>
 #include <limits>
@@ -99,14 +100,15 @@ Series theory_series(const std::string& title, const std::vector<double>& errors
     return series;
 }
 
-// The visual errors of all lights against x.
+// The visual errors of all lights against x, where there are any.
 std::vector<Series> visual_series(const Curve& curve, const std::vector<NamedLight>& lights,
                                   const std::function<double(const CurvePoint&)>& x) {
     std::vector<Series> all;
     for (size_t light = 0; light < lights.size(); ++light) {
         Series series{"seen, " + lights[light].name, {}};
         for (const CurvePoint& point : curve.points) {
-            series.points.emplace_back(x(point), point.visual_error[light]);
+            const double error = point.visual_error[light];
+            if (std::isfinite(error)) series.points.emplace_back(x(point), error);
         }
         all.push_back(std::move(series));
     }
@@ -122,8 +124,14 @@ bool have_gnuplot() {
 void write_plots(const std::filesystem::path& directory, const Curve& curve,
                  const std::vector<NamedLight>& lights) {
     const auto draw = [&](const std::string& suffix, const std::string& x_label,
-                          const std::vector<Series>& series, bool from_zero = false) {
+                          std::vector<Series> series, bool from_zero = false) {
         const auto output = directory / (curve.name + suffix + ".svg");
+        std::erase_if(series, [](const Series& one) { return one.points.empty(); });
+        if (series.empty()) {  // an older one would be shown instead
+            std::error_code ignored;
+            std::filesystem::remove(output, ignored);
+            return;
+        }
         run_gnuplot(plot_script(output, curve.title, x_label, from_zero, series), output);
     };
     std::vector<Series> errors{theory_series("theory", curve.theory_errors),

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "paim/base/file.h"
 #include "paim/image/png.h"
 
@@ -53,6 +55,10 @@ Image difference(const Image& image, const Image& reference) {
     return result;
 }
 
+std::string visual_text(double error) {
+    return std::isnan(error) ? "nothing to see" : fmt::format("{:.3g} %", 100.0 * error);
+}
+
 std::string label(const Curve& curve, const CurvePoint& point) {
     return fmt::format("{}{}{}", point.all ? "all: " : "", point.value,
                        curve.name == "bands" ? " bands" : " components");
@@ -72,8 +78,13 @@ std::string strips(const std::filesystem::path& directory, const Curve& curve, c
     for (size_t light = 0; light < stage.lights().size(); ++light) {
         const Image& reference = references[light];
         const ToneCurve tone{suggested_exposure_ev(reference), 0.0f};
-        html += fmt::format("<p>Light: {}, shown at {:+.1f} EV</p>\n<div class=\"strip\">",
-                            escape(stage.lights()[light].name), tone.exposure_ev);
+        const NamedLight& named = stage.lights()[light];
+        html +=
+            fmt::format("<p>Light: {}, shown at {:+.1f} EV", escape(named.name), tone.exposure_ev);
+        if (std::isnan(curve.points.front().visual_error[light])) {
+            html += ". Nothing to see: " + escape(why_nothing_is_seen(named));
+        }
+        html += "</p>\n<div class=\"strip\">";
         html += figure(directory, fmt::format("images/baked_{}.png", light), "as baked", reference,
                        tone);
         std::string differences;
@@ -82,7 +93,7 @@ std::string strips(const std::filesystem::path& directory, const Curve& curve, c
             const Image& image = point.images[light];
             html += figure(directory, stem + ".png", label(curve, point), image, tone);
             differences += figure(directory, stem + "_difference.png",
-                                  fmt::format("seen: {:.3g} %", 100.0 * point.visual_error[light]),
+                                  "seen: " + visual_text(point.visual_error[light]),
                                   difference(image, reference), tone);
         }
         html +=
@@ -106,7 +117,7 @@ std::string table(const Curve& curve, const Stage& stage) {
             fmt::format("<tr><td>{}</td><td>{:.3g} %</td><td>{:.3g} %</td>", label(curve, point),
                         100.0 * point.theory_error, 100.0 * point.energy_error);
         for (const double error : point.visual_error) {
-            html += fmt::format("<td>{:.3g} %</td>", 100.0 * error);
+            html += "<td>" + visual_text(error) + "</td>";
         }
         html += fmt::format(
             "<td>{:.3g}</td><td>{:.3g} ({}, {})</td><td>{:.3g} "
@@ -141,6 +152,7 @@ void write_report(const std::filesystem::path& directory, const std::string& tit
         if (with_plots) {
             html += "<div class=\"plots\">";
             for (const char* suffix : {"", "_bytes", "_time"}) {
+                if (!std::filesystem::exists(directory / (curve.name + suffix + ".svg"))) continue;
                 html += fmt::format("<img src=\"{0}{1}.svg\" alt=\"{0}{1}\">", curve.name, suffix);
             }
             html += "</div>\n";

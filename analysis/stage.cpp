@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "paim/cli/light_options.h"
 #include "paim/codec/sequence_bounds.h"
-#include "paim/image/exr.h"
-#include "paim/light/environment.h"
+#include "paim/light/load_light.h"
 #include "paim/light/sky.h"
 #include "paim/mesh/face_vertices.h"
 #include "paim/mesh/planes.h"
@@ -19,9 +19,9 @@
 namespace paim {
 
 std::vector<NamedLight> load_lights(const std::vector<std::filesystem::path>& environments,
-                                    uint32_t bands) {
+                                    EnvMapping mapping, uint32_t bands) {
     std::vector<NamedLight> lights;
-    const auto add = [&](const std::string& stem, Image image) {
+    const auto add = [&](const std::string& stem, const EnvironmentLight& light) {
         // Maps of the same name from different folders need different names.
         std::string name = stem;
         for (int copy = 2; std::any_of(lights.begin(), lights.end(),
@@ -29,12 +29,21 @@ std::vector<NamedLight> load_lights(const std::vector<std::filesystem::path>& en
              ++copy) {
             name = fmt::format("{} ({})", stem, copy);
         }
-        const EnvironmentLight light(std::move(image));
-        lights.push_back({name, light.coefficients(static_cast<int>(bands))});
+        lights.push_back({name, light.coefficients(static_cast<int>(bands)), light.is_black()});
     };
-    if (environments.empty()) add("sky", make_sky());
-    for (const auto& path : environments) add(path.stem().string(), read_exr(path));
+    if (environments.empty()) add("sky", EnvironmentLight(make_sky()));
+    for (const auto& path : environments) {
+        const LoadedLight loaded = load_light(path, mapping);
+        cli::print_notes("paim-analyze", path, loaded.notes);
+        add(path.stem().string(), loaded.light);
+    }
     return lights;
+}
+
+std::string why_nothing_is_seen(const NamedLight& light) {
+    return light.black ? "the light is black"
+                       : "the pictures of the bake are black (the mesh covers no pixel, or no "
+                         "light reaches what is seen of it)";
 }
 
 namespace {

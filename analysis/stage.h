@@ -9,6 +9,7 @@
 #include "paim/codec/mesh_decoder.h"
 #include "paim/format/bake/bake_directory.h"
 #include "paim/image/image.h"
+#include "paim/light/env_mapping.h"
 #include "paim/light/light.h"
 #include "paim/mesh/bounds.h"
 #include "paim/shade/camera.h"
@@ -18,12 +19,17 @@ namespace paim {
 struct NamedLight {
     std::string name;
     LightCoefficients coefficients;
+    bool black = false;  // nothing can be seen under it
 };
 
-// The lights of these environment maps, or the built-in sky if there are none.
-// Errors: those of read_exr and EnvironmentLight, naming the file.
+// The lights of these environment maps, or the built-in sky if there are none. Says on stderr how
+// maps were read, where they leave a doubt.
+// Errors: those of load_light().
 std::vector<NamedLight> load_lights(const std::vector<std::filesystem::path>& environments,
-                                    uint32_t bands);
+                                    EnvMapping mapping, uint32_t bands);
+
+// Why a visual error under this light is not a number, as a phrase.
+std::string why_nothing_is_seen(const NamedLight& light);
 
 // Renders baked or decoded poses of one character under several lights, against black.
 class Stage {

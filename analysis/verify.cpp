@@ -12,6 +12,7 @@
 #include "paim/base/error.h"
 #include "paim/base/json_text.h"
 #include "paim/base/tbb_parallel.h"
+#include "paim/cli/light_options.h"
 #include "paim/format/paim/paim_read.h"
 #include "paim/metrics/asset_error.h"
 
@@ -33,7 +34,7 @@ struct Comparison {
 BandPower choose_band_power(const AnalyzeOptions& options, const ErrorStatement& statement,
                             uint32_t bands) {
     if (!options.band_power.empty()) {
-        return parse_band_power(options.band_power, bands);
+        return parse_band_power(options.band_power, bands, options.env_mapping);
     }
     if (statement.band_power != "flat" && statement.band_power != "natural") {
         throw_usage("{}: its errors are those under {}; give this file with --light-spectrum",
@@ -141,6 +142,7 @@ void verify(const AnalyzeOptions& options) {
     const BakeReader bake(options.bake_directory);
     const BandPower spectrum =
         choose_band_power(options, statement, bake.identity().layout.in_bands);
+    cli::print_notes("paim-analyze", options.band_power, spectrum.notes);
     bake.verify_all();
     const std::vector<BakeDifference> differences = bake_differences(asset, bake);
     if (!differences.empty()) {

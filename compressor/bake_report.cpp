@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "compressor/mesh_warnings.h"
 
 namespace paim {
@@ -131,9 +133,14 @@ std::string report_text(const BakeReport& report) {
         report.bake.string(), report.num_vertices, report.num_triangles, report.first_pose,
         report.last_pose, report.num_poses, report.summary.baked, report.summary.resumed,
         report.options.bands);
-    text += fmt::format(
-        "  {:.0f} rays per vertex, {:.1f} % occluded; estimated noise {:.2f} % of the transfer\n",
-        report.rays_per_vertex(), 100.0 * report.occluded_share(), 100.0 * total.relative_noise());
+    const double noise = total.relative_noise();
+    text += total.rays == 0
+                ? "  no rays traced"
+                : fmt::format("  {:.0f} rays per vertex, {:.1f} % occluded",
+                              report.rays_per_vertex(), 100.0 * report.occluded_share());
+    text += std::isnan(noise)
+                ? "; no light reaches any vertex\n"
+                : fmt::format("; estimated noise {:.2f} % of the transfer\n", 100.0 * noise);
     text += noise_target_text(report) + bounces_text(report) + surroundings_text(report);
     text += colours_text(report.vertex_colours, "");
     for (const StillMeshReport& mesh : report.still_meshes) {

@@ -8,6 +8,7 @@
 
 #include "compressor/encode/search/transfer_encoder.h"
 #include "paim/base/error.h"
+#include "paim/cli/light_options.h"
 #include "paim/cli/parse.h"
 
 namespace paim {
@@ -74,10 +75,11 @@ void add_target_options(CLI::App& app, CompressOptions& options, EncodeArguments
         ->group(kGroup);
     app.add_option("--light-spectrum", options.band_power,
                    "The light that errors are weighted by: 'flat' (the same power in every band), "
-                   "'natural' (less in high bands), or that of a lat-long EXR file")
+                   "'natural' (less in high bands), or that of an environment map (EXR)")
         ->capture_default_str()
         ->type_name("LIGHT")
         ->group(kGroup);
+    cli::add_env_mapping(app, options.env_mapping)->group(kGroup);
 }
 
 void add_component_options(CLI::App& app, CompressOptions& options, EncodeArguments& arguments) {
@@ -146,6 +148,7 @@ void check_without_target(const EncodeArguments& arguments, const CompressOption
     needs_target(arguments.codec != EncodeArguments().codec, "--codec");
     needs_target(arguments.preference != Preference::size, "--prefer");
     needs_target(options.band_power != CompressOptions().band_power, "--light-spectrum");
+    needs_target(options.env_mapping != EnvMapping::automatic, "--env-mapping");
 }
 
 // The options that a target decides must have their defaults with one.

@@ -33,8 +33,9 @@ struct CompressOptions {
     // Encode.
     std::filesystem::path bake_directory;  // of `encode`
     EncodeOptions encode;
-    std::optional<EncodeTarget> target;  // without its band power
-    std::string band_power = "flat";     // or "natural" or a file
+    std::optional<EncodeTarget> target;              // without its band power
+    std::string band_power = "flat";                 // or "natural" or a file
+    EnvMapping env_mapping = EnvMapping::automatic;  // of the file
 
     std::filesystem::path output;
     int num_threads = 0;

@@ -18,6 +18,7 @@
 #include "paim/base/json_text.h"
 #include "paim/base/parallel.h"
 #include "paim/base/tbb_parallel.h"
+#include "paim/cli/light_options.h"
 #include "paim/cli/progress.h"
 
 namespace paim {
@@ -83,16 +84,19 @@ EncodeReport encode_streamed(const CompressOptions& options, const EncodeOptions
 TargetReport encode_target(const CompressOptions& options, const EncodeOptions& encode_options,
                            const BakeReader& reader) {
     EncodeTarget target = *options.target;
-    target.spectrum = parse_band_power(options.band_power, reader.identity().layout.in_bands);
+    target.spectrum = parse_band_power(options.band_power, reader.identity().layout.in_bands,
+                                       options.env_mapping);
     const auto say = [&](const char* step) {
         if (!options.quiet && !options.json) fmt::print(stderr, "{} ...\n", step);
     };
     return {options.output, encode_to_target(reader, encode_options, target, options.output, say)};
 }
 
-// Checks the option before long work starts.
+// Checks the option before long work starts, and says how its map was read.
 void check_band_power(const CompressOptions& options, uint32_t bands) {
-    if (options.target) parse_band_power(options.band_power, bands);
+    if (!options.target) return;
+    const BandPower power = parse_band_power(options.band_power, bands, options.env_mapping);
+    cli::print_notes("paim-compress", options.band_power, power.notes);
 }
 
 ordered_json run_bake(const CompressOptions& options) {

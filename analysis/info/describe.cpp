@@ -9,6 +9,7 @@
 #include "paim/format/bake/bake_directory.h"
 #include "paim/format/paim/paim_read.h"
 #include "paim/format/paim/paim_write.h"
+#include "paim/metrics/rates.h"
 #include "paim/metrics/singular_value_error.h"
 
 namespace paim {
@@ -46,10 +47,8 @@ ordered_json describe_paim(const std::filesystem::path& path) {
     json["channels"] = mesh.layout.channels;
     json["origin"] = {asset.origin.x(), asset.origin.y(), asset.origin.z()};
     json["albedo"] = mesh.albedo.values.size() == 1 ? "uniform" : "per vertex";
-    const double per_pose =
-        static_cast<double>(mesh.topology.num_vertices) * static_cast<double>(asset.num_poses());
-    json["bits_per_vertex_per_pose"] =
-        per_pose > 0.0 ? 8.0 * json["size_bytes"].get<double>() / per_pose : 0.0;
+    json["bits_per_vertex_per_pose"] = bits_per_vertex_per_pose(
+        json["size_bytes"].get<uint64_t>(), mesh.topology.num_vertices, asset.num_poses());
     if (const CodedMesh* still = asset.still()) {
         json["scenery_vertices"] = still->topology.num_vertices;
         json["scenery_triangles"] = still->topology.triangles.size();

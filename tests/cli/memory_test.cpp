@@ -4,6 +4,7 @@
 #include "analysis/bench/synthetic_bake.h"
 #include "compressor/encode/memory/memory_plan.h"
 #include "tests/cli/tool_test.h"
+#include "tests/exr_files.h"
 
 namespace paim {
 namespace {
@@ -96,6 +97,35 @@ TEST_F(Memory, ThatMeasuringTakesIsAskedForBeforeAnythingIsWritten) {
     const long nothing = peak_bytes_of_nothing();
     EXPECT_LT(peak_bytes(command("90M")) - nothing, 90'000'000 - long{kProgramBytes});
     EXPECT_TRUE(std::filesystem::exists(path("x.paim")));
+}
+
+// A map of the largest size would be 1.6 GB of floats.
+TEST_F(Memory, OfALightDoesNotGrowWithItsMap) {
+    constexpr int kWidth = 16384;
+    constexpr int kHeight = 8192;
+    Imf::Header header(kWidth, kHeight);
+    header.compression() = Imf::ZIPS_COMPRESSION;
+    const std::vector<uint16_t> line(kWidth, 0x3c00);  // ones as half floats
+    Imf::FrameBuffer buffer;
+    for (const char* name : {"R", "G", "B"}) {
+        header.channels().insert(name, Imf::Channel(Imf::HALF));
+        buffer.insert(
+            name, Imf::Slice(Imf::HALF, reinterpret_cast<char*>(const_cast<uint16_t*>(line.data())),
+                             2, 0));  // the same line for all
+    }
+    {
+        Imf::OutputFile file(path("large.exr").c_str(), header);
+        file.setFrameBuffer(buffer);
+        file.writePixels(kHeight);
+    }
+    write_exr_with(path("small.exr"), Image(64, 32, Vec3f::Ones()));
+    const auto peak = [&](const std::string& name) {
+        const ToolResult result = run(PAIM_PEAK_MEMORY, {PAIM_INFO, path(name)});
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        return result.exit_code == 0 ? std::stol(result.out) : 0;
+    };
+    // 4096 x 2048 pixels of 12 bytes are 101 MB, and 8 MiB of lines are read at a time.
+    EXPECT_LT(peak("large.exr") - peak("small.exr"), 130'000'000);
 }
 
 // Three times 6000 · 28 · 40 floats are 81 MB.

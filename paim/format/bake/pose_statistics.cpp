@@ -2,6 +2,7 @@
 #include "paim/format/bake/pose_statistics.h"
 
 #include <cmath>
+#include <limits>
 
 #include "paim/base/check.h"
 
@@ -34,7 +35,9 @@ std::vector<double> combine_rms(std::span<const PoseStatistics> poses,
 
 double PoseStatistics::relative_noise() const {
     const double transfer = mean_square(transfer_rms);
-    return transfer > 0.0 ? std::sqrt(mean_square(noise_rms) / transfer) : 0.0;
+    const double noise = mean_square(noise_rms);
+    if (transfer == 0.0 && noise == 0.0) return std::numeric_limits<double>::quiet_NaN();
+    return std::sqrt(noise / transfer);
 }
 
 std::vector<double> rms_by_band(const TransferLayout& layout, std::span<const float> planes) {

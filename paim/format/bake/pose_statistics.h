@@ -24,7 +24,7 @@ struct PoseStatistics {
     // Rays that hit the back of a face, which bounces no light.
     uint64_t back_hits = 0;
 
-    // Noise as a fraction of the transfer over all coefficients; 0 if both are 0.
+    // Noise as a fraction of the transfer over all coefficients; not a number if both are 0.
     double relative_noise() const;
 };
 
