@@ -57,6 +57,16 @@ std::string plain_name(std::string_view text) {
     return name;
 }
 
+// Without backslashes before spaces, as shells and some exporters write names.
+std::string without_escapes(std::string_view text) {
+    std::string name;
+    for (size_t i = 0; i < text.size(); ++i) {
+        const bool escapes = text[i] == '\\' && i + 1 < text.size() && is_space(text[i + 1]);
+        if (!escapes) name += text[i];
+    }
+    return name;
+}
+
 // Without a comment, which begins with a '#' after a space.
 std::string_view without_comment(std::string_view text) {
     for (size_t i = 1; i < text.size(); ++i) {
@@ -121,7 +131,7 @@ class LibraryReader {
         for (const std::string_view form : {name, without_quotes(name)}) {
             std::string slashes(form);
             std::replace(slashes.begin(), slashes.end(), '\\', '/');
-            for (const std::string& tried : {std::string(form), slashes}) {
+            for (const std::string& tried : {std::string(form), slashes, without_escapes(form)}) {
                 if (tried == last_tried) continue;
                 if (auto path = existing(tried)) return path;
                 last_tried = tried;

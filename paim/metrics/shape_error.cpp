@@ -9,6 +9,7 @@
 
 #include "paim/base/check.h"
 #include "paim/base/vector.h"
+#include "paim/mesh/bounds.h"
 
 namespace paim {
 
@@ -48,16 +49,13 @@ std::vector<std::array<uint32_t, 2>> edges_of(const Topology& topology) {
     return edges;
 }
 
-double diagonal_of(std::span<const float> planes) {
-    const size_t count = planes.size() / 3;
-    double squared = 0.0;
-    for (size_t axis = 0; axis < 3 && count > 0; ++axis) {
-        const auto plane = planes.subspan(axis * count, count);
-        const auto [lowest, highest] = std::minmax_element(plane.begin(), plane.end());
-        const double extent = double{*highest} - double{*lowest};
-        squared += extent * extent;
+// Of the vertices that a face has.
+double diagonal_of(std::span<const float> planes, const Topology& topology) {
+    BoundsD bounds;
+    for (const Triangle& t : topology.triangles) {
+        for (const uint32_t v : t) bounds.extend(point(planes, v));
     }
-    return std::sqrt(squared);
+    return bounds.diagonal();
 }
 
 double mean_of(double sum, uint64_t count) {
@@ -120,7 +118,7 @@ void ShapeErrorMeter::add_edges(std::span<const float> positions,
 
 void ShapeErrorMeter::add_steps(std::span<const float> positions,
                                 std::span<const float> reference) {
-    const double time = 0.01 * diagonal_of(reference);
+    const double time = 0.01 * diagonal_of(reference, topology_);
     std::vector<Step> steps(topology_.num_vertices);
     for (size_t v = 0; v < steps.size(); ++v) {
         if (pieces_.num_vertices[pieces_.of_vertex[v]] == 1) continue;  // no face has it

@@ -138,6 +138,7 @@ TEST_F(Geometry, OddStillMeshesAreCountedByFile) {
             {"file", odd},          {"isolated_vertices", 1},  {"duplicate_faces", 1},
             {"back_faces", 0},      {"boundary_edges", 8},     {"flipped_edges", 1},
             {"zero_area_faces", 1}, {"non_manifold_edges", 0}, {"coincident_faces", 1},
+            {"inward_parts", 0},
         };
         EXPECT_EQ(json["static_mesh"], nlohmann::json::array({none, counts}));
     }

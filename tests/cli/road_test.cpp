@@ -159,7 +159,7 @@ TEST_F(Road, NamesOfLightsAreNoCommandsForGnuplot) {
     const std::string bake = make_bake("x.bake");
     // A quote, and a line that gnuplot would run: it would write into the current folder.
     const std::string name = "it's\nset print 'ran'; print 1\n#.exr";
-    write_exr(directory_ / name, Image(16, 8));
+    write_exr(directory_ / name, Image(16, 8, Vec3f::Ones()));
     const auto result = analyze({"--size", "16", "--poses", "1", "-o", path("out"), "--components",
                                  "1", "--bands", "1", "--env", path(name), bake});
     EXPECT_EQ(result.exit_code, 0) << result.err;

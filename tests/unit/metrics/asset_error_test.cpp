@@ -353,6 +353,8 @@ TEST_F(AssetErrorTest, IsStatedAndReadBack) {
     error.transfer.worst_pose_error_to_bake = 0.625;
     error.geometry.add(std::vector<float>{0, 0, 0, 0, 0, 0}, std::vector<float>{3, 0, 4, 0, 0, 0},
                        0);
+    error.shape.whole = {0.03, 0.04, 2.5};
+    error.shape.worst = {0.3, 0.4, 12.5};
     Asset asset = make_example_asset();
     asset.provenance_json =
         R"({"measured":)" + error_statement_json(error, BandPower::natural()) + "}";
@@ -371,7 +373,11 @@ TEST_F(AssetErrorTest, IsStatedAndReadBack) {
         {"position_relative_rms", std::sqrt(0.5)},
         {"position_relative_worst", 1.0},
         {"kg_error", 100.0 * std::sqrt(25.0 / 12.5)},
-        {"e_rms", 1000.0 * 5.0 / std::sqrt(6.0) * 2.0 / 5.0}};
+        {"e_rms", 1000.0 * 5.0 / std::sqrt(6.0) * 2.0 / 5.0},
+        {"sted", 0.05},
+        {"sted_worst_piece", 0.5},
+        {"normal_angle_deg", 2.5},
+        {"normal_angle_deg_worst_piece", 12.5}};
     ASSERT_EQ(statement.errors.size(), expected.size());
     for (size_t j = 0; j < expected.size(); ++j) {
         EXPECT_EQ(statement.errors[j].name, expected[j].first);

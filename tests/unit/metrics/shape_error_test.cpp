@@ -42,7 +42,7 @@ TEST(ShapeError, OfOneTriangleIsKnown) {
 }
 
 TEST(ShapeError, OfRotationsIsTheAngle) {
-    const PoseSet octopus = poses::make_octopus(500, 3);
+    const PoseSet octopus = poses::make_octopus(1000, 3);
     std::vector<Positions> baked, turned, scaled;
     const float angle = 0.1f;
     for (uint32_t p = 0; p < 3; ++p) {
@@ -109,7 +109,7 @@ TEST(ShapeError, OfASmallPieceIsNotHidden) {
 }
 
 TEST(ShapeError, DoesNotDependOnTheUnit) {
-    const PoseSet octopus = poses::make_octopus(300, 3);
+    const PoseSet octopus = poses::make_octopus(1000, 3);
     PieceShapeError errors[3];
     const int exponents[] = {0, 100, -100};
     for (int j = 0; j < 3; ++j) {

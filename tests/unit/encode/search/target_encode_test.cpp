@@ -188,11 +188,12 @@ TEST_F(TargetEncode, FindsTheSmallestErrorOfASize) {
                       read_paim(output_).moving().transfer->matrix.num_components);
             EXPECT_LE(fitted.error.transfer.total(), fitted.transfer_target);
             // The size of a file of 2 % allows 2 % or little more, others more than that. Files of
-            // 20 to 40 kB of nearly the same error differ by up to 1.5 % in size, which is 4 % of
-            // the error here, and the search ends at 2 % of it.
+            // 20 to 40 kB of nearly the same error differ by up to 2 % in size, as their positions
+            // take few integers, which are smoothed or not: 37.7 kB at 2.00 %, 38.3 kB at 2.02 %. That
+            // is 8 % of the error here, and the search ends at 2 % of it.
             const double error = fitted.error.transfer.total();
             EXPECT_GT(error, share == 100 ? 0.0 : 0.02) << share;
-            EXPECT_LT(error, share == 100 ? 1.06 * 0.02 : 0.5) << share;
+            EXPECT_LT(error, share == 100 ? 1.10 * 0.02 : 0.5) << share;
         }
     }
 }
