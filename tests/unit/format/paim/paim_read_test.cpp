@@ -10,6 +10,7 @@
 
 #include "paim/base/error.h"
 #include "paim/base/file.h"
+#include "paim/codec/surface_smoothing.h"
 #include "paim/format/container/container_reader.h"
 #include "paim/format/container/sections.h"
 #include "tests/example_asset.h"
@@ -121,6 +122,28 @@ TEST(PaimFile, KeepsStillPartsOfIntegers) {
     ASSERT_EQ(floats.size(), size_t{4} * asset.moving().layout.num_planes());
     // Value 2 of plane 5: so many steps of 6 hundredths.
     EXPECT_EQ(floats[4 * 5 + 2], (6.0f / 100.0f) * transfer.mean[4 * 5 + 2]);
+}
+
+// The file has the integers that smoothing started from, and how often each plane is smoothed.
+TEST(PaimFile, SmoothsPositionsAsTheyWere) {
+    const TemporaryDirectory directory;
+    Asset asset = quantise_example(make_example_asset(3));
+    LowRank& positions = asset.moving().positions;
+    const LowRank stored = positions;
+    positions.fraction_bits = smoothing_fraction_bits(positions);
+    ASSERT_GT(positions.fraction_bits, 0u);
+    for (uint32_t j = 0; j < 3 * (1 + positions.num_components); ++j) {
+        positions.smoothing.push_back(j % (kMaxSmoothingRounds + 1));
+    }
+    smooth_stored(positions, asset.moving().topology);
+    EXPECT_NE(positions.mean, stored.mean);
+    write_paim(directory / "x.paim", asset);
+    const LowRank read = read_paim(directory / "x.paim").moving().positions;
+    expect_equal(read, positions);
+    EXPECT_EQ(read.steps, positions.steps);
+    EXPECT_EQ(read.smoothing, positions.smoothing);
+    EXPECT_EQ(read.fraction_bits, positions.fraction_bits);
+    EXPECT_EQ(std::filesystem::file_size(directory / "x.paim"), paim_size_bytes(asset));
 }
 
 TEST(PaimFile, KeepsWhatStandsStill) {
