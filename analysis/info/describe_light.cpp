@@ -3,9 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
-#include <fstream>
 
 #include "analysis/info/describe.h"
 #include "paim/light/load_light.h"
@@ -39,13 +37,6 @@ ordered_json rgb(const Vec3f& value) {
 }
 
 }  // namespace
-
-bool is_exr(const std::filesystem::path& path) {
-    std::array<char, 4> start{};
-    std::ifstream file(path, std::ios::binary);
-    file.read(start.data(), start.size());
-    return file && start == std::array<char, 4>{0x76, 0x2f, 0x31, 0x01};
-}
 
 ordered_json describe_light(const std::filesystem::path& path, EnvMapping mapping, int bands) {
     const LoadedLight loaded = load_light(path, mapping);

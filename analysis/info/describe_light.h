@@ -11,9 +11,6 @@
 
 namespace paim {
 
-// Whether the file begins as OpenEXR files do.
-bool is_exr(const std::filesystem::path& path);
-
 // A description as JSON. Reads the whole file. Errors: those of load_light().
 // bands  1 … sh::kMaxBands
 nlohmann::ordered_json describe_light(const std::filesystem::path& path, EnvMapping mapping,

@@ -10,6 +10,7 @@
 #include "paim/base/json_text.h"
 #include "paim/cli/light_options.h"
 #include "paim/cli/run_main.h"
+#include "paim/image/exr_header.h"
 #include "paim/sh/index.h"
 
 namespace {

@@ -84,11 +84,14 @@ uint32_t smoothing_fraction_bits(const LowRank& matrix) {
 }
 
 void smooth_stored(LowRank& matrix, const Topology& topology) {
+    if (matrix.fraction_bits > 0) smooth_stored(matrix, SurfaceSmoother(topology));
+}
+
+void smooth_stored(LowRank& matrix, const SurfaceSmoother& smoother) {
     if (matrix.fraction_bits == 0) return;
     const size_t num_arrays = 1 + matrix.components.size();
     const size_t num_points = matrix.num_points;
     PAIM_CHECK(matrix.smoothing.size() >= num_arrays * matrix.num_planes);
-    const SurfaceSmoother smoother(topology);
     std::vector<std::vector<int16_t>> smoothed(num_arrays);
     for (auto& values : smoothed) values.resize(matrix.num_rows());
     parallel_for(num_arrays * matrix.num_planes, 1, [&](size_t task, size_t) {

@@ -52,6 +52,8 @@ uint32_t smoothing_fraction_bits(const LowRank& matrix);
 // Smooths a matrix as it was stored: mean and components become multiples of 2^-fraction_bits of
 // the step, and steps that much finer. Values of 8 bits then take 16.
 // matrix  of integers; in: fraction_bits and smoothing are set, values and steps as stored
+// smoother  of the mesh whose vertices are the points
+void smooth_stored(LowRank& matrix, const SurfaceSmoother& smoother);
 void smooth_stored(LowRank& matrix, const Topology& topology);
 
 // The integers that smoothing started from.

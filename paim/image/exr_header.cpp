@@ -296,6 +296,12 @@ class Scanner {
 
 }  // namespace
 
+bool is_exr(const std::filesystem::path& path) {
+    std::array<char, 4> start{};
+    std::ifstream file(path, std::ios::binary);
+    return file.read(start.data(), start.size()) && load_u32(start, 0) == kMagic;
+}
+
 void check_exr_header(const std::filesystem::path& path, const ExrLimits& limits) {
     Scanner(path, limits).scan();
 }

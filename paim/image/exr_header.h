@@ -8,6 +8,9 @@
 
 namespace paim {
 
+// Whether the file can be read and begins as OpenEXR files do.
+bool is_exr(const std::filesystem::path& path);
+
 // Walks the headers of all parts and checks everything that sizes an allocation against the limits
 // and the length of the file: attributes, windows, tiles, chunks and their table. For a file that
 // passes, OpenEXR allocates at most a few times 128 MiB in addition to the image.

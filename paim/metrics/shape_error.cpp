@@ -9,7 +9,7 @@
 
 #include "paim/base/check.h"
 #include "paim/base/vector.h"
-#include "paim/mesh/bounds.h"
+#include "paim/mesh/face_vertices.h"
 
 namespace paim {
 
@@ -49,15 +49,6 @@ std::vector<std::array<uint32_t, 2>> edges_of(const Topology& topology) {
     return edges;
 }
 
-// Of the vertices that a face has.
-double diagonal_of(std::span<const float> planes, const Topology& topology) {
-    BoundsD bounds;
-    for (const Triangle& t : topology.triangles) {
-        for (const uint32_t v : t) bounds.extend(point(planes, v));
-    }
-    return bounds.diagonal();
-}
-
 double mean_of(double sum, uint64_t count) {
     return count > 0 ? sum / static_cast<double>(count) : 0.0;
 }
@@ -84,6 +75,7 @@ ShapeError ShapeErrorMeter::Sums::mean() const {
 ShapeErrorMeter::ShapeErrorMeter(const Topology& topology)
     : topology_(topology),
       pieces_(connected_pieces(topology)),
+      face_vertices_(face_vertices(topology)),
       edges_(edges_of(topology)),
       sums_(pieces_.count) {}
 
@@ -118,7 +110,11 @@ void ShapeErrorMeter::add_edges(std::span<const float> positions,
 
 void ShapeErrorMeter::add_steps(std::span<const float> positions,
                                 std::span<const float> reference) {
-    const double time = 0.01 * diagonal_of(reference, topology_);
+    const Bounds bounds = bounds_of_vertices(reference, face_vertices_);
+    const double time =
+        bounds.empty()
+            ? 0.0
+            : 0.01 * (bounds.upper.cast<double>() - bounds.lower.cast<double>()).stableNorm();
     std::vector<Step> steps(topology_.num_vertices);
     for (size_t v = 0; v < steps.size(); ++v) {
         if (pieces_.num_vertices[pieces_.of_vertex[v]] == 1) continue;  // no face has it
@@ -187,7 +183,7 @@ PieceShapeError ShapeErrorMeter::result() const {
 
 uint64_t ShapeErrorMeter::bytes(uint64_t num_vertices, uint64_t num_triangles) {
     return num_vertices * (2 * 3 * sizeof(float) + 2 * sizeof(Step) + sizeof(Neighbourhood) +
-                           2 * sizeof(uint32_t)) +
+                           3 * sizeof(uint32_t)) +
            3 * num_triangles * sizeof(std::array<uint32_t, 2>);
 }
 

@@ -42,7 +42,6 @@ class ShapeErrorMeter {
 
     // Adds the next pose.
     // positions, reference  [3][V] planes x, y, z
-    // diagonal              of the reference, scene units
     void add(std::span<const float> positions, std::span<const float> reference);
 
     PieceShapeError result() const;
@@ -68,6 +67,7 @@ class ShapeErrorMeter {
 
     const Topology& topology_;
     Pieces pieces_;
+    std::vector<uint32_t> face_vertices_;
     std::vector<std::array<uint32_t, 2>> edges_;
     std::vector<Sums> sums_;                    // [pieces]
     std::vector<float> positions_, reference_;  // of the pose before; empty before the first

@@ -241,7 +241,7 @@ TEST(Folds, CardsWithNormalsInTheirPlaneSeeWhatIsInFrontOfThem) {
             const Vec3f up = Vec3f::UnitY();
             for (const bool back : {false, true}) {
                 const Mesh mesh = back ? turned(card) : card;
-                // Half of the upper hemisphere is in front. The rest passes beside and above the card
+                // Half of the upper hemisphere is in front. The rest passes next to and above the card
                 // from its rim: all of it at the top, none in the middle of its foot.
                 EXPECT_NEAR(share(mesh, up, 2), 0.5, tolerance(0.5)) << turn << ' ' << scale;
                 EXPECT_NEAR(share(mesh, up, 7), 0.5, tolerance(0.5)) << turn << ' ' << scale;

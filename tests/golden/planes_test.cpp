@@ -18,6 +18,7 @@
 #include "paim/format/pack/plane_encoder.h"
 #include "paim/format/pack/plane_packing.h"
 #include "paim/format/pack/zstd_decoder.h"
+#include "tests/grid_surface.h"
 
 namespace paim {
 namespace {
@@ -27,19 +28,6 @@ using Bytes = std::vector<uint8_t>;
 const std::filesystem::path kFile = std::filesystem::path(PAIM_GOLDEN_DIR) / "planes_v1.txt";
 
 constexpr int64_t kWidth = 12;  // of a grid of vertices, and of other planes in rows of so many
-
-Topology grid() {
-    constexpr auto n = static_cast<uint32_t>(kWidth);
-    Topology topology{n * n, {}};
-    for (uint32_t y = 0; y + 1 < n; ++y) {
-        for (uint32_t x = 0; x + 1 < n; ++x) {
-            const uint32_t a = y * n + x;
-            topology.triangles.push_back({a, a + 1, a + n});
-            topology.triangles.push_back({a + 1, a + n + 1, a + n});
-        }
-    }
-    return topology;
-}
 
 // Integers alone, so that they are the same everywhere: a hill of this height under noise.
 template <typename Integer>
@@ -102,7 +90,7 @@ std::vector<Integer> some_weights(int64_t largest) {
 }
 
 std::map<std::string, Packed> all_kinds() {
-    const PlanePredictor mesh{grid()}, rows, poses = PlanePredictor::chain(40);
+    const PlanePredictor mesh{make_grid(kWidth)}, rows, poses = PlanePredictor::chain(40);
     return {
         {"mesh_i8", pack(some_planes<int8_t>(100), 8, mesh)},
         {"mesh_i16", pack(some_planes<int16_t>(9000), 8, mesh)},

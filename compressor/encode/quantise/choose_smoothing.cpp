@@ -63,7 +63,7 @@ void smooth_quantised(const ScaledFactors& factors, const Topology& topology, Lo
     if (std::all_of(rounds.begin(), rounds.end(), [](uint32_t n) { return n == 0; })) return;
     matrix.fraction_bits = bits;
     matrix.smoothing = std::move(rounds);
-    smooth_stored(matrix, topology);
+    smooth_stored(matrix, smoother);
 }
 
 LowRank smoothed(const ScaledFactors& factors, const Quantiser& quantiser,

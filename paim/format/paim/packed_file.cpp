@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include "paim/base/check.h"
@@ -114,11 +115,7 @@ class Packer {
         std::vector<float> stored = row.matrix->steps;
         const auto bits = static_cast<int>(row.matrix->fraction_bits);
         for (float& step : stored) step = std::ldexp(step, bits);
-        Task task = steps(stored);
-        task.compress = [stored = std::move(stored)] {
-            return zstd_compress(as_bytes(std::span<const float>(stored)));
-        };
-        return task;
+        return steps(std::move(stored));
     }
     Task operator()(const MatrixValues& row) const {
         PAIM_CHECK(row.values != nullptr);
@@ -126,7 +123,8 @@ class Packer {
         const bool is_still = row.matrix->num_poses == 1 && row_.part > 0;
         if (is_still && row.values->holds_floats()) return floats(row.values->floats());
         if (row.matrix->fraction_bits > 0) {
-            return integers(stored_integers(*row.values, row.matrix->fraction_bits));
+            return integers(std::make_shared<const StoredValues>(
+                stored_integers(*row.values, row.matrix->fraction_bits)));
         }
         const Precision precision = row.is_component ? row.matrix->precision : Precision::f32;
         return values(*row.values, precision);
@@ -156,7 +154,7 @@ class Packer {
     Task floats(const std::vector<float>& values) const {
         return zstd(ScalarType::f32, std::span<const float>(values));
     }
-    Task steps(const std::vector<float>& values) const {
+    Task steps(std::vector<float> values) const {
         for (const float step : values) {
             if (!(step <= kMaxStep)) {
                 throw_bad_input(
@@ -165,25 +163,26 @@ class Packer {
                     step, kMaxStep);
             }
         }
-        return floats(values);
-    }
-    Task integers(StoredValues values) const {
-        SectionSpec spec = this->spec(values.holds_i8() ? ScalarType::i8 : ScalarType::i16);
+        const SectionSpec spec = this->spec(ScalarType::f32);
         PAIM_CHECK_EQ(values.size(), spec.num_values());
+        return {spec, SectionCodec::zstd, [values = std::move(values)] {
+                    return zstd_compress(as_bytes(std::span<const float>(values)));
+                }};
+    }
+    Task integers(std::shared_ptr<const StoredValues> values) const {
+        const SectionSpec spec = this->spec(values->holds_i8() ? ScalarType::i8 : ScalarType::i16);
+        PAIM_CHECK_EQ(values->size(), spec.num_values());
         return {spec, SectionCodec::planes,
                 [values = std::move(values), num_rows = row_.shape[0], &predictor = predictor_,
-                 effort = effort_] { return encode_planes(values, num_rows, predictor, effort); }};
+                 effort = effort_] { return encode_planes(*values, num_rows, predictor, effort); }};
     }
     // Integers are predicted, floats stored as they are.
     Task values(const StoredValues& values, Precision precision) const {
         SectionSpec spec = this->spec(ScalarType::f32);
         PAIM_CHECK_EQ(values.size(), spec.num_values());
         if (!values.holds_floats()) {
-            spec.type = values.holds_i8() ? ScalarType::i8 : ScalarType::i16;
-            return {spec, SectionCodec::planes,
-                    [&values, num_rows = row_.shape[0], &predictor = predictor_, effort = effort_] {
-                        return encode_planes(values, num_rows, predictor, effort);
-                    }};
+            // The asset owns them, and outlives the task.
+            return integers({std::shared_ptr<void>(), &values});
         }
         if (precision != Precision::f16) {
             return {spec, SectionCodec::none,

@@ -16,22 +16,10 @@
 #include "paim/format/pack/zstd_decoder.h"
 #include "paim/format/pack/zstd_encoder.h"
 #include "paim/mesh/cache_order.h"
+#include "tests/grid_surface.h"
 
 namespace paim {
 namespace {
-
-// A grid of n × n vertices, row by row.
-Topology grid(uint32_t n) {
-    Topology topology{n * n, {}};
-    for (uint32_t y = 0; y + 1 < n; ++y) {
-        for (uint32_t x = 0; x + 1 < n; ++x) {
-            const uint32_t a = y * n + x;
-            topology.triangles.push_back({a, a + 1, a + n});
-            topology.triangles.push_back({a + 1, a + n + 1, a + n});
-        }
-    }
-    return topology;
-}
 
 template <typename Integer>
 std::vector<Integer> subtract(const PlanePredictor& predictor, Prediction prediction,
@@ -46,7 +34,7 @@ TEST(PlanePredictor, TakesNeighboursBeforeTheVertex) {
     // Vertex 4 of a 3 × 3 grid: 1, 2, 3 are its neighbours before it (0 is not: the diagonal is
     // from
     // 1 to 3).
-    const PlanePredictor predictor(grid(3));
+    const PlanePredictor predictor(make_grid(3));
     const std::vector<int16_t> values{100, 10, 20, 34, 7, 0, 0, 0, 0};
     const auto residuals = subtract(predictor, Prediction::mean, values);
     EXPECT_EQ(residuals[0], 100);       // nobody before it
@@ -57,7 +45,7 @@ TEST(PlanePredictor, TakesNeighboursBeforeTheVertex) {
 }
 
 TEST(PlanePredictor, CompletesParallelograms) {
-    const PlanePredictor predictor(grid(3));
+    const PlanePredictor predictor(make_grid(3));
     const std::vector<int16_t> values{100, 10, 20, 34, 7, 9, 0, 0, 0};
     const auto residuals = subtract(predictor, Prediction::parallelograms, values);
     EXPECT_EQ(residuals[0], 100);                  // nobody
@@ -70,7 +58,7 @@ TEST(PlanePredictor, CompletesParallelograms) {
 
 // A linear function is what a parallelogram says, wherever there is one.
 TEST(PlanePredictor, ParallelogramsAreRightOnSlopes) {
-    const PlanePredictor predictor(grid(9));
+    const PlanePredictor predictor(make_grid(9));
     std::vector<int16_t> values;
     for (int v = 0; v < 81; ++v) values.push_back(static_cast<int16_t>(5 * (v % 9) - 3 * (v / 9)));
     const auto residuals = subtract(predictor, Prediction::parallelograms, values);
@@ -172,7 +160,7 @@ std::vector<Integer> some_planes(uint32_t n, const std::vector<double>& limits, 
 
 template <typename Integer>
 void expect_round_trip(const std::vector<double>& limits) {
-    const Topology topology = grid(20);
+    const Topology topology = make_grid(20);
     for (const PlanePredictor& predictor : {PlanePredictor(topology), PlanePredictor()}) {
         const std::vector<Integer> values = some_planes<Integer>(20, limits, 5);
         for (const Effort effort : {Effort::fast, Effort::small}) {
@@ -199,7 +187,7 @@ TEST(PlaneCodec, TakesNoPoints) {
 }
 
 TEST(PlaneCodec, PredictionMakesSmoothPlanesSmall) {
-    const Topology topology = grid(64);
+    const Topology topology = make_grid(64);
     std::vector<int8_t> values;
     for (uint32_t v = 0; v < 64 * 64; ++v) {
         values.push_back(static_cast<int8_t>(
@@ -221,7 +209,7 @@ TEST(PlaneCodec, CostsFarLessThanABitWhereHardlyAnythingIs) {
 }
 
 TEST(PlaneCodec, AnswersDamageWithFalseOrOtherNumbers) {
-    const Topology topology = grid(8);
+    const Topology topology = make_grid(8);
     const PlanePredictor predictor(topology);
     const std::vector<double> limits{0, 1, 4, 100};
     const auto bytes = encode_planes(some_planes<int8_t>(8, limits, 9), 4, predictor);
@@ -269,7 +257,7 @@ TEST(PlaneCodec, AnswersDamageWithFalseOrOtherNumbers) {
 
 // Every header that is none, and escapes that do not fit.
 TEST(PlaneCodec, RefusesOtherHeaders) {
-    const PlanePredictor predictor(grid(8));
+    const PlanePredictor predictor(make_grid(8));
     std::vector<int8_t> out(64);
     const auto decodes = [&](std::vector<uint8_t> header, std::vector<uint8_t> rest) {
         header.insert(header.end(), rest.begin(), rest.end());
@@ -301,7 +289,7 @@ TEST(PlaneCodec, RefusesOtherHeaders) {
 }
 
 TEST(IndexCodec, KeepsTrianglesUpToTurning) {
-    Topology topology = grid(30);
+    Topology topology = make_grid(30);
     topology.triangles.push_back({5, 5, 9});      // degenerate
     topology.triangles.push_back({899, 0, 400});  // far apart
     const CacheOrder order = cache_order(topology);
@@ -324,7 +312,7 @@ TEST(IndexCodec, KeepsTrianglesUpToTurning) {
 }
 
 TEST(CacheOrder, IsAPermutationThatKeepsTheMesh) {
-    Topology topology = grid(12);
+    Topology topology = make_grid(12);
     topology.num_vertices += 3;  // without triangles
     const CacheOrder order = cache_order(topology);
     ASSERT_EQ(order.old_vertex.size(), 147u);
