@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 
+#include "compressor/io/lower_case.h"
 #include "compressor/io/name_numbers.h"
 
 namespace paim {
@@ -50,9 +51,7 @@ std::string key_of(const Frame& frame, std::optional<size_t> last, std::optional
     }
     const size_t stem = std::max(at, stem_size(name));
     key.append(name, at, stem - at);
-    for (const char c : name.substr(stem)) {
-        key += c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
-    }
+    for (const char c : name.substr(stem)) key += lower_case(c);
     return key;
 }
 

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "compressor/io/frame_notes.h"
+#include "compressor/io/lower_case.h"
 #include "compressor/io/natural_order.h"
 #include "paim/base/error.h"
 
@@ -19,8 +20,7 @@ namespace fs = std::filesystem;
 
 bool is_obj_file(const fs::path& path) {
     std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+    std::transform(extension.begin(), extension.end(), extension.begin(), lower_case);
     std::error_code ignored;
     return extension == ".obj" && !fs::is_directory(path, ignored);
 }
@@ -32,7 +32,7 @@ std::vector<fs::path> list_folder(const fs::path& folder) {
     for (fs::directory_iterator entry(folder, failure), end; !failure && entry != end;
          entry.increment(failure)) {
         if (!is_obj_file(entry->path())) continue;
-        // Some systems put a hidden file (._x.obj) with other data beside every file.
+        // Some systems put a hidden file (._x.obj) with other data next to every file.
         if (entry->path().filename().native().starts_with('.')) {
             ++num_hidden;
         } else {

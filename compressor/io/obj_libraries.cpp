@@ -10,6 +10,7 @@
 #include <system_error>
 #include <unordered_map>
 
+#include "compressor/io/lower_case.h"
 #include "compressor/io/obj_text.h"
 #include "paim/base/error.h"
 #include "paim/base/file.h"
@@ -79,7 +80,7 @@ bool ends_in_mtl(std::string_view word) {
     word = word.substr(0, word.find_last_not_of("\"'") + 1);
     if (word.size() < 4) return false;
     std::string end(word.substr(word.size() - 4));
-    for (char& c : end) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+    for (char& c : end) c = lower_case(c);
     return end == ".mtl";
 }
 

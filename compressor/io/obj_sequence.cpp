@@ -208,10 +208,10 @@ void ObjSequence::check_orientation(std::span<const Vec3f> positions) {
     const std::vector<InwardPart> parts = find_inward_parts(topology_, positions);
     num_inward_ = parts.size();
     for (size_t i = 0; i < std::min(parts.size(), kMaxNamed); ++i) {
-        warnings_.push_back(
-            fmt::format("{}: {} is closed ({} triangles) and faces inwards: {}", pose_name(0),
-                        part_name(parts[i].first_vertex), parts[i].triangles.size(),
-                        options_.orient ? "turned" : "--orient turns it, so that its outside is lit"));
+        warnings_.push_back(fmt::format(
+            "{}: {} is closed ({} triangles) and faces inwards: {}", pose_name(0),
+            part_name(parts[i].first_vertex), parts[i].triangles.size(),
+            options_.orient ? "turned" : "--orient turns it, so that its outside is lit"));
     }
     if (parts.size() > kMaxNamed) {
         warnings_.push_back(fmt::format("{}: {} more closed parts face inwards{}", pose_name(0),
