@@ -67,6 +67,22 @@ void add_target_options(CLI::App& app, CompressOptions& options, EncodeArguments
                                1.0 / kGeometryPerTransferError))
         ->type_name("ERROR")
         ->group(kGroup);
+    app.add_option("--max-sted", arguments.max_sted,
+                   fmt::format("Largest STED of the positions: by how much edges differ in length "
+                               "where their neighbours do not, and steps from pose to pose. It "
+                               "holds for each piece of the mesh. Default: the geometry error "
+                               "times {:g}",
+                               kStedPerGeometryError))
+        ->type_name("ERROR")
+        ->group(kGroup);
+    app.add_option("--max-normal-angle", arguments.max_normal_angle,
+                   fmt::format("Largest mean angle by which face normals turn, degrees, above 0. "
+                               "It holds for each piece of the mesh. Default: the geometry error "
+                               "in percent times {:g}",
+                               0.01 * kNormalDegreesPerGeometryError))
+        ->check(cli::in_range(1e-6, 180.0))
+        ->type_name("DEGREES")
+        ->group(kGroup);
     add_codec_options(app, arguments, kGroup);
     cli::add_choice<Preference>(
         app, "--prefer", arguments.preference,
@@ -144,6 +160,8 @@ void check_without_target(const EncodeArguments& arguments, const CompressOption
         if (given) throw_usage("{}: needs --max-error or --max-size", option);
     };
     needs_target(!arguments.geometry_error.empty(), "--geometry-error");
+    needs_target(!arguments.max_sted.empty(), "--max-sted");
+    needs_target(arguments.max_normal_angle.has_value(), "--max-normal-angle");
     needs_target(arguments.max_decode_cost.has_value(), "--max-decode-cost");
     needs_target(arguments.codec != EncodeArguments().codec, "--codec");
     needs_target(arguments.preference != Preference::size, "--prefer");
@@ -174,6 +192,10 @@ EncodeTarget parse_target(const EncodeArguments& arguments) {
     if (!arguments.geometry_error.empty()) {
         target.geometry_error = cli::parse_share(arguments.geometry_error, "--geometry-error");
     }
+    if (!arguments.max_sted.empty()) {
+        target.sted = cli::parse_share(arguments.max_sted, "--max-sted");
+    }
+    target.normal_angle_deg = arguments.max_normal_angle;
     if (!arguments.max_size.empty()) {
         target.size_bytes = cli::parse_bytes(arguments.max_size, "--max-size");
     }

@@ -68,7 +68,7 @@ std::string transfer_text(const TargetSummary& summary) {
     return fmt::format(
         "  transfer: {:.3g} % measured, {:.3g} % allowed, {:.2g} % at best with these components; "
         "from the bake: worst vertex {:.3g} %, worst pose {:.3g} %\n",
-        100.0 * transfer.total(), 100.0 * summary.transfer_target, 100.0 * summary.best_achievable,
+        100.0 * transfer.total(), 100.0 * summary.targets.transfer, 100.0 * summary.best_achievable,
         100.0 * transfer.worst_vertex_error_to_bake, 100.0 * transfer.worst_pose_error_to_bake);
 }
 
@@ -77,22 +77,24 @@ std::string geometry_text(const TargetSummary& summary) {
     return fmt::format(
                "  geometry: {} components, RMS distance {:.3g} measured, {:.3g} allowed ({:.2g} % of the "
                "diagonal), worst {:.3g}; KG {:.3g} %, E_RMS {:.3g}\n",
-               summary.geometry_components, geometry.rms(), summary.geometry_target,
+               summary.geometry_components, geometry.rms(), summary.targets.surface.distance,
                100.0 * geometry.relative_rms(), geometry.worst(), geometry.kg_error(),
                geometry.e_rms()) +
            fmt::format(
-               "  shape, worst piece of the mesh: STED {:.3g} %, face normals turn by {:.3g} degrees on "
-               "average\n",
-               100.0 * summary.error.shape.worst.sted(),
-               summary.error.shape.worst.normal_angle_deg);
+               "  shape, worst piece of the mesh: STED {:.3g} % measured, {:.3g} % allowed; face "
+               "normals turn by {:.3g} degrees on average, {:.3g} allowed\n",
+               100.0 * summary.error.shape.worst.sted(), 100.0 * summary.targets.surface.sted,
+               summary.error.shape.worst.normal_angle_deg,
+               summary.targets.surface.normal_angle_deg);
 }
 
 std::string still_mesh_text(const MeshError& still_mesh) {
     return fmt::format(
         "  still meshes: transfer {:.3g} % measured, worst vertex {:.3g} %; RMS distance {:.3g}, worst "
-        "{:.3g}\n",
+        "{:.3g}; STED {:.3g} %, face normals {:.3g} degrees\n",
         100.0 * still_mesh.transfer.total(), 100.0 * still_mesh.transfer.worst_vertex_error_to_bake,
-        still_mesh.geometry.rms(), still_mesh.geometry.worst());
+        still_mesh.geometry.rms(), still_mesh.geometry.worst(),
+        100.0 * still_mesh.shape.worst.sted(), still_mesh.shape.worst.normal_angle_deg);
 }
 
 }  // namespace
@@ -113,8 +115,10 @@ ordered_json report_json(const TargetReport& report) {
     json["bits_per_vertex_per_pose"] =
         bits_per_vertex_per_pose(summary.size_bytes, summary.num_vertices, summary.num_poses);
     json["multiply_adds"] = chosen.multiply_adds;
-    json["transfer_target"] = summary.transfer_target;
-    json["geometry_target"] = summary.geometry_target;
+    json["transfer_target"] = summary.targets.transfer;
+    json["geometry_target"] = summary.targets.surface.distance;
+    json["sted_target"] = summary.targets.surface.sted;
+    json["normal_angle_target_deg"] = summary.targets.surface.normal_angle_deg;
     json["best_transfer_error"] = summary.best_achievable;
     json["measured"] = errors_json(summary.error);
     json["candidates"] = ordered_json::array();

@@ -1,6 +1,7 @@
 // Errors of a compressed animation to the bake that it was made from.
 #include "paim/metrics/asset_error.h"
 
+#include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -9,7 +10,6 @@
 #include "paim/base/parallel.h"
 #include "paim/codec/component_planes.h"
 #include "paim/codec/rebuild_planes.h"
-#include "paim/format/bake/baked_part.h"
 #include "paim/format/container/metadata.h"
 #include "paim/mesh/face_vertices.h"
 #include "paim/metrics/pose_space.h"
@@ -90,50 +90,69 @@ TransferError measure_transfer(const CodedMesh& mesh, const BakedPart& bake,
     return error;
 }
 
-// counted  vertices of the file that a face has, ascending
-SurfaceError measure_surface(const CodedMesh& mesh, const BakedPart& bake,
-                             const std::vector<uint32_t>& old_vertex,
-                             const std::vector<uint32_t>& counted) {
+}  // namespace
+
+PartMeter::PartMeter(const Asset& asset, size_t number, const BakeReader& bake)
+    : bake_(bake),
+      baked_(bake, number),
+      old_vertex_(check_same_part(asset, number, bake, baked_)),
+      shape_(asset.parts[number].topology) {}
+
+SurfaceError PartMeter::surface(const LowRank& positions) const {
     SurfaceError error;
-    ShapeErrorMeter shape(mesh.topology);
-    PositionDecoder decoder;
-    std::vector<float> decoded, baked;
-    for (uint32_t p = 0; p < bake.num_poses(); ++p) {
-        baked.resize(size_t{3} * bake.num_vertices());
-        bake.read_position_rows(p, 0, baked.size(), baked.data());
-        reorder_planes(baked, old_vertex);
-        decoder.decode(mesh.positions, p, mesh.positions.num_components, decoded);
-        shape.add(decoded, baked);
-        for (auto* const planes : {&baked, &decoded}) {
-            keep_vertices(*planes, bake.num_vertices(), counted);
+    ShapeErrorMeter shape(shape_);
+    const uint32_t num_poses = baked_.num_poses();
+    std::vector<ShapeErrorMeter::Pose> poses(std::min(num_poses, kPosesMeasured));
+    for (uint32_t first = 0; first < num_poses; first += kPosesMeasured) {
+        poses.resize(std::min(num_poses - first, kPosesMeasured));
+        parallel_for(poses.size(), 1, [&](size_t j, size_t) {
+            const auto p = static_cast<uint32_t>(first + j);
+            std::vector<float>& baked = poses[j].reference;
+            baked.resize(size_t{3} * baked_.num_vertices());
+            baked_.read_position_rows(p, 0, baked.size(), baked.data());
+            reorder_planes(baked, old_vertex_);
+            PositionDecoder().decode(positions, p, positions.num_components, poses[j].positions);
+        });
+        shape.add(poses);
+        for (size_t j = 0; j < poses.size(); ++j) {
+            for (auto* const planes : {&poses[j].reference, &poses[j].positions}) {
+                keep_vertices(*planes, baked_.num_vertices(), shape_.face_vertices);
+            }
+            error.geometry.add(poses[j].positions, poses[j].reference,
+                               static_cast<uint32_t>(first + j));
         }
-        error.geometry.add(decoded, baked, p);
     }
     DistanceError& distance = error.geometry.distance;
-    distance.worst_vertex = counted[distance.worst_vertex];
+    distance.worst_vertex = shape_.face_vertices[distance.worst_vertex];
     error.shape = shape.result();
     return error;
 }
 
-}  // namespace
+TransferError PartMeter::transfer(const CodedMesh& mesh, const BandPower& spectrum) const {
+    return measure_transfer(mesh, baked_, bake_.identity().layout, spectrum, old_vertex_,
+                            shape_.face_vertices);
+}
 
-MeshError measure_part(const Asset& asset, size_t number, const BakeReader& bake,
-                       const BandPower& spectrum) {
-    const BakedPart baked(bake, number);
-    const std::vector<uint32_t> old_vertex = check_same_part(asset, number, bake, baked);
-    const CodedMesh& mesh = asset.parts[number];
-    const std::vector<uint32_t> counted = face_vertices(mesh.topology);
-    return {measure_surface(mesh, baked, old_vertex, counted),
-            measure_transfer(mesh, baked, bake.identity().layout, spectrum, old_vertex, counted)};
+MeshError PartMeter::measure(const CodedMesh& mesh, const BandPower& spectrum) const {
+    return {surface(mesh.positions), transfer(mesh, spectrum)};
+}
+
+uint64_t PartMeter::kept_bytes(uint64_t num_vertices, uint64_t num_triangles) {
+    return num_vertices * sizeof(uint32_t) + ShapeNeighbours::bytes(num_vertices, num_triangles);
 }
 
 uint64_t measure_part_bytes(uint64_t num_vertices, uint64_t num_poses, uint64_t num_components,
                             uint64_t num_points, uint64_t num_threads) {
     // The components of a plane as floats; the directions that the decoder can follow are the
     // constant and these components.
-    return (kPlanesMeasured * num_vertices + num_points) * num_poses * sizeof(float) +
-           num_vertices * num_components * sizeof(float) +
-           TransferErrorMeter::scratch_bytes(num_poses, num_components + 1, num_threads);
+    const uint64_t of_transfer =
+        (kPlanesMeasured * num_vertices + num_points) * num_poses * sizeof(float) +
+        num_vertices * num_components * sizeof(float) +
+        TransferErrorMeter::scratch_bytes(num_poses, num_components + 1, num_threads);
+    const uint64_t at_once = std::min<uint64_t>(num_poses, kPosesMeasured);
+    const uint64_t of_surface = at_once * 2 * 3 * num_vertices * sizeof(float) +
+                                ShapeErrorMeter::bytes(num_vertices, at_once);
+    return std::max(of_transfer, of_surface);
 }
 
 AssetError measure_asset(const Asset& asset, const BakeReader& bake, const BandPower& spectrum) {
@@ -143,8 +162,11 @@ AssetError measure_asset(const Asset& asset, const BakeReader& bake, const BandP
     expect_equal(bake, "vertices of still meshes",
                  still_vertices(bake.still_mesh() ? &bake.still_mesh()->topology : nullptr),
                  still_vertices(asset.still() ? &asset.still()->topology : nullptr));
-    AssetError error{measure_part(asset, 0, bake, spectrum), {}};
-    if (asset.still() != nullptr) error.still = measure_part(asset, 1, bake, spectrum);
+    const auto measure = [&](size_t number) {
+        return PartMeter(asset, number, bake).measure(asset.parts[number], spectrum);
+    };
+    AssetError error{measure(0), {}};
+    if (asset.still() != nullptr) error.still = measure(1);
     return error;
 }
 
@@ -170,14 +192,17 @@ std::vector<NamedError> named_errors(const AssetError& error) {
         {"normal_angle_deg_worst_piece", error.shape.worst.normal_angle_deg, false}};
     if (!error.still) return errors;
     const TransferError& still = error.still->transfer;
-    errors.insert(errors.end(), {{"scenery_transfer_error", still.error, true},
-                                 {"scenery_transfer_missing_bands", still.missing_bands, true},
-                                 {"scenery_transfer_total_error", still.total(), true},
-                                 {"scenery_transfer_deviation", still.error_to_bake, true},
-                                 {"scenery_transfer_worst_vertex_deviation",
-                                  still.worst_vertex_error_to_bake, true},
-                                 {"scenery_position_rms", error.still->geometry.rms(), false},
-                                 {"scenery_position_worst", error.still->geometry.worst(), false}});
+    errors.insert(
+        errors.end(),
+        {{"scenery_transfer_error", still.error, true},
+         {"scenery_transfer_missing_bands", still.missing_bands, true},
+         {"scenery_transfer_total_error", still.total(), true},
+         {"scenery_transfer_deviation", still.error_to_bake, true},
+         {"scenery_transfer_worst_vertex_deviation", still.worst_vertex_error_to_bake, true},
+         {"scenery_sted_worst_piece", error.still->shape.worst.sted(), false},
+         {"scenery_normal_angle_deg_worst_piece", error.still->shape.worst.normal_angle_deg, false},
+         {"scenery_position_rms", error.still->geometry.rms(), false},
+         {"scenery_position_worst", error.still->geometry.worst(), false}});
     return errors;
 }
 

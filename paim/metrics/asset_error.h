@@ -8,6 +8,7 @@
 
 #include "paim/codec/asset.h"
 #include "paim/format/bake/bake_directory.h"
+#include "paim/format/bake/baked_part.h"
 #include "paim/metrics/band_power.h"
 #include "paim/metrics/geometry_error.h"
 #include "paim/metrics/shape_error.h"
@@ -30,24 +31,46 @@ struct AssetError : MeshError {
     std::optional<MeshError> still;
 };
 
-// Decodes one part and measures its errors. Vertices that no face has do not count
-// (mesh/face_vertices.h). It holds one plane over all poses of bake, noise and asset at a time.
-// Bands that the asset does not have are zero. Grey transfer is compared with
-// every channel of a coloured bake.
-// number  of the part, in the asset and in the bake
-// bake    verified (BakeReader::verify_all)
-// Errors: bad input if the part was not made from this bake; the message says what differs.
-MeshError measure_part(const Asset& asset, size_t number, const BakeReader& bake,
-                       const BandPower& spectrum);
+// Decodes one part and measures its errors, as often as one likes. Vertices that no face has do not
+// count (mesh/face_vertices.h). It keeps what belongs to the mesh, and a reference to the bake.
+class PartMeter {
+  public:
+    // number  of the part, in the asset and in the bake
+    // bake    verified (BakeReader::verify_all)
+    // Errors: bad input if the part was not made from this bake; the message says what differs.
+    PartMeter(const Asset& asset, size_t number, const BakeReader& bake);
 
-// Measures all parts. It is also an error if asset or bake has a part that the other does not have.
+    // It holds kPosesMeasured poses at a time.
+    SurfaceError surface(const LowRank& positions) const;
+
+    // It holds one plane over all poses of bake, noise and asset at a time. Bands that the mesh does
+    // not have are zero. Grey transfer is compared with every channel of a coloured bake.
+    // mesh  with the topology of the part
+    TransferError transfer(const CodedMesh& mesh, const BandPower& spectrum) const;
+
+    MeshError measure(const CodedMesh& mesh, const BandPower& spectrum) const;
+
+    // Memory of what it keeps.
+    static uint64_t kept_bytes(uint64_t num_vertices, uint64_t num_triangles);
+
+  private:
+    const BakeReader& bake_;
+    BakedPart baked_;
+    std::vector<uint32_t> old_vertex_;  // [V] the vertex of the bake for each vertex of the file
+    ShapeNeighbours shape_;
+};
+
+// Measures all parts. Errors: those of PartMeter. It is also an error if asset or bake has a part that the other does not have.
 AssetError measure_asset(const Asset& asset, const BakeReader& bake, const BandPower& spectrum);
 
-// Planes [V][P] of floats that measure_part() holds at once: baked, noise, decoded, and two more
+// Poses whose positions are measured side by side.
+constexpr uint32_t kPosesMeasured = 8;
+
+// Planes [V][P] of floats that PartMeter::transfer() holds at once: baked, noise, decoded, and two more
 // while it decodes.
 constexpr uint64_t kPlanesMeasured = 5;
 
-// Memory of measure_part() in addition to the asset.
+// Memory of PartMeter::measure() in addition to the asset and to what the meter keeps.
 // num_components  of the transfer
 // num_points      of codecs whose points are not the vertices; 0 for other codecs
 uint64_t measure_part_bytes(uint64_t num_vertices, uint64_t num_poses, uint64_t num_components,

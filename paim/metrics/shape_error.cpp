@@ -8,8 +8,10 @@
 #include <cmath>
 
 #include "paim/base/check.h"
+#include "paim/base/parallel.h"
 #include "paim/base/vector.h"
 #include "paim/mesh/face_vertices.h"
+#include "paim/mesh/pieces.h"
 
 namespace paim {
 
@@ -72,97 +74,133 @@ ShapeError ShapeErrorMeter::Sums::mean() const {
     return {mean_of(space, num_space), mean_of(time, num_time), mean_of(angle, num_angles)};
 }
 
-ShapeErrorMeter::ShapeErrorMeter(const Topology& topology)
-    : topology_(topology),
-      pieces_(connected_pieces(topology)),
-      face_vertices_(face_vertices(topology)),
-      edges_(edges_of(topology)),
-      sums_(pieces_.count) {}
-
-void ShapeErrorMeter::add(std::span<const float> positions, std::span<const float> reference) {
-    PAIM_CHECK_EQ(positions.size(), size_t{3} * topology_.num_vertices);
-    PAIM_CHECK_EQ(reference.size(), positions.size());
-    add_edges(positions, reference);
-    add_normals(positions, reference);
-    if (!reference_.empty()) add_steps(positions, reference);
-    positions_.assign(positions.begin(), positions.end());
-    reference_.assign(reference.begin(), reference.end());
+ShapeNeighbours::ShapeNeighbours(const Topology& topology)
+    : num_vertices(topology.num_vertices),
+      triangles(topology.triangles),
+      edges(edges_of(topology)),
+      face_vertices(paim::face_vertices(topology)) {
+    const Pieces pieces = connected_pieces(topology);
+    std::vector<uint32_t> number(pieces.count);
+    for (uint32_t j = 0; j < pieces.count; ++j) {
+        const uint32_t size = pieces.num_vertices[j];
+        const bool has_faces = size > 1;
+        if (has_faces && (size >= kSmallestPiece || 20 * uint64_t{size} >= num_vertices)) {
+            number[j] = ++num_judged;
+        }
+    }
+    piece.resize(num_vertices);
+    std::transform(pieces.of_vertex.begin(), pieces.of_vertex.end(), piece.begin(),
+                   [&](uint32_t j) { return number[j]; });
 }
 
-void ShapeErrorMeter::add_edges(std::span<const float> positions,
-                                std::span<const float> reference) {
-    std::vector<Neighbourhood> around(topology_.num_vertices);
-    for (const auto& [a, b] : edges_) {
-        const double length = (point(reference, a) - point(reference, b)).norm();
+uint64_t ShapeNeighbours::bytes(uint64_t num_vertices, uint64_t num_triangles) {
+    // Edges are found among all sides of the triangles.
+    return num_triangles * (sizeof(Triangle) + 3 * sizeof(std::array<uint32_t, 2>)) +
+           num_vertices * 4 * sizeof(uint32_t);
+}
+
+void ShapeErrorMeter::add(std::span<const Pose> poses) {
+    for (const Pose& pose : poses) {
+        PAIM_CHECK_EQ(pose.positions.size(), size_t{3} * mesh_.num_vertices);
+        PAIM_CHECK_EQ(pose.reference.size(), pose.positions.size());
+    }
+    if (poses.empty()) return;
+    std::vector<PieceSums> sums(poses.size(), PieceSums(sums_.size()));
+    std::vector<std::vector<Step>> led_to(poses.size());  // empty: there is no pose before
+    parallel_for(poses.size(), 1, [&](size_t p, size_t) {
+        add_edges(poses[p], sums[p]);
+        add_normals(poses[p], sums[p]);
+        const Pose& before = p > 0 ? poses[p - 1] : last_;
+        if (!before.reference.empty()) led_to[p] = steps(before, poses[p]);
+    });
+    parallel_for(poses.size(), 1, [&](size_t p, size_t) {
+        const std::vector<Step>& before = p > 0 ? led_to[p - 1] : last_steps_;
+        if (!before.empty()) add_steps(before, led_to[p], sums[p]);
+    });
+    for (const PieceSums& of_pose : sums) {
+        for (size_t j = 0; j < sums_.size(); ++j) sums_[j].add(of_pose[j]);
+    }
+    last_ = poses.back();
+    last_steps_ = std::move(led_to.back());
+}
+
+void ShapeErrorMeter::add_edges(const Pose& pose, PieceSums& sums) const {
+    std::vector<Neighbourhood> around(mesh_.num_vertices);
+    for (const auto& [a, b] : mesh_.edges) {
+        const double length = (point(pose.reference, a) - point(pose.reference, b)).norm();
         if (!(length > 0.0)) continue;
-        const double decoded = (point(positions, a) - point(positions, b)).norm();
+        const double decoded = (point(pose.positions, a) - point(pose.positions, b)).norm();
         const double difference = std::abs(decoded - length) / length;
         around[a].add(length, difference);
         around[b].add(length, difference);
     }
     for (size_t v = 0; v < around.size(); ++v) {
         if (!(around[v].weight > 0.0)) continue;
-        Sums& sums = sums_[pieces_.of_vertex[v]];
-        sums.space += around[v].deviation();
-        ++sums.num_space;
+        Sums& sum = sums[mesh_.piece[v]];
+        sum.space += around[v].deviation();
+        ++sum.num_space;
     }
 }
 
-void ShapeErrorMeter::add_steps(std::span<const float> positions,
-                                std::span<const float> reference) {
-    const Bounds bounds = bounds_of_vertices(reference, face_vertices_);
+std::vector<ShapeErrorMeter::Step> ShapeErrorMeter::steps(const Pose& before,
+                                                          const Pose& pose) const {
+    const Bounds bounds = bounds_of_vertices(pose.reference, mesh_.face_vertices);
     const double time =
         bounds.empty()
             ? 0.0
             : 0.01 * (bounds.upper.cast<double>() - bounds.lower.cast<double>()).stableNorm();
-    std::vector<Step> steps(topology_.num_vertices);
-    for (size_t v = 0; v < steps.size(); ++v) {
-        if (pieces_.num_vertices[pieces_.of_vertex[v]] == 1) continue;  // no face has it
-        const double length = std::hypot((point(reference, v) - point(reference_, v)).norm(), time);
+    std::vector<Step> steps(mesh_.num_vertices);
+    for (const uint32_t v : mesh_.face_vertices) {
+        const double length =
+            std::hypot((point(pose.reference, v) - point(before.reference, v)).norm(), time);
         const double decoded =
-            std::hypot((point(positions, v) - point(positions_, v)).norm(), time);
+            std::hypot((point(pose.positions, v) - point(before.positions, v)).norm(), time);
         if (!(length > 0.0)) continue;
         steps[v] = {static_cast<float>(length),
                     static_cast<float>(std::abs(decoded - length) / length)};
-        if (steps_.empty()) continue;
-        Neighbourhood around;
-        around.add(double{steps_[v].length}, double{steps_[v].difference});
-        around.add(double{steps[v].length}, double{steps[v].difference});
-        if (!(around.weight > 0.0)) continue;
-        Sums& sums = sums_[pieces_.of_vertex[v]];
-        sums.time += around.deviation();
-        ++sums.num_time;
     }
-    steps_ = std::move(steps);
+    return steps;
 }
 
-void ShapeErrorMeter::add_normals(std::span<const float> positions,
-                                  std::span<const float> reference) {
+void ShapeErrorMeter::add_steps(const std::vector<Step>& before, const std::vector<Step>& steps,
+                                PieceSums& sums) const {
+    for (const uint32_t v : mesh_.face_vertices) {
+        if (!(steps[v].length > 0.0f)) continue;
+        Neighbourhood around;
+        around.add(double{before[v].length}, double{before[v].difference});
+        around.add(double{steps[v].length}, double{steps[v].difference});
+        Sums& sum = sums[mesh_.piece[v]];
+        sum.time += around.deviation();
+        ++sum.num_time;
+    }
+}
+
+void ShapeErrorMeter::add_normals(const Pose& pose, PieceSums& sums) const {
     const auto normal = [](std::span<const float> planes, const Triangle& t) {
         const Vec3d a = point(planes, t[0]);
         return Vec3d((point(planes, t[1]) - a).cross(point(planes, t[2]) - a));
     };
-    for (const Triangle& t : topology_.triangles) {
-        const Vec3d baked = normal(reference, t);
-        const Vec3d decoded = normal(positions, t);
+    for (const Triangle& t : mesh_.triangles) {
+        const Vec3d baked = normal(pose.reference, t);
+        const Vec3d decoded = normal(pose.positions, t);
         if (baked.isZero(0.0)) continue;
-        Sums& sums = sums_[pieces_.of_vertex[t[0]]];
+        Sums& sum = sums[mesh_.piece[t[0]]];
         // A face that has lost its area has turned by as much as a face can without a direction.
-        sums.angle +=
+        sum.angle +=
             decoded.isZero(0.0)
                 ? 90.0
                 : std::atan2(baked.cross(decoded).norm(), baked.dot(decoded)) * 180.0 / kPi;
-        ++sums.num_angles;
+        ++sum.num_angles;
     }
 }
 
 PieceShapeError ShapeErrorMeter::result() const {
-    PieceShapeError error;
     Sums all;
-    for (size_t j = 0; j < sums_.size(); ++j) {
-        all.add(sums_[j]);
-        const uint32_t size = pieces_.num_vertices[j];
-        if (size < kSmallestPiece && 20 * uint64_t{size} < topology_.num_vertices) continue;
+    for (const Sums& sums : sums_) all.add(sums);
+    PieceShapeError error;
+    error.whole = all.mean();
+    error.worst = error.whole;
+    for (size_t j = 1; j < sums_.size(); ++j) {
         const ShapeError piece = sums_[j].mean();
         if (piece.sted() > error.worst.sted()) {
             error.worst.sted_space = piece.sted_space;
@@ -171,20 +209,12 @@ PieceShapeError ShapeErrorMeter::result() const {
         error.worst.normal_angle_deg =
             std::max(error.worst.normal_angle_deg, piece.normal_angle_deg);
     }
-    error.whole = all.mean();
-    if (error.whole.sted() > error.worst.sted()) {
-        error.worst.sted_space = error.whole.sted_space;
-        error.worst.sted_time = error.whole.sted_time;
-    }
-    error.worst.normal_angle_deg =
-        std::max(error.worst.normal_angle_deg, error.whole.normal_angle_deg);
     return error;
 }
 
-uint64_t ShapeErrorMeter::bytes(uint64_t num_vertices, uint64_t num_triangles) {
-    return num_vertices * (2 * 3 * sizeof(float) + 2 * sizeof(Step) + sizeof(Neighbourhood) +
-                           3 * sizeof(uint32_t)) +
-           3 * num_triangles * sizeof(std::array<uint32_t, 2>);
+uint64_t ShapeErrorMeter::bytes(uint64_t num_vertices, uint64_t num_poses_at_once) {
+    return num_vertices * (2 * 3 * sizeof(float) + sizeof(Step) +
+                           num_poses_at_once * (sizeof(Step) + sizeof(Neighbourhood)));
 }
 
 }  // namespace paim

@@ -7,7 +7,6 @@
 #include <span>
 #include <vector>
 
-#include "paim/mesh/pieces.h"
 #include "paim/mesh/topology.h"
 
 namespace paim {
@@ -27,6 +26,24 @@ struct PieceShapeError {
     ShapeError worst;
 };
 
+// Pieces of fewer vertices than this, and than a twentieth of all, are not judged by themselves.
+constexpr uint32_t kSmallestPiece = 100;
+
+// What the shape of a mesh is judged by. It is made once for a mesh.
+struct ShapeNeighbours {
+    explicit ShapeNeighbours(const Topology& topology);
+
+    static uint64_t bytes(uint64_t num_vertices, uint64_t num_triangles);
+
+    uint32_t num_vertices = 0;
+    std::vector<Triangle> triangles;
+    std::vector<std::array<uint32_t, 2>> edges;  // each once
+    std::vector<uint32_t> face_vertices;         // ascending
+    // [V] 0, or the number of the piece if it is judged by itself.
+    std::vector<uint32_t> piece;
+    uint32_t num_judged = 0;  // pieces that are judged by themselves: 1 to num_judged
+};
+
 // Errors of surfaces, pose by pose. A mesh is judged as a whole, and each connected piece of it by
 // itself, so that a large piece does not hide what happens to a small one.
 //
@@ -38,15 +55,24 @@ struct PieceShapeError {
 // mean squares. Edges without length are left out, and so are faces without area.
 class ShapeErrorMeter {
   public:
-    explicit ShapeErrorMeter(const Topology& topology);
+    // Keeps a reference.
+    explicit ShapeErrorMeter(const ShapeNeighbours& mesh) : mesh_(mesh) {
+        sums_.resize(size_t{mesh.num_judged} + 1);
+    }
 
-    // Adds the next pose.
-    // positions, reference  [3][V] planes x, y, z
-    void add(std::span<const float> positions, std::span<const float> reference);
+    // A pose, decoded and baked: planes x, y, z. [3][V]
+    struct Pose {
+        std::vector<float> positions, reference;
+    };
+
+    // Adds the next poses, all at once. How they are cut into calls does not change the result, nor
+    // does the number of threads.
+    void add(std::span<const Pose> poses);
 
     PieceShapeError result() const;
 
-    static uint64_t bytes(uint64_t num_vertices, uint64_t num_triangles);
+    // Memory in addition to the mesh and the poses that are added at once.
+    static uint64_t bytes(uint64_t num_vertices, uint64_t num_poses_at_once);
 
   private:
     struct Sums {
@@ -60,21 +86,19 @@ class ShapeErrorMeter {
     struct Step {
         float length = 0.0f, difference = 0.0f;
     };
+    // Sums by the piece that they are judged with. [1 + num_judged]
+    using PieceSums = std::vector<Sums>;
 
-    void add_edges(std::span<const float> positions, std::span<const float> reference);
-    void add_steps(std::span<const float> positions, std::span<const float> reference);
-    void add_normals(std::span<const float> positions, std::span<const float> reference);
+    void add_edges(const Pose& pose, PieceSums& sums) const;
+    void add_normals(const Pose& pose, PieceSums& sums) const;
+    std::vector<Step> steps(const Pose& before, const Pose& pose) const;
+    void add_steps(const std::vector<Step>& before, const std::vector<Step>& steps,
+                   PieceSums& sums) const;
 
-    const Topology& topology_;
-    Pieces pieces_;
-    std::vector<uint32_t> face_vertices_;
-    std::vector<std::array<uint32_t, 2>> edges_;
-    std::vector<Sums> sums_;                    // [pieces]
-    std::vector<float> positions_, reference_;  // of the pose before; empty before the first
-    std::vector<Step> steps_;  // that led to the pose before; empty before the second
+    const ShapeNeighbours& mesh_;
+    PieceSums sums_;
+    Pose last_;                     // the pose before; empty before the first
+    std::vector<Step> last_steps_;  // that led to the pose before; empty before the second
 };
-
-// Pieces of fewer vertices than this, and than a twentieth of all, are not judged by themselves.
-constexpr uint32_t kSmallestPiece = 100;
 
 }  // namespace paim

@@ -71,18 +71,18 @@ struct Need {
                4 * size.streamed.still_mesh_bytes + kPoseNameBytes * poses();
     }
 
-    // Integers of both parts, twice: the best model and the one that is tried. One column is
-    // rounded at a time, as floats.
+    // Integers of both parts, twice: the best model and the one that is tried. Positions are there
+    // once more. One column is rounded at a time, as floats.
     uint64_t models() const {
-        return 2 * (kInteger * (geometry_values() + std::max(transfer_values(), point_values())) +
-                    weights() * kFloat) +
+        return kInteger *
+                   (3 * geometry_values() + 2 * std::max(transfer_values(), point_values())) +
+               3 * weights() * kFloat +
                std::max(vertices(), codecs.num_points) * size.num_planes * kFloat;
     }
 
     uint64_t measuring() const {
-        return std::max(measure_part_bytes(vertices(), poses(), most_components(),
-                                           codecs.num_points, size.streamed.num_threads),
-                        ShapeErrorMeter::bytes(vertices(), size.streamed.num_triangles));
+        return measure_part_bytes(vertices(), poses(), most_components(), codecs.num_points,
+                                  size.streamed.num_threads);
     }
 
     // Floats of everything, to find the error that these components leave.
@@ -98,10 +98,7 @@ struct Need {
     }
 
     // A plane of positions on each thread: exact, stored, smoothed and of the round before.
-    uint64_t smoothing() const {
-        return SurfaceSmoother::bytes(vertices(), size.streamed.num_triangles) +
-               size.streamed.num_threads * 4 * vertices() * kFloat;
-    }
+    uint64_t smoothing() const { return size.streamed.num_threads * 4 * vertices() * kFloat; }
 
     // Sections while they are compressed, one on each thread.
     uint64_t packing() const {
@@ -113,10 +110,16 @@ struct Need {
     uint64_t factors() const {
         return (geometry_values() + transfer_values()) * kFloat + weights() * kDouble;
     }
-    uint64_t held() const { return factors() + mesh() + codecs.kept_bytes; }
+    // The mesh as positions are smoothed and measured on, throughout.
+    uint64_t neighbours() const {
+        return SurfaceSmoother::bytes(vertices(), size.streamed.num_triangles) +
+               PartMeter::kept_bytes(vertices(), size.streamed.num_triangles);
+    }
+    uint64_t held() const { return factors() + mesh() + neighbours() + codecs.kept_bytes; }
 
     uint64_t searching() const {
-        const uint64_t refining = models() + std::max({trying(), smoothing(), measuring(), packing()});
+        const uint64_t refining =
+            models() + std::max({trying(), smoothing(), measuring(), packing()});
         return std::max(codecs.preparing_bytes, codecs.coding_bytes + refining);
     }
 };

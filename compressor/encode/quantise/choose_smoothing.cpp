@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "paim/base/parallel.h"
-#include "paim/codec/surface_smoothing.h"
 
 namespace paim {
 
@@ -43,10 +42,10 @@ uint32_t best_rounds(const SurfaceSmoother& smoother, std::span<const float> exa
 
 }  // namespace
 
-void smooth_quantised(const ScaledFactors& factors, const Topology& topology, LowRank& matrix) {
+void smooth_quantised(const ScaledFactors& factors, const SurfaceSmoother& smoother,
+                      LowRank& matrix) {
     const uint32_t bits = smoothing_fraction_bits(matrix);
     if (bits == 0) return;
-    const SurfaceSmoother smoother(topology);
     std::vector<uint32_t> rounds((1 + size_t{matrix.num_components}) * matrix.num_planes);
     parallel_for(rounds.size(), 1, [&](size_t task, size_t) {
         const size_t array = task / matrix.num_planes;
@@ -67,9 +66,9 @@ void smooth_quantised(const ScaledFactors& factors, const Topology& topology, Lo
 }
 
 LowRank smoothed(const ScaledFactors& factors, const Quantiser& quantiser,
-                 const Topology& topology) {
+                 const SurfaceSmoother& smoother) {
     LowRank matrix = quantise(factors, quantiser);
-    smooth_quantised(factors, topology, matrix);
+    smooth_quantised(factors, smoother, matrix);
     return matrix;
 }
 

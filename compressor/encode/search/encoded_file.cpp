@@ -16,9 +16,8 @@ namespace paim {
 
 const QuantisedStill& EncodedFiles::still_of(const Targets& targets) {
     if (still_targets_ == targets) return still_;
-    still_ = is_integer(options_.precision)
-                 ? quantise_still(problem_, targets.transfer, targets.geometry)
-                 : exact_still(problem_);
+    still_ =
+        is_integer(options_.precision) ? quantise_still(problem_, targets) : exact_still(problem_);
     still_targets_ = targets;
     return still_;
 }
@@ -52,7 +51,7 @@ std::optional<EncodedFiles::Draft> EncodedFiles::draft(double transfer_error, st
         return std::nullopt;
     }
     draft.coding = std::move(*coding);
-    draft.estimated_bytes = draft.coding.geometry_bytes + draft.coding.transfer.candidate.bytes;
+    draft.estimated_bytes = draft.coding.positions.bytes + draft.coding.transfer.candidate.bytes;
     return draft;
 }
 
@@ -63,7 +62,7 @@ std::optional<EncodedFile> EncodedFiles::meet(double transfer_error, std::string
     for (const double margin : {1.0, 0.97, 0.93, 0.88}) {
         std::vector<Candidate> candidates;
         auto coding =
-            search_.choose({margin * targets.transfer, targets.geometry}, candidates, reason);
+            search_.choose({margin * targets.transfer, targets.surface}, candidates, reason);
         if (!coding) {
             reason = bake_name() + ": " + reason;
             return std::nullopt;
@@ -72,9 +71,9 @@ std::optional<EncodedFile> EncodedFiles::meet(double transfer_error, std::string
         if (refined) return pack(targets, std::move(candidates), std::move(*refined), reason);
     }
     reason = fmt::format(
-        "{}: {:.3g} % of the transfer and an RMS distance of {:.3g} were not met by any step that "
-        "was tried: ask for a little more of both, or use --precision f32",
-        bake_name(), 100.0 * targets.transfer, targets.geometry);
+        "{}: {:.3g} % of the transfer was not met by any step that was tried: ask for a little "
+        "more, or use --precision f32",
+        bake_name(), 100.0 * targets.transfer);
     return std::nullopt;
 }
 
@@ -111,6 +110,10 @@ std::optional<EncodedFile> EncodedFiles::pack(const Targets& targets,
     nlohmann::ordered_json provenance = nlohmann::ordered_json::parse(
         bake_provenance(problem_.bake.identity(), problem_.statistics));
     provenance["noise"] = options_.noise == NoiseTreatment::shrink ? "shrink" : "keep";
+    provenance["targets"] = {{"transfer_total_error", targets.transfer},
+                             {"position_rms", targets.surface.distance},
+                             {"sted_worst_piece", targets.surface.sted},
+                             {"normal_angle_deg_worst_piece", targets.surface.normal_angle_deg}};
     provenance["measured"] =
         nlohmann::ordered_json::parse(error_statement_json(refined.error, target_.spectrum));
     asset.provenance_json = json_text(provenance);

@@ -29,7 +29,7 @@ class EncodedFiles {
           search_(problem, options, target) {}
 
     Targets targets(double transfer_error) const {
-        return targets_of(problem_, target_, transfer_error);
+        return targets_of(target_, transfer_error, problem_.best_achievable.geometry.diagonal);
     }
 
     // Of a file of this error: all but geometry and transfer of the part that moves.

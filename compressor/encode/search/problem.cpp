@@ -11,6 +11,7 @@
 #include "compressor/encode/memory/target_memory.h"
 #include "compressor/encode/noise/component_noise.h"
 #include "compressor/encode/quantise/float_matrix.h"
+#include "compressor/encode/search/held_positions.h"
 #include "compressor/encode/search/transfer_encoder.h"
 #include "paim/codec/codecs.h"
 #include "paim/mesh/face_vertices.h"
@@ -19,18 +20,6 @@
 namespace paim {
 
 namespace {
-
-// Components that are dropped beforehand may take this share of the error that is asked for.
-constexpr double kDroppedShare = 0.15;
-
-// The fewest components whose rest is at most `most`, in squares of singular values.
-template <typename EnergyOf>
-uint32_t components_for(uint32_t all, double most, const EnergyOf& energy_of) {
-    double dropped = 0.0;
-    uint32_t k = all;
-    while (k > 0 && dropped + energy_of(k - 1) <= most) dropped += energy_of(--k);
-    return k;
-}
 
 Albedo in_order(const Albedo& albedo, const std::vector<uint32_t>& old_vertex) {
     if (albedo.values.size() == 1) return albedo;
@@ -55,20 +44,6 @@ CodedMesh in_cache_order(CodedMesh mesh) {
     return mesh;
 }
 
-// Largest diagonal of a pose's bounding box, of these vertices.
-double largest_diagonal(const BakeReader& bake, const std::vector<uint32_t>& vertices) {
-    GeometryError measured;
-    const uint32_t num_vertices = bake.identity().num_vertices;
-    std::vector<float> positions;
-    for (uint32_t p = 0; p < bake.num_poses(); ++p) {
-        positions.resize(size_t{3} * num_vertices);
-        bake.read_position_rows(p, 0, positions.size(), positions.data());
-        keep_vertices(positions, num_vertices, vertices);
-        measured.add(positions, positions, p);
-    }
-    return measured.diagonal;
-}
-
 // The asset without positions and transfer of the part that moves.
 // order  of that part's vertices
 Asset make_shell(const BakeReader& bake, const EncodeOptions& options, const TransferLayout& layout,
@@ -82,6 +57,7 @@ Asset make_shell(const BakeReader& bake, const EncodeOptions& options, const Tra
     mesh.topology = std::move(order.topology);
     mesh.albedo = in_order(bake.albedo(), order.old_vertex);
     mesh.layout = layout;
+    mesh.positions.num_poses = bake.num_poses();
     if (auto still = still_part(bake, layout.in_bands)) {
         shell.parts.push_back(in_cache_order(std::move(*still)));
     }
@@ -111,12 +87,16 @@ double transfer_energy(const EncodeProblem& problem) {
 
 // The errors of all components as floats.
 AssetError measure_best(const EncodeProblem& problem) {
-    Asset best = problem.shell;
-    best.moving().positions =
-        float_matrix(problem.geometry, problem.geometry.num_components(), Precision::f32);
-    best.moving().transfer = plain_transfer(
+    CodedMesh best = problem.shell.moving();
+    best.transfer = plain_transfer(
         float_matrix(problem.transfer, problem.transfer.num_components(), Precision::f32));
-    return measure_asset(best, problem.bake, problem.spectrum);
+    AssetError error{
+        {HeldPositions::best_surface(problem), problem.meter->transfer(best, problem.spectrum)},
+        {}};
+    if (problem.still_meter) {
+        error.still = problem.still_meter->measure(*problem.shell.still(), problem.spectrum);
+    }
+    return error;
 }
 
 }  // namespace
@@ -137,36 +117,34 @@ EncodeProblem read_problem(const BakeReader& bake, const EncodeOptions& options,
     problem.predictor = PlanePredictor(problem.shell.moving().topology);
     problem.plane_weight = plane_weights(problem.layout, problem.spectrum);
 
-    const double asked = target.transfer_error.value_or(0.001);
-    const double num_values = static_cast<double>(identity.num_vertices) * bake.num_poses();
-    const std::vector<uint32_t> counted = face_vertices(bake.topology());
-    problem.num_face_vertices = static_cast<uint32_t>(counted.size());
-    const double num_positions = static_cast<double>(counted.size()) * bake.num_poses();
-    const GeometryRows geometry_rows(bake);
-    const PrincipalComponents geometry = principal_components(geometry_rows, in_flight);
-    const double distance = largest_diagonal(bake, counted) *
-                            target.geometry_error.value_or(kGeometryPerTransferError * asked);
+    problem.smoother.emplace(problem.shell.moving().topology);
+    problem.meter.emplace(problem.shell, 0, bake);
+    if (problem.shell.still() != nullptr) problem.still_meter.emplace(problem.shell, 1, bake);
+    problem.num_face_vertices = static_cast<uint32_t>(face_vertices(bake.topology()).size());
+
+    const double asked = asked_error(target);
+    HeldPositions positions(bake, target, in_flight);
     const TransferRows transfer_rows(bake, problem.layout.in_bands);
     const TransferRows noise_rows(bake, problem.layout.in_bands, TransferRows::Content::noise);
     const PrincipalComponents transfer = principal_components(transfer_rows, in_flight);
     const ComponentNoise noise =
         measure_component_noise(transfer_rows, noise_rows, problem.layout, transfer, in_flight);
-    const double energy = transfer_energy(problem);
+    const double num_values = static_cast<double>(identity.num_vertices) * bake.num_poses();
     TargetSize size{encode_size(bake, options), problem.layout.num_planes()};
-    size.geometry_components = components_for(
-        geometry.rank(), kDroppedShare * kDroppedShare * distance * distance * num_positions,
-        [&](uint32_t k) { return geometry.singular_values[k] * geometry.singular_values[k]; });
     size.transfer_components = components_for(
-        noise.num_above_noise, kDroppedShare * kDroppedShare * asked * asked * energy * num_values,
+        noise.num_above_noise,
+        kDroppedShare * kDroppedShare * asked * asked * transfer_energy(problem) * num_values,
         [&](uint32_t k) { return noise.signal_of(static_cast<Eigen::Index>(k)); });
     size.codecs = codecs;
-    check_target_memory(size, searched_codecs(encoders_to_try("", options.precision)),
-                        options.memory_bytes, bake.directory().string());
+    do {
+        size.geometry_components = positions.num_components();
+        check_target_memory(size, searched_codecs(encoders_to_try("", options.precision)),
+                            options.memory_bytes, bake.directory().string());
+        in_flight = choose_target_in_flight(size, options.memory_bytes);
+        positions.read(problem, order.old_vertex, in_flight);
+    } while (positions.need_more(problem));
     problem.spare_bytes = options.memory_bytes - target_held_bytes(size);
     problem.unneeded_bytes = options.memory_bytes - target_memory_bytes(size);
-    in_flight = choose_target_in_flight(size, options.memory_bytes);
-    problem.geometry = read_factors(geometry_rows, geometry, size.geometry_components, nullptr,
-                                    order.old_vertex, in_flight);
     const Shrinkage shrinkage(noise);
     problem.transfer = read_factors(transfer_rows, transfer, size.transfer_components,
                                     options.noise == NoiseTreatment::shrink ? &shrinkage : nullptr,

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "compressor/encode/options.h"
 #include "compressor/encode/quantise/scaled_factors.h"
+#include "paim/codec/surface_smoothing.h"
 #include "paim/format/pack/plane_predictor.h"
 #include "paim/mesh/cache_order.h"
 #include "paim/metrics/asset_error.h"
@@ -20,6 +22,9 @@ struct EncodeProblem {
     // Everything but positions and transfer of the part that moves; vertices in cache order.
     Asset shell = {};
     PlanePredictor predictor = {};  // of the part that moves
+    // What the parts are smoothed and measured on, made once.
+    std::optional<SurfaceSmoother> smoother = {};  // of the part that moves
+    std::optional<PartMeter> meter = {}, still_meter = {};
     ScaledFactors geometry = {},
                   transfer = {};            // as many components as can matter; noise taken out
     std::vector<double> plane_weight = {};  // [planes of layout] of squared transfer errors

@@ -2,6 +2,7 @@
 #include "compressor/encode/search/quantise_still.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "compressor/encode/quantise/quantise.h"
@@ -35,8 +36,7 @@ QuantisedStill exact_still(const EncodeProblem& problem) {
     return {*mesh, problem.best_achievable.still};
 }
 
-QuantisedStill quantise_still(const EncodeProblem& problem, double transfer_error,
-                              double distance) {
+QuantisedStill quantise_still(const EncodeProblem& problem, const Targets& targets) {
     QuantisedStill exact = exact_still(problem);
     if (!exact.mesh) return exact;
     const TransferError& best = exact.error->transfer;
@@ -44,12 +44,14 @@ QuantisedStill quantise_still(const EncodeProblem& problem, double transfer_erro
     for (uint32_t l = 0; l < best.bands.size(); ++l) {
         energy += problem.spectrum.weight(l) * best.bands[l].baked;
     }
-    const double room = transfer_error * transfer_error - best.total() * best.total();
+    const double room = targets.transfer * targets.transfer - best.total() * best.total();
     double transfer_budget = std::max(0.0, room) * energy;
+    const double distance = targets.surface.distance;
     double distance_budget =
         distance * distance * static_cast<double>(face_vertices(exact.mesh->topology).size());
-    // The budget takes rounding and noise for uncorrelated. They are, but only on average.
-    constexpr int kMaxRounds = 8;
+    // The budget takes rounding and noise for uncorrelated. They are, but only on average. It does
+    // not know what edges and normals need.
+    constexpr int kMaxRounds = 12;
     constexpr double kSmaller = 0.95;
     Asset asset = problem.shell;
     CodedMesh& mesh = *asset.still();
@@ -57,12 +59,16 @@ QuantisedStill quantise_still(const EncodeProblem& problem, double transfer_erro
         mesh.positions = quantise_mean(exact.mesh->positions, {1.0, 1.0, 1.0}, distance_budget);
         mesh.transfer->matrix =
             quantise_mean(exact.mesh->transfer->matrix, problem.plane_weight, transfer_budget);
-        MeshError error = measure_part(asset, 1, problem.bake, problem.spectrum);
-        const bool transfer_good = error.transfer.total() <= transfer_error;
-        const bool distance_good = error.geometry.rms() <= distance;
-        if (transfer_good && distance_good) return {std::move(mesh), std::move(error)};
+        MeshError error = problem.still_meter->measure(mesh, problem.spectrum);
+        const bool transfer_good = error.transfer.total() <= targets.transfer;
+        const double over = excess(error, targets.surface);
+        if (transfer_good && over <= 1.0) return {std::move(mesh), std::move(error)};
         if (!transfer_good) transfer_budget *= kSmaller;
-        if (!distance_good) distance_budget *= kSmaller;
+        if (!(over <= 1.0)) {
+            constexpr double kAim = 0.97, kFinest = 0.1;
+            const double smaller = std::clamp(kAim / over, kFinest, std::sqrt(kSmaller));
+            distance_budget *= smaller * smaller;
+        }
     }
     return exact;
 }

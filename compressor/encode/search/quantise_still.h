@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "compressor/encode/search/problem.h"
+#include "compressor/encode/search/targets.h"
 
 namespace paim {
 
@@ -13,11 +14,10 @@ struct QuantisedStill {
     std::optional<MeshError> error;  // measured
 };
 
-// The still part of the problem with the largest steps that keep both errors, measured, within
-// these; floats where no steps of 16 bits do.
-// transfer_error  expected from the truth, of the part's own transfer, above the error of the bake itself
-// distance        RMS, scene units
-QuantisedStill quantise_still(const EncodeProblem& problem, double transfer_error, double distance);
+// The still part of the problem with about the largest steps that keep all errors, measured, within
+// the targets; floats where no steps of 16 bits do.
+// targets  the transfer error is that of the part's own transfer, and above the error of the bake
+QuantisedStill quantise_still(const EncodeProblem& problem, const Targets& targets);
 
 // Floats, as they were baked.
 QuantisedStill exact_still(const EncodeProblem& problem);

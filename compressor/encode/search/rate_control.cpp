@@ -1,8 +1,9 @@
 // Steps that meet a target, measured.
 #include "compressor/encode/search/rate_control.h"
 
-#include "compressor/encode/quantise/choose_smoothing.h"
-#include "compressor/encode/quantise/float_matrix.h"
+#include <algorithm>
+#include <utility>
+
 #include "compressor/encode/quantise/trim_bands.h"
 #include "compressor/encode/search/step_scaling.h"
 #include "paim/base/error.h"
@@ -11,42 +12,32 @@ namespace paim {
 
 namespace {
 
-Asset build(const EncodeProblem& problem, const QuantisedStill& still, const Coding& coding) {
-    Asset asset = problem.shell;
-    if (still.mesh) *asset.still() = *still.mesh;
-    CodedMesh& mesh = asset.moving();
-    mesh.positions = is_integer(coding.geometry_precision)
-                         ? smoothed(problem.geometry, coding.geometry, mesh.topology)
-                         : float_matrix(problem.geometry, coding.geometry.num_components,
-                                        coding.geometry_precision);
-    const TransferCoding& transfer = coding.transfer;
-    mesh.transfer = transfer.settings->code(problem, transfer.quantiser, transfer.precision);
-    trim_bands(asset);
-    return asset;
-}
-
-// Nothing if steps are finer than values of 16 bits can be.
+// With the positions that are there. Nothing if the transfer's step is finer than values of 16 bits
+// can be.
 std::optional<Asset> build_if_it_fits(const EncodeProblem& problem, const QuantisedStill& still,
-                                      const Coding& coding) {
+                                      const LowRank& positions, const TransferCoding& transfer) {
     try {
-        return build(problem, still, coding);
+        Asset asset = problem.shell;
+        if (still.mesh) *asset.still() = *still.mesh;
+        asset.moving().positions = positions;
+        asset.moving().transfer =
+            transfer.settings->code(problem, transfer.quantiser, transfer.precision);
+        trim_bands(asset);
+        return asset;
     } catch (const Error& error_of_step) {
         if (error_of_step.code() != ExitCode::unsupported) throw;
         return std::nullopt;
     }
 }
 
-// Estimates of positions know nothing of smoothing, which leaves room for much coarser steps.
-constexpr double kCoarsestPositions = 1.6;
-
 // Floats have no step: one more component.
-void adjust(Quantiser& quantiser, Precision precision, bool coarser, double error, double target,
-            double best_error, double coarsest) {
+void adjust(TransferCoding& transfer, double error, double target, double best_error) {
     constexpr double kSlack = 0.997;
-    if (is_integer(precision)) {
-        quantiser.step = scaled_step(quantiser.step, error, target, best_error, kSlack, coarsest);
-    } else if (!coarser && error > target) {
-        ++quantiser.num_components;
+    if (is_integer(transfer.precision)) {
+        double& step = transfer.quantiser.step;
+        step = scaled_step(step, error, target, best_error, kSlack);
+    } else if (error > target) {
+        ++transfer.quantiser.num_components;
     }
 }
 
@@ -54,32 +45,27 @@ void adjust(Quantiser& quantiser, Precision precision, bool coarser, double erro
 
 std::optional<RefinedAsset> refine(const EncodeProblem& problem, const QuantisedStill& still,
                                    Coding coding, const Targets& targets) {
+    std::optional<RefinedPositions> positions =
+        refine_positions(problem, std::move(coding.positions), targets.surface);
+    if (!positions) return std::nullopt;
+    coding.positions = std::move(positions->coding);
     constexpr int kMaxRounds = 8;
-    constexpr double kRoom = 0.985;  // below this share of a target a coarser step is tried
+    constexpr double kRoom = 0.985;  // below this share of the target a coarser step is tried
     const double best_error = problem.best_achievable.transfer.total();
     std::optional<RefinedAsset> best;
     for (int round = 0; round < kMaxRounds; ++round) {
-        std::optional<Asset> asset = build_if_it_fits(problem, still, coding);
-        if (!asset && !best && is_integer(coding.geometry_precision) &&
-            use_float_positions(problem, targets.geometry, coding)) {
-            asset = build_if_it_fits(problem, still, coding);
-        }
+        std::optional<Asset> asset =
+            build_if_it_fits(problem, still, positions->matrix, coding.transfer);
         if (!asset) break;  // what there is, is the best there is
-        const AssetError measured{measure_part(*asset, 0, problem.bake, problem.spectrum),
-                                  still.error};
+        const AssetError measured{
+            {positions->error, problem.meter->transfer(asset->moving(), problem.spectrum)},
+            still.error};
         const double transfer = measured.transfer.total();
-        const double geometry = measured.geometry.rms();
-        const bool good = transfer <= targets.transfer && geometry <= targets.geometry;
+        const bool good = transfer <= targets.transfer;
         if (best && !good) break;  // a step too far
         if (good) best = RefinedAsset{std::move(*asset), measured, coding};
-        const bool room =
-            transfer < kRoom * targets.transfer || geometry < kRoom * targets.geometry;
-        if (good && (!room || round >= 3)) break;
-        const bool coarser = good;
-        adjust(coding.transfer.quantiser, coding.transfer.precision, coarser, transfer,
-               targets.transfer, best_error, kCoarsestScaling);
-        adjust(coding.geometry, coding.geometry_precision, coarser, geometry, targets.geometry, 0.0,
-               kCoarsestPositions);
+        if (good && (transfer >= kRoom * targets.transfer || round >= 3)) break;
+        adjust(coding.transfer, transfer, targets.transfer, best_error);
     }
     return best;
 }
@@ -91,9 +77,13 @@ void scale_steps(const EncodeProblem& problem, const Targets& from, const Target
         step = scaled_step(step, from.transfer, to.transfer,
                            problem.best_achievable.transfer.total(), 1.0);
     }
-    if (is_integer(coding.geometry_precision)) {
-        double& step = coding.geometry.step;
-        step = scaled_step(step, from.geometry, to.geometry, 0.0, 1.0);
+    if (is_integer(coding.positions.precision)) {
+        // The error that changes least, or becomes smallest, is the one to meet.
+        const SurfaceTarget &before = from.surface, &after = to.surface;
+        const double change = std::min({after.distance / before.distance, after.sted / before.sted,
+                                        after.normal_angle_deg / before.normal_angle_deg});
+        double& step = coding.positions.quantiser.step;
+        step = scaled_step(step, 1.0, change, 0.0, 1.0);
     }
 }
 

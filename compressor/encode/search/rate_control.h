@@ -14,8 +14,8 @@ struct RefinedAsset {
     Coding coding;     // with the steps that it was made with
 };
 
-// Makes steps finer until both errors, measured, are within the targets, and coarser where there is
-// room. Nothing if no step was found.
+// Makes steps finer until all errors, measured, are within the targets, and coarser where there is
+// room: first those of the positions, then those of the transfer. Nothing if no step was found.
 // still  of these targets
 std::optional<RefinedAsset> refine(const EncodeProblem& problem, const QuantisedStill& still,
                                    Coding coding, const Targets& targets);

@@ -4,62 +4,24 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-
-#include "compressor/encode/search/part_search.h"
+#include <utility>
 
 namespace paim {
-
-namespace {
-
-// An RMS distance as a sum of squares over the vertices of faces and all poses.
-double squared_distances(const EncodeProblem& problem, double rms) {
-    return rms * rms * static_cast<double>(problem.num_face_vertices) *
-           problem.geometry.num_poses();
-}
-
-// With the fewest components whose rest is at most `most_error`, a sum of squares.
-void code_positions_as_floats(const EncodeProblem& problem, double most_error, Precision precision,
-                              Coding& coding) {
-    const std::vector<double> alike(3, 1.0);
-    const std::vector<double> tails = tail_errors(problem.geometry, alike);
-    uint32_t k = 0;
-    while (k + 1 < tails.size() && tails[k] > most_error) ++k;
-    coding.geometry = {1.0, k, alike};
-    coding.geometry_precision = precision;
-    const uint64_t value = precision == Precision::f16 ? 2 : 4;
-    coding.geometry_bytes = problem.geometry.mean.size() * (4 + k * value);
-}
-
-}  // namespace
-
-bool use_float_positions(const EncodeProblem& problem, double distance, Coding& coding) {
-    const GeometryError& best = problem.best_achievable.geometry;
-    if (!(best.rms() <= distance)) return false;
-    // What rounding to floats and components that were dropped before take is spent already.
-    const double room = squared_distances(problem, distance) - best.distance.squared_sum;
-    code_positions_as_floats(problem, room, Precision::f32, coding);
-    return true;
-}
-
-Targets targets_of(const EncodeProblem& problem, const EncodeTarget& target,
-                   double transfer_error) {
-    const double relative =
-        target.geometry_error.value_or(kGeometryPerTransferError * transfer_error);
-    return {transfer_error, relative * problem.best_achievable.geometry.diagonal};
-}
 
 std::optional<Coding> CodingSearch::choose(const Targets& targets,
                                            std::vector<Candidate>& candidates,
                                            std::string& reason) {
-    Coding coding;
-    if (!choose_geometry(targets.geometry, coding)) {
-        reason = missed_geometry(targets.geometry);
+    std::optional<PositionCoding> positions =
+        choose_positions(problem_, options_.precision, targets.surface);
+    if (!positions) {
+        reason = missed_positions(targets.surface);
         return std::nullopt;
     }
+    Coding coding{std::move(*positions), {}};
     const std::vector<TransferCoding> codings = search_.codings(transfer_budget(targets.transfer));
     std::optional<uint64_t> most;
     if (target_.size_bytes && target_.transfer_error) {
-        const uint64_t rest = coding.geometry_bytes + estimated_overhead_bytes();
+        const uint64_t rest = coding.positions.bytes + estimated_overhead_bytes();
         most = *target_.size_bytes > rest ? *target_.size_bytes - rest : 0;
     }
     const TransferCoding* best = best_coding(codings, target_.preference, most);
@@ -84,38 +46,11 @@ double CodingSearch::transfer_budget(double target) const {
     return std::max(0.0, (target * target - best * best) * problem_.transfer_energy);
 }
 
-bool CodingSearch::choose_geometry(double target, Coding& coding) const {
-    const double most = squared_distances(problem_, target);
-    if (!is_integer(options_.precision)) {
-        if (!(problem_.best_achievable.geometry.rms() <= target)) return false;
-        code_positions_as_floats(problem_, most, options_.precision, coding);
-        return true;
+std::string CodingSearch::missed_positions(const SurfaceTarget& target) const {
+    if (excess(problem_.best_achievable, target) <= 1.0) {
+        return "positions as floats of 16 bits are not good enough: use --precision f32";
     }
-    const std::vector<double> alike(3, 1.0);
-    const ScaledFactors& factors = problem_.geometry;
-    // Vertices that no face has come last.
-    auto choice = cheapest_part(part_choices(factors, alike, most, factors.num_components(),
-                                             problem_.predictor, problem_.num_face_vertices));
-    if (!choice) return use_float_positions(problem_, target, coding);
-    coding.geometry = std::move(choice->quantiser);
-    coding.geometry_bytes = choice->bytes;
-    return true;
-}
-
-std::string CodingSearch::missed_geometry(double target) const {
-    const GeometryError& best = problem_.best_achievable.geometry;
-    const double allowed = 1.05 * best.relative_rms();
-    const std::string missed = fmt::format(
-        "an RMS distance of {:.3g} is asked for, but positions as floats have {:.3g} at best",
-        target, best.rms());
-    if (allowed < 1.0) {
-        return missed + fmt::format(": allow a --geometry-error of {:.3g} or more", allowed);
-    }
-    // Poses that are points, or much farther apart than they are large.
-    return missed + fmt::format(
-                        ", and the diagonal of the largest pose is {:.3g}: bring the poses nearer "
-                        "together, or encode without --max-error and --max-size",
-                        best.diagonal);
+    return missed_surface(problem_.best_achievable, target);
 }
 
 std::string CodingSearch::missed_transfer(double target) {

@@ -6,32 +6,16 @@
 #include <string>
 #include <vector>
 
+#include "compressor/encode/search/position_search.h"
 #include "compressor/encode/search/transfer_search.h"
 
 namespace paim {
 
-// What both parts shall meet. Transfer errors are relative, distances in scene units.
-struct Targets {
-    double transfer = 0.0;
-    double geometry = 0.0;
-
-    bool operator==(const Targets&) const = default;
-};
-
-// What goes with this error of the transfer.
-Targets targets_of(const EncodeProblem& problem, const EncodeTarget& target, double transfer_error);
-
 // A way to code both parts, with the steps that it can be made finer or coarser with.
 struct Coding {
-    Quantiser geometry;
-    Precision geometry_precision = Precision::i16;
-    uint64_t geometry_bytes = 0;
+    PositionCoding positions;
     TransferCoding transfer;
 };
-
-// Positions as floats, with the fewest components that leave at most this RMS distance. False if not
-// even all components as floats do.
-bool use_float_positions(const EncodeProblem& problem, double distance, Coding& coding);
 
 class CodingSearch {
   public:
@@ -50,8 +34,7 @@ class CodingSearch {
 
   private:
     double transfer_budget(double target) const;
-    bool choose_geometry(double target, Coding& coding) const;
-    std::string missed_geometry(double target) const;
+    std::string missed_positions(const SurfaceTarget& target) const;
     std::string missed_transfer(double target);
     uint64_t estimated_overhead_bytes() const;
 

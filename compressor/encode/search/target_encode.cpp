@@ -59,8 +59,7 @@ TargetSummary encode_to_target(const BakeReader& bake, const EncodeOptions& opti
     TargetSummary summary;
     summary.error = result.error;
     summary.best_achievable = problem.best_achievable.transfer.total();
-    summary.transfer_target = result.targets.transfer;
-    summary.geometry_target = result.targets.geometry;
+    summary.targets = result.targets;
     summary.candidates = std::move(result.candidates);
     summary.geometry_components = result.geometry_components;
     summary.num_vertices = problem.geometry.num_points;

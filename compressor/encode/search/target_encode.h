@@ -5,15 +5,14 @@
 #include <functional>
 
 #include "compressor/encode/options.h"
-#include "paim/metrics/asset_error.h"
+#include "compressor/encode/search/targets.h"
 
 namespace paim {
 
 struct TargetSummary {
     AssetError error;              // of the file, measured
     double best_achievable = 0.0;  // transfer error that no file of this bake is below
-    double transfer_target = 0.0;  // that was met
-    double geometry_target = 0.0;  // RMS distance, scene units
+    Targets targets;               // that were met
     std::vector<Candidate> candidates;
     uint32_t geometry_components = 0;
     uint32_t num_vertices = 0, num_poses = 0;

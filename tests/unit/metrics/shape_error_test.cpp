@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 
+#include "paim/base/tbb_parallel.h"
 #include "paim/base/vector.h"
 #include "paim/mesh/planes.h"
 #include "poses/octopus.h"
@@ -16,8 +19,13 @@ using Positions = std::vector<Vec3f>;
 
 PieceShapeError measure(const Topology& topology, const std::vector<Positions>& decoded,
                         const std::vector<Positions>& baked) {
-    ShapeErrorMeter meter(topology);
-    for (size_t p = 0; p < baked.size(); ++p) meter.add(to_planes(decoded[p]), to_planes(baked[p]));
+    const ShapeNeighbours neighbours(topology);
+    ShapeErrorMeter meter(neighbours);
+    std::vector<ShapeErrorMeter::Pose> poses;
+    for (size_t p = 0; p < baked.size(); ++p) {
+        poses.push_back({to_planes(decoded[p]), to_planes(baked[p])});
+    }
+    meter.add(poses);
     return meter.result();
 }
 
@@ -71,7 +79,7 @@ TEST(ShapeError, OfNothingIsZero) {
         measure(kTriangle, {kRight, kRight, kRight}, {kRight, kRight, kRight});
     EXPECT_EQ(error.worst.sted(), 0.0);
     EXPECT_EQ(error.worst.normal_angle_deg, 0.0);
-    EXPECT_EQ(ShapeErrorMeter(kTriangle).result().worst.sted(), 0.0);
+    EXPECT_EQ(measure(kTriangle, {}, {}).worst.sted(), 0.0);
 }
 
 // A triangle that stands still while its decoded copy jumps in the last pose. Its steps are a
@@ -106,6 +114,35 @@ TEST(ShapeError, OfASmallPieceIsNotHidden) {
     const PieceShapeError error = measure(topology, {decoded}, {baked});
     EXPECT_NEAR(error.worst.normal_angle_deg, 90.0, 1e-9);
     EXPECT_NEAR(error.whole.normal_angle_deg, 90.0 / 11.0, 1e-9);
+}
+
+// Poses are added in pieces of every length, on any number of threads.
+TEST(ShapeError, DoesNotDependOnHowPosesAreAdded) {
+    const PoseSet octopus = poses::make_octopus(1000, 7);
+    const ShapeNeighbours neighbours(octopus.topology());
+    std::vector<ShapeErrorMeter::Pose> poses;
+    for (uint32_t p = 0; p < 7; ++p) {
+        const std::vector<float> baked = to_planes(octopus.load_pose(p).positions);
+        std::vector<float> decoded = baked;
+        for (size_t j = 0; j < decoded.size(); ++j) {
+            decoded[j] += 0.01f * static_cast<float>((j * 7 + p) % 5);
+        }
+        poses.push_back({decoded, baked});
+    }
+    ShapeErrorMeter at_once(neighbours);
+    at_once.add(poses);
+    const PieceShapeError expected = at_once.result();
+    EXPECT_GT(expected.whole.sted_time, 0.0);
+    for (size_t length = 1; length < poses.size(); ++length) {
+        const ThreadLimit threads(length % 2 == 0 ? 1 : 2);
+        ShapeErrorMeter meter(neighbours);
+        for (size_t first = 0; first < poses.size(); first += length) {
+            meter.add(std::span(poses).subspan(first, std::min(length, poses.size() - first)));
+        }
+        EXPECT_EQ(meter.result().whole.sted_space, expected.whole.sted_space) << length;
+        EXPECT_EQ(meter.result().whole.sted_time, expected.whole.sted_time) << length;
+        EXPECT_EQ(meter.result().worst.normal_angle_deg, expected.worst.normal_angle_deg) << length;
+    }
 }
 
 TEST(ShapeError, DoesNotDependOnTheUnit) {

@@ -46,7 +46,7 @@ TEST(SmoothQuantised, HelpsSmoothPlanesAndLeavesOthersAlone) {
     const Quantiser quantiser{1.0, 1, {1.0, 1.0, 1.0}};
     const LowRank plain = quantise(factors, quantiser);
     LowRank after = plain;
-    smooth_quantised(factors, make_grid(kWidth), after);
+    smooth_quantised(factors, SurfaceSmoother(make_grid(kWidth)), after);
     ASSERT_EQ(plain.num_components, 1u);
     ASSERT_EQ(after.fraction_bits, 4u);
     ASSERT_EQ(after.smoothing.size(), 6u);
@@ -67,14 +67,14 @@ TEST(SmoothQuantised, LeavesWhatDoesNotGainAsItIs) {
     const Quantiser quantiser{1.0, 1, {1.0, 1.0, 1.0}};
     const LowRank plain = quantise(factors, quantiser);
     LowRank same = plain;
-    smooth_quantised(factors, make_grid(kWidth), same);
+    smooth_quantised(factors, SurfaceSmoother(make_grid(kWidth)), same);
     EXPECT_EQ(same, plain);
     // Values that fill their 16 bits leave no room for fractions.
     Quantiser fine = quantiser;
     fine.step = 1.01 * smallest_step(factors, quantiser, Precision::i16);
     const LowRank wide = quantise(factors, fine);
     same = wide;
-    smooth_quantised(factors, make_grid(kWidth), same);
+    smooth_quantised(factors, SurfaceSmoother(make_grid(kWidth)), same);
     EXPECT_EQ(same, wide);
 }
 

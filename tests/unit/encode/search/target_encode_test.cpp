@@ -50,7 +50,7 @@ TEST_F(TargetEncode, FilesAreWithinTheErrorsThatTheyState) {
                 EXPECT_EQ(stated.errors[j].value, measured[j].value) << measured[j].name;
             }
             EXPECT_LE(summary.error.transfer.total(), error);
-            EXPECT_LE(summary.error.geometry.rms(), summary.geometry_target);
+            EXPECT_LE(summary.error.geometry.rms(), summary.targets.surface.distance);
             // Not much better than it need be.
             EXPECT_GT(summary.error.transfer.total(), 0.9 * error);
         }
@@ -186,7 +186,7 @@ TEST_F(TargetEncode, FindsTheSmallestErrorOfASize) {
             EXPECT_EQ(std::filesystem::file_size(output_), fitted.size_bytes);
             EXPECT_EQ(fitted.chosen().components,
                       read_paim(output_).moving().transfer->matrix.num_components);
-            EXPECT_LE(fitted.error.transfer.total(), fitted.transfer_target);
+            EXPECT_LE(fitted.error.transfer.total(), fitted.targets.transfer);
             // The size of a file of 2 % allows 2 % or little more, others more than that. Files of
             // 20 to 40 kB of nearly the same error differ by up to 2 % in size, as their positions
             // take few integers, which are smoothed or not: 37.7 kB at 2.00 %, 38.3 kB at 2.02 %. That
@@ -343,7 +343,7 @@ TEST_F(TargetEncode, VeryFineTargetsOfBothPartsTakeFloats) {
     for (const double error : {1e-4, 1e-6}) {
         const TargetSummary summary = encode(bake, target(bake, error));
         EXPECT_LE(summary.error.transfer.total(), error);
-        EXPECT_LE(summary.error.geometry.rms(), summary.geometry_target);
+        EXPECT_LE(summary.error.geometry.rms(), summary.targets.surface.distance);
     }
 }
 

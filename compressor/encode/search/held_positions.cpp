@@ -1,0 +1,75 @@
+// The components of the positions that can matter for a target.
+#include "compressor/encode/search/held_positions.h"
+
+#include <algorithm>
+
+#include "compressor/encode/quantise/float_matrix.h"
+#include "paim/mesh/face_vertices.h"
+
+namespace paim {
+
+namespace {
+
+// Edges and normals usually ask for distances between a quarter and all of the one that is asked
+// for. Where they ask for less, components are read again.
+constexpr double kHeldDistance = 0.25;
+
+// What dropped components may take of the errors of edges and normals: a tenth in squares.
+constexpr double kDroppedOfShape = 0.3;
+
+// Largest diagonal of a pose's bounding box, of these vertices.
+double largest_diagonal(const BakeReader& bake, const std::vector<uint32_t>& vertices) {
+    GeometryError measured;
+    const uint32_t num_vertices = bake.identity().num_vertices;
+    std::vector<float> positions;
+    for (uint32_t p = 0; p < bake.num_poses(); ++p) {
+        positions.resize(size_t{3} * num_vertices);
+        bake.read_position_rows(p, 0, positions.size(), positions.data());
+        keep_vertices(positions, num_vertices, vertices);
+        measured.add(positions, positions, p);
+    }
+    return measured.diagonal;
+}
+
+}  // namespace
+
+HeldPositions::HeldPositions(const BakeReader& bake, const EncodeTarget& target, uint32_t in_flight)
+    : rows_(bake),
+      all_(principal_components(rows_, in_flight)),
+      is_known_(target.transfer_error.has_value()) {
+    const std::vector<uint32_t> counted = face_vertices(bake.topology());
+    num_positions_ = static_cast<double>(counted.size()) * bake.num_poses();
+    target_ = targets_of(target, asked_error(target), largest_diagonal(bake, counted)).surface;
+    allow(kHeldDistance * target_.distance);
+}
+
+void HeldPositions::read(EncodeProblem& problem, const std::vector<uint32_t>& old_vertex,
+                         uint32_t in_flight) const {
+    problem.geometry = read_factors(rows_, all_, num_components_, nullptr, old_vertex, in_flight);
+}
+
+bool HeldPositions::need_more(const EncodeProblem& problem) {
+    // For a size, the distance is that of very good files already.
+    if (!is_known_ || num_components_ >= all_.rank()) return false;
+    const double left = excess(best_surface(problem), target_);
+    if (!(left > kDroppedOfShape)) return false;
+    constexpr double kAim = 0.8, kSmallest = 1e-3;
+    const uint32_t before = num_components_;
+    allow(std::max(kSmallest, kAim * kDroppedOfShape / left) * distance_);
+    num_components_ = std::max(num_components_, before + 1);
+    return true;
+}
+
+SurfaceError HeldPositions::best_surface(const EncodeProblem& problem) {
+    return problem.meter->surface(
+        float_matrix(problem.geometry, problem.geometry.num_components(), Precision::f32));
+}
+
+void HeldPositions::allow(double distance) {
+    distance_ = distance;
+    num_components_ = components_for(
+        all_.rank(), kDroppedShare * kDroppedShare * distance * distance * num_positions_,
+        [&](uint32_t k) { return all_.singular_values[k] * all_.singular_values[k]; });
+}
+
+}  // namespace paim

@@ -1,0 +1,63 @@
+// The components of the positions that can matter for a target, which the search holds in memory.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "compressor/encode/data/bake_rows.h"
+#include "compressor/encode/search/problem.h"
+#include "compressor/encode/search/targets.h"
+#include "compressor/encode/svd/principal_components.h"
+
+namespace paim {
+
+// Components that are dropped beforehand may take this share of the error that is asked for.
+constexpr double kDroppedShare = 0.15;
+
+// The error of the transfer that components are kept for. A size is met with some error that is not
+// known yet: then that of very good files.
+inline double asked_error(const EncodeTarget& target) {
+    return target.transfer_error.value_or(0.001);
+}
+
+// The fewest components whose rest is at most `most`, in squares of singular values.
+template <typename EnergyOf>
+uint32_t components_for(uint32_t all, double most, const EnergyOf& energy_of) {
+    double dropped = 0.0;
+    uint32_t k = all;
+    while (k > 0 && dropped + energy_of(k - 1) <= most) dropped += energy_of(--k);
+    return k;
+}
+
+class HeldPositions {
+  public:
+    // Keeps a reference to the bake.
+    HeldPositions(const BakeReader& bake, const EncodeTarget& target, uint32_t in_flight);
+
+    uint32_t num_components() const { return num_components_; }
+
+    // Reads the components into the problem.
+    void read(EncodeProblem& problem, const std::vector<uint32_t>& old_vertex,
+              uint32_t in_flight) const;
+
+    // Whether the shape of the surface needs more components than were read, which num_components()
+    // then says.
+    bool need_more(const EncodeProblem& problem);
+
+    // The errors of the components that were read, as floats.
+    static SurfaceError best_surface(const EncodeProblem& problem);
+
+  private:
+    // Components whose rest is kDroppedShare of this RMS distance.
+    void allow(double distance);
+
+    const GeometryRows rows_;
+    const PrincipalComponents all_;
+    double num_positions_ = 0.0;  // over vertices of faces and poses
+    SurfaceTarget target_;
+    bool is_known_ = false;  // the target
+    double distance_ = 0.0;
+    uint32_t num_components_ = 0;
+};
+
+}  // namespace paim

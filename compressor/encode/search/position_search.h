@@ -1,0 +1,41 @@
+// Positions that meet a surface target: how many components, and with which step.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "compressor/encode/quantise/quantise.h"
+#include "compressor/encode/search/problem.h"
+#include "compressor/encode/search/targets.h"
+
+namespace paim {
+
+// A way to code positions.
+struct PositionCoding {
+    Quantiser quantiser;
+    Precision precision = Precision::i16;
+    uint64_t bytes = 0;  // by an estimate
+};
+
+// As the coding says, integers smoothed. Error (unsupported) if integers of this step do not fit in
+// 16 bits.
+LowRank code_positions(const EncodeProblem& problem, const PositionCoding& coding);
+
+// The cheapest integers that about meet the target, measured; floats where no integers of 16 bits
+// do, or if `precision` is one of floats. Nothing if floats do not meet it either.
+std::optional<PositionCoding> choose_positions(const EncodeProblem& problem, Precision precision,
+                                               const SurfaceTarget& target);
+
+struct RefinedPositions {
+    LowRank matrix;
+    SurfaceError error;  // measured
+    PositionCoding coding;
+};
+
+// Makes the step finer until the target is met, and coarser where there is room. Positions become
+// floats if no step was found. Nothing if floats do not meet the target either.
+std::optional<RefinedPositions> refine_positions(const EncodeProblem& problem,
+                                                 PositionCoding coding,
+                                                 const SurfaceTarget& target);
+
+}  // namespace paim
