@@ -59,6 +59,13 @@ void add_codec_options(CLI::App& app, EncodeArguments& arguments, const char* gr
 
 void add_target_options(CLI::App& app, CompressOptions& options, EncodeArguments& arguments) {
     constexpr const char* kGroup = "With --max-error or --max-size";
+    app.add_option(
+           "--max-vertex-error", arguments.max_vertex_error,
+           "Largest error of a vertex to the bake over all poses, as a share of the RMS over "
+           "vertices, such as 10%. The error of the transfer is made smaller until the "
+           "worst vertex meets it, which takes several searches. Default: any")
+        ->type_name("ERROR")
+        ->group(kGroup);
     app.add_option("--geometry-error", arguments.geometry_error,
                    fmt::format("Largest RMS distance of the positions, as a share of the diagonal "
                                "of the largest pose. Where integers of 16 bits cannot be that "
@@ -159,6 +166,7 @@ void check_without_target(const EncodeArguments& arguments, const CompressOption
     const auto needs_target = [](bool given, const char* option) {
         if (given) throw_usage("{}: needs --max-error or --max-size", option);
     };
+    needs_target(!arguments.max_vertex_error.empty(), "--max-vertex-error");
     needs_target(!arguments.geometry_error.empty(), "--geometry-error");
     needs_target(!arguments.max_sted.empty(), "--max-sted");
     needs_target(arguments.max_normal_angle.has_value(), "--max-normal-angle");
@@ -188,6 +196,9 @@ EncodeTarget parse_target(const EncodeArguments& arguments) {
     EncodeTarget target;
     if (!arguments.max_error.empty()) {
         target.transfer_error = cli::parse_share(arguments.max_error, "--max-error");
+    }
+    if (!arguments.max_vertex_error.empty()) {
+        target.vertex_error = cli::parse_share(arguments.max_vertex_error, "--max-vertex-error");
     }
     if (!arguments.geometry_error.empty()) {
         target.geometry_error = cli::parse_share(arguments.geometry_error, "--geometry-error");

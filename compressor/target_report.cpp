@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "compressor/encode/search/transfer_encoder.h"
 #include "compressor/encode_report.h"
 #include "paim/metrics/rates.h"
@@ -67,9 +69,13 @@ std::string transfer_text(const TargetSummary& summary) {
     const TransferError& transfer = summary.error.transfer;
     return fmt::format(
         "  transfer: {:.3g} % measured, {:.3g} % allowed, {:.2g} % at best with these components; "
-        "from the bake: worst vertex {:.3g} %, worst pose {:.3g} %\n",
+        "from the bake: worst vertex {:.3g} %{}, worst pose {:.3g} %\n",
         100.0 * transfer.total(), 100.0 * summary.targets.transfer, 100.0 * summary.best_achievable,
-        100.0 * transfer.worst_vertex_error_to_bake, 100.0 * transfer.worst_pose_error_to_bake);
+        100.0 * transfer.worst_vertex_error_to_bake,
+        std::isfinite(summary.targets.worst_vertex)
+            ? fmt::format(" ({:.3g} % allowed)", 100.0 * summary.targets.worst_vertex)
+            : "",
+        100.0 * transfer.worst_pose_error_to_bake);
 }
 
 std::string geometry_text(const TargetSummary& summary) {
@@ -116,6 +122,9 @@ ordered_json report_json(const TargetReport& report) {
         bits_per_vertex_per_pose(summary.size_bytes, summary.num_vertices, summary.num_poses);
     json["multiply_adds"] = chosen.multiply_adds;
     json["transfer_target"] = summary.targets.transfer;
+    if (std::isfinite(summary.targets.worst_vertex)) {
+        json["vertex_target"] = summary.targets.worst_vertex;
+    }
     json["geometry_target"] = summary.targets.surface.distance;
     json["sted_target"] = summary.targets.surface.sted;
     json["normal_angle_target_deg"] = summary.targets.surface.normal_angle_deg;

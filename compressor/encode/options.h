@@ -56,8 +56,10 @@ struct EncodeTarget {
     std::optional<double> geometry_error;    // RMS distance by the diagonal
     std::optional<double> sted;              // of the worst piece, 0 … 1
     std::optional<double> normal_angle_deg;  // mean of the worst piece
-    std::optional<uint64_t> size_bytes;      // of the file, at most
-    std::optional<uint32_t> decode_cost;     // multiply-adds per vertex and frame for lit transfer
+    // Error of the worst vertex to the bake, relative to the RMS over vertices; else any is good.
+    std::optional<double> vertex_error;
+    std::optional<uint64_t> size_bytes;   // of the file, at most
+    std::optional<uint32_t> decode_cost;  // multiply-adds per vertex and frame for lit transfer
     // The codec of the transfer, as transfer_encoders() names it (search/transfer_encoder.h);
     // "auto" or empty: the best one. Some code integers alone (EncodeOptions::precision i16).
     std::string codec;

@@ -151,7 +151,8 @@ TEST_F(Target, RefusesWhatMakesNoSense) {
     expect_failure(try_to_encode({"--max-error", "0"}), 1, {"--max-error", "more than 0"});
     expect_failure(try_to_encode({"--max-error", "100%"}), 1, {"--max-error", "less than 1"});
     expect_failure(try_to_encode({"--codec", "cpca"}), 1, {"--codec", "--max-error or --max-size"});
-    for (const char* option : {"--geometry-error", "--max-sted", "--max-normal-angle"}) {
+    for (const char* option :
+         {"--geometry-error", "--max-sted", "--max-normal-angle", "--max-vertex-error"}) {
         expect_failure(try_to_encode({option, "0.01"}), 1, {option, "needs --max-error"});
     }
     expect_failure(try_to_encode({"--max-error", "5%", "--max-sted", "0"}), 1, {"--max-sted"});

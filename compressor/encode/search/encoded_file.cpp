@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -13,6 +15,23 @@
 #include "paim/codec/frame_cost.h"
 
 namespace paim {
+
+namespace {
+
+// The error of the transfer that should bring the worst vertex down to its target: squared errors
+// of both grow about alike above what the best of the bake leaves.
+double transfer_for_vertex(const TransferError& best, double transfer, double worst,
+                           double target) {
+    // A little less than the target, and each time much, as the whole search is done again.
+    constexpr double kAim = 0.97, kLeast = 0.25, kMost = 0.9;
+    const double least = best.worst_vertex_error_to_bake;
+    const double room = std::max(0.0, std::pow(kAim * target, 2.0) - least * least);
+    const double share = std::clamp(room / (worst * worst - least * least), kLeast, kMost);
+    const double floor = best.total();
+    return std::sqrt(floor * floor + share * (transfer * transfer - floor * floor));
+}
+
+}  // namespace
 
 const QuantisedStill& EncodedFiles::still_of(const Targets& targets) {
     if (still_targets_ == targets) return still_;
@@ -55,20 +74,21 @@ std::optional<EncodedFiles::Draft> EncodedFiles::draft(double transfer_error, st
     return draft;
 }
 
-std::optional<EncodedFile> EncodedFiles::meet(double transfer_error, std::string& reason) {
-    const Targets targets = this->targets(transfer_error);
+std::optional<RefinedAsset> EncodedFiles::meet_all_but_vertices(const Targets& targets,
+                                                                std::vector<Candidate>& candidates,
+                                                                std::string& reason) {
     // What is chosen by estimates may leave its integers too little room once it is measured: then
     // something of a smaller error by estimate.
     for (const double margin : {1.0, 0.97, 0.93, 0.88}) {
-        std::vector<Candidate> candidates;
-        auto coding =
-            search_.choose({margin * targets.transfer, targets.surface}, candidates, reason);
+        Targets smaller = targets;
+        smaller.transfer *= margin;
+        auto coding = search_.choose(smaller, candidates, reason);
         if (!coding) {
             reason = bake_name() + ": " + reason;
             return std::nullopt;
         }
         auto refined = refine(problem_, still_of(targets), std::move(*coding), targets);
-        if (refined) return pack(targets, std::move(candidates), std::move(*refined), reason);
+        if (refined) return refined;
     }
     reason = fmt::format(
         "{}: {:.3g} % of the transfer was not met by any step that was tried: ask for a little "
@@ -77,11 +97,35 @@ std::optional<EncodedFile> EncodedFiles::meet(double transfer_error, std::string
     return std::nullopt;
 }
 
+std::optional<EncodedFile> EncodedFiles::meet(double transfer_error, std::string& reason) {
+    const Targets targets = this->targets(transfer_error);
+    Targets aim = targets;
+    std::vector<Candidate> candidates;
+    constexpr int kMaxRounds = 10;
+    for (int round = 0; round < kMaxRounds; ++round) {
+        auto refined = meet_all_but_vertices(aim, candidates, reason);
+        if (!refined) return std::nullopt;
+        const double worst = refined->error.transfer.worst_vertex_error_to_bake;
+        if (worst <= targets.worst_vertex) {
+            return pack(targets, std::move(candidates), std::move(*refined), reason);
+        }
+        aim.transfer = transfer_for_vertex(problem_.best_achievable.transfer, aim.transfer, worst,
+                                           targets.worst_vertex);
+    }
+    reason = fmt::format(
+        "{}: a worst vertex of {:.3g} % is asked for, and was not met by any transfer error down to "
+        "{:.3g} %: allow a larger --max-vertex-error",
+        bake_name(), 100.0 * targets.worst_vertex, 100.0 * aim.transfer);
+    return std::nullopt;
+}
+
 std::optional<EncodedFile> EncodedFiles::meet(double transfer_error, Draft draft,
                                               std::string& reason) {
     const Targets targets = this->targets(transfer_error);
     auto refined = refine(problem_, still_of(targets), std::move(draft.coding), targets);
-    if (!refined) return meet(transfer_error, reason);
+    if (!refined || refined->error.transfer.worst_vertex_error_to_bake > targets.worst_vertex) {
+        return meet(transfer_error, reason);
+    }
     return pack(targets, std::move(draft.candidates), std::move(*refined), reason);
 }
 
@@ -114,6 +158,9 @@ std::optional<EncodedFile> EncodedFiles::pack(const Targets& targets,
                              {"position_rms", targets.surface.distance},
                              {"sted_worst_piece", targets.surface.sted},
                              {"normal_angle_deg_worst_piece", targets.surface.normal_angle_deg}};
+    if (std::isfinite(targets.worst_vertex)) {
+        provenance["targets"]["transfer_worst_vertex_deviation"] = targets.worst_vertex;
+    }
     provenance["measured"] =
         nlohmann::ordered_json::parse(error_statement_json(refined.error, target_.spectrum));
     asset.provenance_json = json_text(provenance);

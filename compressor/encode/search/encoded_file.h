@@ -49,6 +49,10 @@ class EncodedFiles {
     std::optional<EncodedFile> meet(double transfer_error, Draft draft, std::string& reason);
 
   private:
+    // A file of these targets, whose worst vertex may err by any amount.
+    std::optional<RefinedAsset> meet_all_but_vertices(const Targets& targets,
+                                                      std::vector<Candidate>& candidates,
+                                                      std::string& reason);
     std::optional<EncodedFile> pack(const Targets& targets, std::vector<Candidate> candidates,
                                     RefinedAsset refined, std::string& reason) const;
     const QuantisedStill& still_of(const Targets& targets);

@@ -44,6 +44,15 @@ void check_part(const EncodeProblem& problem, const TransferError& best, const c
 
 }  // namespace
 
+void check_vertex_feasible(const EncodeProblem& problem, double vertex_error) {
+    const double best = problem.best_achievable.transfer.worst_vertex_error_to_bake;
+    if (best < vertex_error) return;
+    throw_infeasible(fmt::format(
+        "{}: a worst vertex of {:.3g} % is asked for, but one has {:.3g} % at best once noise is "
+        "taken out: bake with more --rays, or allow a --max-vertex-error of {:.3g}% or more",
+        problem.bake.directory().string(), 100.0 * vertex_error, 100.0 * best, 105.0 * best));
+}
+
 void check_feasible(const EncodeProblem& problem, double transfer_error) {
     check_part(problem, problem.best_achievable.transfer, "", transfer_error);
     if (!problem.best_achievable.still) return;

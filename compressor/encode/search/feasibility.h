@@ -12,4 +12,7 @@ namespace paim {
 // is.
 void check_feasible(const EncodeProblem& problem, double transfer_error);
 
+// The same of the error of the worst vertex to the bake.
+void check_vertex_feasible(const EncodeProblem& problem, double vertex_error);
+
 }  // namespace paim

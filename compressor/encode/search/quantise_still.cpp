@@ -60,7 +60,9 @@ QuantisedStill quantise_still(const EncodeProblem& problem, const Targets& targe
         mesh.transfer->matrix =
             quantise_mean(exact.mesh->transfer->matrix, problem.plane_weight, transfer_budget);
         MeshError error = problem.still_meter->measure(mesh, problem.spectrum);
-        const bool transfer_good = error.transfer.total() <= targets.transfer;
+        const bool transfer_good =
+            error.transfer.total() <= targets.transfer &&
+            error.transfer.worst_vertex_error_to_bake <= targets.worst_vertex;
         const double over = excess(error, targets.surface);
         if (transfer_good && over <= 1.0) return {std::move(mesh), std::move(error)};
         if (!transfer_good) transfer_budget *= kSmaller;

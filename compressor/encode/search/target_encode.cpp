@@ -50,6 +50,7 @@ TargetSummary encode_to_target(const BakeReader& bake, const EncodeOptions& opti
     say("finding components");
     const EncodeProblem problem = read_problem(bake, options, target);
     if (target.transfer_error) check_feasible(problem, *target.transfer_error);
+    if (target.vertex_error) check_vertex_feasible(problem, *target.vertex_error);
     say("comparing ways to code them");
     EncodedFiles files(problem, options, target);
     EncodedFile result = target.transfer_error

@@ -44,6 +44,7 @@ Targets targets_of(const EncodeTarget& target, double transfer_error, double dia
     const double relative =
         target.geometry_error.value_or(kGeometryPerTransferError * transfer_error);
     return {transfer_error,
+            target.vertex_error.value_or(std::numeric_limits<double>::infinity()),
             {relative * diagonal, target.sted.value_or(kStedPerGeometryError * relative),
              target.normal_angle_deg.value_or(kNormalDegreesPerGeometryError * relative)}};
 }

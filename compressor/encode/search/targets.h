@@ -1,6 +1,7 @@
 // What a file has to meet: the error of the transfer, and three errors of the surface.
 #pragma once
 
+#include <limits>
 #include <string>
 
 #include "compressor/encode/options.h"
@@ -18,9 +19,10 @@ struct SurfaceTarget {
     bool operator==(const SurfaceTarget&) const = default;
 };
 
-// What each part shall meet. The transfer error is relative.
+// What each part shall meet. Errors of the transfer are relative.
 struct Targets {
     double transfer = 0.0;
+    double worst_vertex = std::numeric_limits<double>::infinity();  // to the bake
     SurfaceTarget surface;
 
     bool operator==(const Targets&) const = default;

@@ -114,11 +114,11 @@ TEST_F(PositionSearch, StillMeshesHaveShapesToo) {
     EncodeTarget asked = loose(bake);
     const EncodeProblem problem = read_problem(bake, options_, asked);
     SurfaceTarget target = surface_target(problem, asked);
-    const double before =
-        quantise_still(problem, {0.05, target}).error->shape.worst.normal_angle_deg;
+    const double before = quantise_still(problem, {.transfer = 0.05, .surface = target})
+                              .error->shape.worst.normal_angle_deg;
     ASSERT_GT(before, 2.0) << "else this says little";
     target.normal_angle_deg = 1.0;
-    const QuantisedStill still = quantise_still(problem, {0.05, target});
+    const QuantisedStill still = quantise_still(problem, {.transfer = 0.05, .surface = target});
     EXPECT_FALSE(still.mesh->positions.holds_floats());
     EXPECT_LE(still.error->shape.worst.normal_angle_deg, 1.0);
     EXPECT_GT(still.error->shape.worst.normal_angle_deg, 0.7);
@@ -130,10 +130,10 @@ TEST_F(PositionSearch, StepsScaleWithTheStrictestError) {
     const EncodeProblem problem = read_problem(bake, options_, target(bake, 0.05));
     Coding coding;
     coding.positions.quantiser.step = 1.0;
-    const Targets from{0.05, {1.0, 0.1, 5.0}};
-    scale_steps(problem, from, {0.05, {1.1, 0.09, 5.0}}, coding);
+    const Targets from{.transfer = 0.05, .surface = {1.0, 0.1, 5.0}};
+    scale_steps(problem, from, {.transfer = 0.05, .surface = {1.1, 0.09, 5.0}}, coding);
     EXPECT_DOUBLE_EQ(coding.positions.quantiser.step, 0.9);
-    scale_steps(problem, from, {0.05, {1.2, 0.12, 5.5}}, coding);
+    scale_steps(problem, from, {.transfer = 0.05, .surface = {1.2, 0.12, 5.5}}, coding);
     EXPECT_DOUBLE_EQ(coding.positions.quantiser.step, 0.9 * 1.1);
 }
 

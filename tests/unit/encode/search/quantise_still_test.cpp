@@ -94,13 +94,14 @@ TEST_F(QuantiseStill, IsMadeFinerWhereMeasuringFindsItTooCoarse) {
     uint32_t num_transfers = 0, num_positions = 0;
     for (double error = 1e-4; error < 1e-3; error *= 1.2) {
         const double distance = error;
-        // Edges and normals may be what they are.
-        const QuantisedStill first = quantise_still(problem, {error, {distance, 1.0, 180.0}});
+        constexpr double kAny = 1e9;
+        // Edges, normals and single vertices may be what they are.
+        const QuantisedStill first = quantise_still(problem, {error, kAny, {distance, 1.0, 180.0}});
         EXPECT_LE(first.error->transfer.total(), error);
         EXPECT_LE(first.error->geometry.rms(), distance);
         const double less = first.error->transfer.total() * (1.0 - 1e-8);
         const double nearer = first.error->geometry.rms() * (1.0 - 1e-8);
-        const QuantisedStill second = quantise_still(problem, {less, {nearer, 1.0, 180.0}});
+        const QuantisedStill second = quantise_still(problem, {less, kAny, {nearer, 1.0, 180.0}});
         EXPECT_LE(second.error->transfer.total(), less);
         EXPECT_LE(second.error->geometry.rms(), nearer);
         const auto sum_of = [](const ScaledFactors& factors, const LowRank& matrix) {
