@@ -125,7 +125,8 @@ struct Need {
 };
 
 uint64_t reading_bytes(const TargetSize& size, uint32_t num_in_flight) {
-    return encode_memory_bytes(size.streamed, num_in_flight) + Need{size}.factors();
+    const Need need{size};
+    return encode_memory_bytes(size.streamed, num_in_flight) + need.factors() + need.neighbours();
 }
 
 }  // namespace
