@@ -50,7 +50,7 @@ std::optional<RefinedAsset> refine(const EncodeProblem& problem, const Quantised
     if (!positions) return std::nullopt;
     coding.positions = std::move(positions->coding);
     constexpr int kMaxRounds = 8;
-    constexpr double kRoom = 0.985;  // below this share of the target a coarser step is tried
+    constexpr double kRoom = 0.992;  // below this share of the target a coarser step is tried
     const double best_error = problem.best_achievable.transfer.total();
     std::optional<RefinedAsset> best;
     for (int round = 0; round < kMaxRounds; ++round) {
