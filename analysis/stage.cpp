@@ -54,6 +54,7 @@ Bounds bounds_of_poses(const BakeReader& bake) {
     std::vector<float> planes(size_t{3} * bake.identity().num_vertices);
     for (uint32_t p = 0; p < bake.num_poses(); ++p) {
         bake.read_position_rows(p, 0, planes.size(), planes.data());
+        move_to_scene(root_at(bake.identity().root_motion, p), planes);
         bounds.extend(bounds_of_vertices(planes, vertices));
     }
     return bounds;
@@ -107,12 +108,14 @@ Stage::Stage(const BakeReader& bake, std::vector<NamedLight> lights, double azim
 }
 
 std::vector<Image> Stage::render_pose(const DecodedPose& pose) const {
-    std::vector<Vec3f> positions = from_planes(scaled(pose.positions, scale_));
+    std::vector<float> planes = pose.positions;
+    move_to_scene(pose.root, planes);
+    std::vector<Vec3f> positions = from_planes(scaled(std::move(planes), scale_));
     positions.insert(positions.end(), still_positions_.begin(), still_positions_.end());
     std::vector<std::vector<Vec3f>> radiance(lights_.size());
     for (size_t j = 0; j < lights_.size(); ++j) {
         const LightCoefficients& light = lights_[j].coefficients;
-        shade(pose.layout, pose.transfer, bake_.albedo(), light, radiance[j]);
+        shade(pose.layout, pose.transfer, bake_.albedo(), to_local(light, pose.root), radiance[j]);
         if (!bake_.still_mesh()) continue;
         // Light in as many bands as the pose has.
         LightCoefficients kept = light;

@@ -15,11 +15,11 @@ set(runtime_headers
     codec/decode_limits.h
     codec/low_rank.h
     codec/playback.h
-    codec/section_row.h
     codec/stored_values.h
     codec/transfer_model.h
     format/paim/paim_read.h
     light/light.h
+    mesh/root_motion.h
     mesh/topology.h
     paim.h
     sh/index.h

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "compressor/bake/bounces.h"
+#include "compressor/scene/root_motion.h"
 #include "paim/base/error.h"
 #include "paim/cli/help.h"
 #include "paim/cli/parse.h"
@@ -50,6 +51,16 @@ void add_input_options(CLI::App& app, CompressOptions& options, BakeArguments& a
                                  "ones, which are made linear. 'auto' takes them as sRGB if the "
                                  "file names an exporter that writes sRGB (Blender, MeshLab), else "
                                  "as linear. The report says which")
+        ->group(kGroup);
+    cli::add_choice<RootMotionChoice>(
+        app, "--root-motion", options.root_motion,
+        {{"auto", RootMotionChoice::automatic},
+         {"none", RootMotionChoice::none},
+         {"translation", RootMotionChoice::translation},
+         {"rigid", RootMotionChoice::rigid}},
+        "What is taken out of the poses and played back as one transform a pose: the path of the "
+        "body ('translation'), its path and turns ('rigid'), or nothing. 'auto' takes what makes "
+        "the poses much more alike. Poses on a --floor keep their place")
         ->group(kGroup);
 }
 

@@ -10,6 +10,7 @@
 #include "compressor/io/obj_files.h"
 #include "compressor/mesh_warnings.h"
 #include "compressor/scene/floor.h"
+#include "compressor/scene/root_motion.h"
 #include "paim/base/error.h"
 #include "paim/cli/progress.h"
 
@@ -66,6 +67,7 @@ BakeInput::BakeInput(const CompressOptions& options)
     std::tie(first_pose_, last_pose_) = parse_pose_range(options.poses, sequence_.num_poses());
     if (options.floor) add_floor(options);
     for (const std::string& file : options.statics) add_still_mesh(options, file);
+    find_motion(options);
 }
 
 void BakeInput::add_floor(const CompressOptions& options) {
@@ -74,6 +76,15 @@ void BakeInput::add_floor(const CompressOptions& options) {
     measuring.finish();
     on_floor_.emplace(sequence_, bounds, *options.floor);
     surroundings_.floor = on_floor_->description();
+}
+
+// The floor is a part of the poses and does not move with them.
+void BakeInput::find_motion(const CompressOptions& options) {
+    if (on_floor_ || options.root_motion == RootMotionChoice::none) return;
+    cli::Progress finding("finding the root motion", "poses", sequence_.num_poses(),
+                          is_quiet(options));
+    root_motion_ = find_root_motion(sequence_, options.root_motion, [&] { finding.advance(); });
+    finding.finish();
 }
 
 void BakeInput::add_still_mesh(const CompressOptions& options, const std::string& file) {
@@ -88,9 +99,8 @@ void BakeInput::add_still_mesh(const CompressOptions& options, const std::string
     const Topology& mesh = still.topology();
     const auto positions =
         std::span(surroundings_.still_mesh.pose.positions).last(mesh.num_vertices);
-    still_meshes_.push_back(
-        {file, report_topology(mesh), report_pose(mesh, positions), still.vertex_colours(),
-         still.num_inward()});
+    still_meshes_.push_back({file, report_topology(mesh), report_pose(mesh, positions),
+                             still.vertex_colours(), still.num_inward()});
     const StillMeshReport& report = still_meshes_.back();
     print_warnings(still_mesh_warnings(file, report.topology, report.pose));
 }
@@ -117,6 +127,7 @@ BakeReport BakeInput::report() const {
     report.still_triangles = surroundings_.still_mesh.topology.triangles.size();
     report.vertex_colours = sequence_.vertex_colours();
     report.topology = topology_;
+    report.root_motion = root_motion_;
     report.num_inward = sequence_.num_inward();
     report.still_meshes = still_meshes_;
     return report;

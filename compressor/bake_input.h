@@ -21,6 +21,7 @@ class BakeInput {
 
     const PoseSource& poses() const;
     const Surroundings& surroundings() const { return surroundings_; }
+    const RootMotion& root_motion() const { return root_motion_; }
     uint32_t first_pose() const { return first_pose_; }
     uint32_t last_pose() const { return last_pose_; }  // inclusive
 
@@ -32,6 +33,7 @@ class BakeInput {
 
   private:
     void add_floor(const CompressOptions& options);
+    void find_motion(const CompressOptions& options);
     void add_still_mesh(const CompressOptions& options, const std::string& file);
 
     ObjSequence sequence_;
@@ -39,6 +41,7 @@ class BakeInput {
     uint32_t first_pose_ = 0, last_pose_ = 0;
     std::optional<PosesOnFloor> on_floor_;
     Surroundings surroundings_;
+    RootMotion root_motion_;
     std::vector<StillMeshReport> still_meshes_;
 };
 

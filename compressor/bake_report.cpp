@@ -56,6 +56,13 @@ std::string surroundings_text(const BakeReport& report) {
     return text;
 }
 
+std::string root_motion_text(const RootMotion& motion) {
+    if (motion.empty()) return {};
+    const Travel travel = travel_of(motion);
+    return fmt::format("  root motion: the body travels {:.4g} and turns by {:.4g} degrees\n",
+                       travel.distance, travel.angle_deg);
+}
+
 // What the vertex colours of a mesh are taken as; `of` says of which.
 std::string colours_text(const VertexColours& colours, const std::string& of) {
     if (!colours.used) return {};
@@ -98,6 +105,10 @@ ordered_json report_json(const BakeReport& report) {
     if (report.still_vertices > 0) {
         json["scenery_vertices"] = report.still_vertices;
         json["scenery_triangles"] = report.still_triangles;
+    }
+    if (!report.root_motion.empty()) {
+        const Travel travel = travel_of(report.root_motion);
+        json["root_motion"] = {{"distance", travel.distance}, {"angle_deg", travel.angle_deg}};
     }
     json["poses_baked"] = report.summary.baked;
     json["poses_resumed"] = report.summary.resumed;
@@ -142,6 +153,7 @@ std::string report_text(const BakeReport& report) {
                 ? "; no light reaches any vertex\n"
                 : fmt::format("; estimated noise {:.2f} % of the transfer\n", 100.0 * noise);
     text += noise_target_text(report) + bounces_text(report) + surroundings_text(report);
+    text += root_motion_text(report.root_motion);
     text += colours_text(report.vertex_colours, "");
     for (const StillMeshReport& mesh : report.still_meshes) {
         text += colours_text(mesh.vertex_colours, " of " + mesh.file);

@@ -11,6 +11,7 @@
 #include "compressor/bake/bake_sequence.h"
 #include "compressor/io/vertex_colours.h"
 #include "paim/mesh/mesh_report.h"
+#include "paim/mesh/root_motion.h"
 
 namespace paim {
 
@@ -30,9 +31,10 @@ struct BakeReport {
     size_t num_triangles = 0;
     uint32_t num_poses = 0;  // of the whole sequence
     uint32_t first_pose = 0, last_pose = 0;
-    uint32_t channels = 1;  // of the transfer
-    std::string floor;      // description; empty if there is none
-    double origin_y = 0.0;  // y of the origin of the floor's height, scene units
+    uint32_t channels = 1;   // of the transfer
+    RootMotion root_motion;  // that was taken out; empty if none
+    std::string floor;       // description; empty if there is none
+    double origin_y = 0.0;   // y of the origin of the floor's height, scene units
     uint32_t still_vertices = 0;
     size_t still_triangles = 0;
     VertexColours vertex_colours;  // of the poses

@@ -11,6 +11,7 @@
 #include "compressor/encode/options.h"
 #include "compressor/io/vertex_colours.h"
 #include "compressor/scene/floor.h"
+#include "compressor/scene/root_motion.h"
 
 namespace paim {
 
@@ -27,7 +28,8 @@ struct CompressOptions {
     ColourCurve vertex_colours = ColourCurve::automatic;
     std::optional<FloorOptions> floor;
     std::vector<std::string> statics;  // OBJ files of still meshes
-    std::string poses;                 // "A-B", empty for all
+    RootMotionChoice root_motion = RootMotionChoice::automatic;
+    std::string poses;  // "A-B", empty for all
     bool discard_bake = false;
 
     // Encode.

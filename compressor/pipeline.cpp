@@ -64,7 +64,8 @@ BakeReport bake(const CompressOptions& options, const BakeInput& input,
                          options.quiet || options.json);
     report.summary = bake_sequence(
         input.poses(), options.bake, options.normals, directory, input.first_pose(),
-        input.last_pose(), [&](uint32_t) { baking.advance(); }, input.surroundings());
+        input.last_pose(), [&](uint32_t) { baking.advance(); }, input.surroundings(),
+        input.root_motion());
     baking.finish();
     print_warnings(mesh_warnings(report.summary.total.mesh));
     return report;

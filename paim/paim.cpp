@@ -85,6 +85,24 @@ bool has_part(const paim::Asset& asset, uint32_t part) {
     return part < asset.parts.size();
 }
 
+// Copies planes [3][V] of a part as [V][3].
+paim_status copy_points(const char* function, const paim_player* player, uint32_t part,
+                        std::span<const float> (paim::Playback::*planes_of)(size_t) const,
+                        float* xyz, size_t num_floats) {
+    if (player == nullptr || xyz == nullptr) return bad_argument(function, "an argument is null");
+    if (part >= player->playback.num_parts())
+        return bad_argument(function, "there is no such part");
+    if (!player->is_updated) return bad_argument(function, "expected an update before");
+    const std::span<const float> planes = (player->playback.*planes_of)(part);
+    if (num_floats != planes.size())
+        return bad_argument(function, "expected room for 3 floats a vertex");
+    const size_t num_vertices = planes.size() / 3;
+    for (size_t v = 0; v < num_vertices; ++v) {
+        for (size_t axis = 0; axis < 3; ++axis) *xyz++ = planes[axis * num_vertices + v];
+    }
+    return PAIM_OK;
+}
+
 }  // namespace
 
 const char* paim_version(void) {
@@ -207,17 +225,23 @@ paim_status paim_player_update(paim_player* player, double time, const paim_limi
 
 paim_status paim_player_copy_positions(const paim_player* player, uint32_t part, float* xyz,
                                        size_t num_floats) {
-    if (player == nullptr || xyz == nullptr) return bad_argument(__func__, "an argument is null");
+    return copy_points(__func__, player, part, &paim::Playback::positions, xyz, num_floats);
+}
+
+paim_status paim_player_copy_local_positions(const paim_player* player, uint32_t part, float* xyz,
+                                             size_t num_floats) {
+    return copy_points(__func__, player, part, &paim::Playback::local_positions, xyz, num_floats);
+}
+
+paim_status paim_player_get_root(const paim_player* player, uint32_t part, paim_root* root) {
+    if (player == nullptr || root == nullptr) return bad_argument(__func__, "an argument is null");
     if (part >= player->playback.num_parts())
         return bad_argument(__func__, "there is no such part");
     if (!player->is_updated) return bad_argument(__func__, "expected an update before");
-    const std::span<const float> planes = player->playback.positions(part);
-    if (num_floats != planes.size())
-        return bad_argument(__func__, "expected room for 3 floats a vertex");
-    const size_t num_vertices = planes.size() / 3;
-    for (size_t v = 0; v < num_vertices; ++v) {
-        for (size_t axis = 0; axis < 3; ++axis) *xyz++ = planes[axis * num_vertices + v];
-    }
+    const paim::RigidTransform of_part = player->playback.root(part);
+    const Eigen::Quaterniond& q = of_part.rotation;
+    const paim::Vec3d& t = of_part.translation;
+    *root = {{q.w(), q.x(), q.y(), q.z()}, {t.x(), t.y(), t.z()}};
     return PAIM_OK;
 }
 

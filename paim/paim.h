@@ -51,6 +51,12 @@ typedef struct paim_part_info {
     uint32_t num_channels; /* of transfer: 1 grey, 3 coloured */
 } paim_part_info;
 
+/* Where a part stands in the scene. */
+typedef struct paim_root {
+    double rotation[4];    /* unit quaternion w, x, y, z */
+    double translation[3]; /* scene units */
+} paim_root;
+
 /* How much of the file to use; larger numbers than it has mean all. paim_no_limits() sets every member
  * to the largest number. */
 typedef struct paim_limits {
@@ -106,6 +112,12 @@ PAIM_EXPORT paim_status paim_player_update(paim_player* player, double time,
  *           light's spherical harmonics ring */
 PAIM_EXPORT paim_status paim_player_copy_positions(const paim_player* player, uint32_t part,
                                                    float* xyz, size_t num_floats);
+/* Positions before the part was moved to its place, for bodies that travel so far that floats of the
+ * scene are too coarse for their shape: scene = rotation * local + translation. */
+PAIM_EXPORT paim_status paim_player_copy_local_positions(const paim_player* player, uint32_t part,
+                                                         float* xyz, size_t num_floats);
+PAIM_EXPORT paim_status paim_player_get_root(const paim_player* player, uint32_t part,
+                                             paim_root* root);
 PAIM_EXPORT paim_status paim_player_copy_radiance(const paim_player* player, uint32_t part,
                                                   float* rgb, size_t num_floats);
 

@@ -73,7 +73,10 @@ void scale_to_unit(Asset& asset) {
     }
     const float scale = unit_scale(largest);
     if (scale == 1.0f) return;
-    for (CodedMesh& part : asset.parts) multiply(part.positions, scale);
+    for (CodedMesh& part : asset.parts) {
+        multiply(part.positions, scale);
+        for (RigidTransform& root : part.root_motion) root.translation *= double{scale};
+    }
     asset.origin *= double{scale};
 }
 

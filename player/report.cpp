@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "paim/codec/section_row.h"
 #include "paim/codec/sequence_bounds.h"
 #include "player/render/codec_words.h"
 #include "player/render/cost.h"

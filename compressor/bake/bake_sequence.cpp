@@ -5,6 +5,7 @@
 #include <future>
 #include <ranges>
 
+#include "compressor/bake/local_pose.h"
 #include "compressor/scene/isolated_at_rest.h"
 #include "paim/base/check.h"
 #include "paim/base/parallel.h"
@@ -16,22 +17,28 @@ namespace {
 // Reads a pose while another one is baked, because reading uses one core only.
 class ReadAhead {
   public:
-    explicit ReadAhead(const PoseSource& source) : source_(source) {}
+    // near_body  whether positions are relative to the offsets of poses, or to the origin
+    ReadAhead(const PoseSource& source, bool near_body) : source_(source), near_body_(near_body) {}
 
     void start(uint32_t p) {
         if (max_parallelism() < 2) return;
         pose_number_ = p;
-        pose_ = std::async(std::launch::async, [this, p] { return source_.load_pose(p); });
+        pose_ = std::async(std::launch::async, [this, p] { return load(p); });
     }
 
     // Returns pose p, whether reading it was started or not. Errors: those of the source.
     Pose take(uint32_t p) {
         if (pose_.valid() && pose_number_ == p) return pose_.get();
-        return source_.load_pose(p);
+        return load(p);
     }
 
   private:
+    Pose load(uint32_t p) const {
+        return near_body_ ? source_.load_pose(p) : load_from_origin(source_, p);
+    }
+
     const PoseSource& source_;
+    const bool near_body_;
     uint32_t pose_number_ = 0;
     std::future<Pose> pose_;
 };
@@ -39,7 +46,8 @@ class ReadAhead {
 }  // namespace
 
 BakeIdentity bake_identity(const PoseSource& source, const BakeOptions& options,
-                           const std::string& normals, const Surroundings& surroundings) {
+                           const std::string& normals, const Surroundings& surroundings,
+                           const RootMotion& root_motion) {
     BakeIdentity identity;
     identity.baker = kBakerVersion;
     identity.layout = TransferBaker::bake_layout(options, source.albedo(), surroundings.still_mesh);
@@ -56,6 +64,7 @@ BakeIdentity bake_identity(const PoseSource& source, const BakeOptions& options,
     identity.num_triangles = static_cast<uint32_t>(source.topology().triangles.size());
     identity.mesh_xxh3 = mesh_checksum(source.topology(), source.albedo());
     identity.origin = source.origin();
+    identity.root_motion = root_motion;
     for (uint32_t p = 0; p < source.num_poses(); ++p) {
         // The name without its folder, so that a bake does not depend on the place of the files.
         const std::string name = std::filesystem::path(source.pose_name(p)).filename().string();
@@ -68,11 +77,13 @@ BakeSummary bake_sequence(const PoseSource& given, const BakeOptions& options,
                           const std::string& normals, const std::filesystem::path& directory,
                           uint32_t first, uint32_t last,
                           const std::function<void(uint32_t)>& on_pose,
-                          const Surroundings& surroundings) {
+                          const Surroundings& surroundings, const RootMotion& root_motion) {
+    PAIM_CHECK(root_motion.empty() || root_motion.size() == given.num_poses());
     PAIM_CHECK_LE(first, last);
     PAIM_CHECK_LT(last, given.num_poses());
     const IsolatedAtRest source(given);
-    const BakeIdentity identity = bake_identity(source, options, normals, surroundings);
+    const BakeIdentity identity =
+        bake_identity(source, options, normals, surroundings, root_motion);
     const BakeWriter writer(directory, identity, source.topology(), source.albedo());
     TransferBaker baker(options, source.albedo(), surroundings.still_mesh);
     const auto lacks = [&](uint32_t p) { return !writer.has_pose(p); };
@@ -86,7 +97,9 @@ BakeSummary bake_sequence(const PoseSource& given, const BakeOptions& options,
             if (!found) writer.write_still_mesh({still_mesh.topology, still_mesh.albedo, baked});
         }
     }
-    ReadAhead ahead(source);
+    // Rays are traced in the coordinates of the still meshes, or else near the body.
+    const bool near_body = !root_motion.empty() && surroundings.still_mesh.empty();
+    ReadAhead ahead(source, near_body);
     BakeSummary summary;
     std::vector<PoseStatistics> poses;
     for (uint32_t p = first; p <= last; ++p) {
@@ -99,6 +112,10 @@ BakeSummary bake_sequence(const PoseSource& given, const BakeOptions& options,
             if (p < last && !writer.has_pose(p + 1)) ahead.start(p + 1);
             BakedPose baked = baker.bake(source.topology(), pose, p);
             baked.statistics.mesh = report_pose(source.topology(), pose.positions);
+            if (!root_motion.empty()) {
+                const Vec3d offset = near_body ? source.pose_offset(p) : Vec3d::Zero();
+                move_to_local(root_motion[p], offset, identity.layout, baked);
+            }
             writer.write_pose(p, baked);
             statistics = baked.statistics;
             ++summary.baked;

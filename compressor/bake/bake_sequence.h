@@ -10,6 +10,7 @@
 #include "compressor/scene/still_mesh.h"
 #include "paim/format/bake/bake_directory.h"
 #include "paim/mesh/pose_source.h"
+#include "paim/mesh/root_motion.h"
 
 namespace paim {
 
@@ -26,16 +27,22 @@ struct Surroundings {
 };
 
 // The identity of this bake: everything that decides its bytes.
+// root_motion  of all poses, relative to the origin of the source (scene/root_motion.h); or empty
 BakeIdentity bake_identity(const PoseSource& source, const BakeOptions& options,
-                           const std::string& normals, const Surroundings& surroundings = {});
+                           const std::string& normals, const Surroundings& surroundings = {},
+                           const RootMotion& root_motion = {});
 
-// Bakes the poses first … last (inclusive) and the still mesh, unless they are baked already.
+// Bakes the poses first … last (inclusive) and the still mesh, unless they are baked already. With a
+// root motion the bake holds poses in local coordinates. Where the source has offsets of poses
+// (PoseSource::pose_offset) there must be a root motion, or the positions are relative to the origin
+// in floats.
 // on_pose   called with the number of each pose once it is baked or found
 // Errors: those of BakeWriter, of the source and of RayScene. Finished poses stay in any case.
 BakeSummary bake_sequence(const PoseSource& source, const BakeOptions& options,
                           const std::string& normals, const std::filesystem::path& directory,
                           uint32_t first, uint32_t last,
                           const std::function<void(uint32_t)>& on_pose,
-                          const Surroundings& surroundings = {});
+                          const Surroundings& surroundings = {},
+                          const RootMotion& root_motion = {});
 
 }  // namespace paim

@@ -38,6 +38,7 @@ Asset asset_shell(const BakeReader& bake, const EncodeOptions& options) {
     mesh.topology = bake.topology();
     mesh.albedo = bake.albedo();
     mesh.layout = bake.identity().layout.with_bands(options.bands);
+    mesh.root_motion = bake.identity().root_motion;
     auto still = still_part(bake, mesh.layout.in_bands);
     asset.moving() = std::move(mesh);
     if (still) asset.parts.push_back(std::move(*still));

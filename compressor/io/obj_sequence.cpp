@@ -48,6 +48,7 @@ ObjSequence::ObjSequence(std::vector<std::filesystem::path> files, const ObjOpti
 // Returns the triangles of the faces.
 Triangulation ObjSequence::check_files() {
     checksums_.resize(files_.size());
+    offsets_.assign(files_.size(), Vec3d::Zero());
     std::vector<BoundsD> bounds(files_.size());  // of vertices of faces
     std::optional<Triangulator> triangulator;
     std::mutex places_mutex;
@@ -64,7 +65,7 @@ Triangulation ObjSequence::check_files() {
             triangulator->review(static_cast<uint32_t>(i), scan.positions, origin);
         } else {
             origin_ = origin;  // of this file; that of all is not known yet
-            const std::vector<Vec3f> positions = local(scan.positions);
+            const std::vector<Vec3f> positions = local(0, scan.positions);
             scan.positions = {};
             first_ = std::move(scan);
             triangulator.emplace(first_.faces, positions);
@@ -94,6 +95,7 @@ Triangulation ObjSequence::check_files() {
     for (const BoundsD& of_file : bounds) all.extend(of_file);
     check_size(all);
     origin_ = options_.origin.value_or(choose_origin(all));
+    if (!options_.origin) choose_offsets(bounds);
     for (size_t i = 0; i < files_.size(); ++i) check_local(i, bounds[i]);
     return triangulator->finish();
 }
@@ -127,17 +129,30 @@ void ObjSequence::check_size(const BoundsD& bounds) const {
 // enough.
 void ObjSequence::check_local(size_t file, const BoundsD& bounds) const {
     if (bounds.empty()) return;
-    for (const Vec3f& corner : local({bounds.lower, bounds.upper})) {
+    for (const Vec3f& corner : local(file, {bounds.lower, bounds.upper})) {
         if (corner.allFinite()) continue;
         throw_bad_input("{}: coordinates are too large when counted from the origin ({}, {}, {})",
                         files_[file].string(), origin_.x(), origin_.y(), origin_.z());
     }
 }
 
-// Subtracts the origin in double, then rounds to float.
-std::vector<Vec3f> ObjSequence::local(const std::vector<Vec3d>& positions) const {
+// Poses that are far from the origin of all get origins of their own.
+// bounds  of the faces of each file
+void ObjSequence::choose_offsets(const std::vector<BoundsD>& bounds) {
+    for (size_t i = 0; i < bounds.size(); ++i) {
+        if (bounds[i].empty()) continue;
+        BoundsD from_origin;
+        from_origin.extend(bounds[i].lower - origin_);
+        from_origin.extend(bounds[i].upper - origin_);
+        offsets_[i] = choose_origin(from_origin);
+    }
+}
+
+// Subtracts origin and offset in double, then rounds to float.
+std::vector<Vec3f> ObjSequence::local(size_t file, const std::vector<Vec3d>& positions) const {
+    const Vec3d origin = origin_ + offsets_[file];
     std::vector<Vec3f> moved(positions.size());
-    for (size_t v = 0; v < moved.size(); ++v) moved[v] = (positions[v] - origin_).cast<float>();
+    for (size_t v = 0; v < moved.size(); ++v) moved[v] = (positions[v] - origin).cast<float>();
     return moved;
 }
 
@@ -180,7 +195,7 @@ void ObjSequence::build(Triangulation cut) {
     const std::string name = pose_name(0);
     warnings_ = std::move(parsed.warnings);
 
-    const std::vector<Vec3f> positions = local(parsed.positions);
+    const std::vector<Vec3f> positions = local(0, parsed.positions);
     if (cut.triangles.empty()) {
         throw_bad_input("{}: no faces with three different vertices", name);
     }
@@ -255,7 +270,7 @@ Pose ObjSequence::load_pose(uint32_t p) const {
     PAIM_CHECK_LT(p, num_poses());
     const ParsedObj parsed = parse(p);
     Pose pose;
-    pose.positions = local(parsed.positions);
+    pose.positions = local(p, parsed.positions);
     pose.normals = options_.normals_from_file
                        ? obj_normals(distinct_, first_.faces, parsed, pose.positions)
                        : vertex_normals(distinct_, pose.positions, seams_);

@@ -53,6 +53,9 @@ class ObjSequence : public PoseSource {
     uint32_t num_poses() const override { return static_cast<uint32_t>(files_.size()); }
     // The origin of the options, or one chosen from the bounds of all poses (mesh/origin.h).
     Vec3d origin() const override { return origin_; }
+    // A pose that is far from this origin has another one near its centre, by the same rule, unless
+    // the options give the origin.
+    Vec3d pose_offset(uint32_t p) const override { return offsets_[p]; }
     std::string pose_name(uint32_t p) const override;   // the path as given
     uint64_t pose_checksum(uint32_t p) const override;  // of the bytes of the file
     // Error (bad input) if the file has changed since the sequence was opened.
@@ -77,13 +80,15 @@ class ObjSequence : public PoseSource {
     ParsedObj parse(uint32_t p) const;
     ParsedObj parse_first();
     std::vector<char> read_unchanged(uint32_t p) const;
-    std::vector<Vec3f> local(const std::vector<Vec3d>& positions) const;
+    std::vector<Vec3f> local(size_t file, const std::vector<Vec3d>& positions) const;
+    void choose_offsets(const std::vector<BoundsD>& bounds);
 
     std::vector<std::filesystem::path> files_;
     ObjOptions options_;
     ObjScan first_;  // scan of the first file
     std::vector<uint64_t> checksums_;
     Vec3d origin_ = Vec3d::Zero();
+    std::vector<Vec3d> offsets_;  // of the poses, from the origin
     Topology topology_;
     Topology distinct_;  // without duplicate faces, for the normals
     // Vertices that share places (mesh/places.h): in the first file, and in every one. Until seams

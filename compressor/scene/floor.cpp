@@ -112,7 +112,7 @@ Bounds bounds_of(const PoseSource& source, const std::function<void()>& on_pose)
     Bounds all;
     std::mutex mutex;
     parallel_for(source.num_poses(), 1, [&](size_t p, size_t) {
-        const Pose pose = source.load_pose(static_cast<uint32_t>(p));
+        const Pose pose = load_from_origin(source, static_cast<uint32_t>(p));
         Bounds bounds;
         for (const Triangle& triangle : source.topology().triangles) {
             for (const uint32_t v : triangle) bounds.extend(pose.positions[v]);
@@ -152,7 +152,7 @@ uint64_t PosesOnFloor::pose_checksum(uint32_t p) const {
 }
 
 Pose PosesOnFloor::load_pose(uint32_t p) const {
-    Pose pose = source_.load_pose(p);
+    Pose pose = load_from_origin(source_, p);
     pose.positions.insert(pose.positions.end(), floor_.positions.begin(), floor_.positions.end());
     pose.normals.resize(pose.positions.size(), Vec3f::UnitY());
     return pose;

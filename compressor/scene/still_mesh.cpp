@@ -26,7 +26,7 @@ uint64_t checksum(const PoseSource& source, const Pose& pose) {
 
 void StillMesh::add(const PoseSource& given) {
     const IsolatedAtRest source(given);
-    const Pose own = source.load_pose(0);
+    const Pose own = load_from_origin(source, 0);
     const uint32_t num_own = source.topology().num_vertices;
     const std::string name = source.pose_name(0);
     if (num_own > std::numeric_limits<int32_t>::max() - topology.num_vertices) {

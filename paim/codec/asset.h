@@ -9,6 +9,7 @@
 #include "paim/base/check.h"
 #include "paim/codec/low_rank.h"
 #include "paim/codec/transfer_model.h"
+#include "paim/mesh/root_motion.h"
 #include "paim/mesh/topology.h"
 #include "paim/transfer/layout.h"
 
@@ -25,8 +26,9 @@ struct CodedMesh {
     Topology topology;
     Albedo albedo;
     TransferLayout layout;
-    LowRank positions;       // 3 planes: x, y, z, scene units; a point is a vertex
-    CodedTransfer transfer;  // of layout.num_planes() planes
+    LowRank positions;       // 3 planes: local x, y, z, scene units; a point is a vertex
+    CodedTransfer transfer;  // of layout.num_planes() planes, in local axes
+    RootMotion root_motion;  // from local coordinates to the scene, [P] or empty
 
     // 1 for a still part. An attribute with a single pose has the same values at all times.
     uint32_t num_poses() const {

@@ -14,8 +14,9 @@ namespace paim {
 // One rebuilt pose.
 struct DecodedPose {
     TransferLayout layout;         // with the bands within the limits
-    std::vector<float> positions;  // [3][V] scene units
-    std::vector<float> transfer;   // [layout.num_planes()][V]
+    std::vector<float> positions;  // [3][V] local coordinates, scene units
+    std::vector<float> transfer;   // [layout.num_planes()][V] in local axes
+    RigidTransform root;           // from local coordinates to the scene
 };
 
 // Keeps scratch memory; each thread needs its own decoder.

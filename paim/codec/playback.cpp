@@ -26,30 +26,43 @@ struct Playback::Part {
     explicit Part(const CodedMesh& coded)
         : mesh(coded),
           centre(centre_of(coded)),
+          root(root_at(coded.root_motion, 0.0)),
           player(coded.transfer->make_player(coded.layout)) {}
 
     void update(double new_time, const DecodeLimits& new_limits) {
         const bool moved = time != new_time;
+        if (moved) root = root_at(mesh.root_motion, new_time);
         if (moved || limits.geometry_components != new_limits.geometry_components) {
             decoder.decode(mesh.positions, new_time, new_limits.geometry_components, positions);
+            place();
         }
         if (light.bands > 0 && (moved || !is_lit || limits != new_limits)) {
-            player->light(new_time, new_limits, light, mesh.albedo, radiance);
+            player->light(new_time, new_limits, to_local(light, root), mesh.albedo, radiance);
             is_lit = true;
         }
         time = new_time;
         limits = new_limits;
     }
 
+    void place() {
+        if (mesh.root_motion.empty()) return;
+        scene_positions = positions;
+        move_to_scene(root, scene_positions);
+    }
+
+    Vec3f centre_in_scene() const { return root.to_scene(centre.cast<double>()).cast<float>(); }
+
     const CodedMesh& mesh;
-    Vec3f centre;
+    Vec3f centre;  // local coordinates
+    RigidTransform root;
     PositionDecoder decoder;
     std::unique_ptr<TransferPlayer> player;
     LightCoefficients light;
     bool is_lit = false;         // whether the radiance is up to date with the light
     std::optional<double> time;  // of positions and radiance
     DecodeLimits limits;
-    std::vector<float> positions;
+    std::vector<float> positions;        // local
+    std::vector<float> scene_positions;  // only where there is a root motion
     std::vector<Vec3f> radiance;
 };
 
@@ -78,7 +91,7 @@ size_t Playback::num_parts() const {
 
 void Playback::set_light(const LightField& light) {
     for (Part& part : state_->parts) {
-        part.light = light.at(part.centre, static_cast<int>(part.mesh.layout.in_bands));
+        part.light = light.at(part.centre_in_scene(), static_cast<int>(part.mesh.layout.in_bands));
         part.is_lit = false;
     }
 }
@@ -91,7 +104,18 @@ void Playback::update(double time, const DecodeLimits& limits) {
 
 std::span<const float> Playback::positions(size_t part) const {
     PAIM_CHECK_LT(part, num_parts());
+    const Part& of = state_->parts[part];
+    return of.mesh.root_motion.empty() ? of.positions : of.scene_positions;
+}
+
+std::span<const float> Playback::local_positions(size_t part) const {
+    PAIM_CHECK_LT(part, num_parts());
     return state_->parts[part].positions;
+}
+
+RigidTransform Playback::root(size_t part) const {
+    PAIM_CHECK_LT(part, num_parts());
+    return state_->parts[part].root;
 }
 
 std::span<const Vec3f> Playback::radiance(size_t part) const {

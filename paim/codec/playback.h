@@ -14,7 +14,8 @@ namespace paim {
 
 // A Playback has scratch memory of its own, so each thread needs one; any number may share an
 // asset. update() computes only what changed: nothing if time, limits and light are the same, the
-// light alone if only the light is new.
+// light alone if only the light is new. Where a part has a root motion (mesh/root_motion.h), its
+// positions are moved to the scene and the light is turned into its axes.
 class PAIM_EXPORT Playback {
   public:
     // asset  with at least one part (checked), as read_paim() returns it
@@ -27,7 +28,9 @@ class PAIM_EXPORT Playback {
     size_t num_parts() const;
 
     // Lights all parts from the next update() on. The light of a part is the field at the centre of
-    // the mean positions of its faces, in as many bands as the part has. The field is not kept.
+    // the mean positions of its faces, where the last update() put it (or the first pose), in as
+    // many bands as the part has. The field is not kept: call this again where it differs from place
+    // to place.
     void set_light(const LightField& light);
 
     // Computes positions and radiance at `time` in poses, clamped to 0 … P−1. Fractions lie between
@@ -37,6 +40,10 @@ class PAIM_EXPORT Playback {
     // Results of the last update(), valid until the next one.
     // returns  [3][V]: all x, then all y, then all z, scene units
     std::span<const float> positions(size_t part = 0) const;
+    // The same before they were moved to the scene: for bodies that travel so far that floats of
+    // the scene are too coarse for their shape.
+    std::span<const float> local_positions(size_t part = 0) const;
+    RigidTransform root(size_t part = 0) const;
     // returns  [V] linear RGB; empty if no light was set
     std::span<const Vec3f> radiance(size_t part = 0) const;
 

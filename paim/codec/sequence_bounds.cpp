@@ -39,15 +39,16 @@ Bounds still_bounds(const Asset& asset) {
 class MovingBounds {
   public:
     explicit MovingBounds(const CodedMesh& mesh)
-        : positions_(mesh.positions), vertices_(face_vertices(mesh.topology)) {}
+        : mesh_(mesh), vertices_(face_vertices(mesh.topology)) {}
 
     Bounds at(double time, uint32_t num_components) {
-        decoder_.decode(positions_, time, num_components, planes_);
+        decoder_.decode(mesh_.positions, time, num_components, planes_);
+        move_to_scene(root_at(mesh_.root_motion, time), planes_);
         return bounds_of_vertices(planes_, vertices_);
     }
 
   private:
-    const LowRank& positions_;
+    const CodedMesh& mesh_;
     const std::vector<uint32_t> vertices_;
     PositionDecoder decoder_;
     std::vector<float> planes_;

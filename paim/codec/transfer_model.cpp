@@ -6,6 +6,7 @@
 
 #include "paim/codec/frame_cost.h"
 #include "paim/codec/rebuild_planes.h"
+#include "paim/codec/section_row.h"
 #include "paim/codec/transfer_player.h"
 #include "paim/shade/shade.h"
 
@@ -69,6 +70,18 @@ std::unique_ptr<TransferPlayer> TransferModel::make_player(const TransferLayout&
 
 uint64_t TransferModel::vertex_bytes(uint32_t) const {
     return 0;
+}
+
+std::vector<NamedNumber> TransferModel::numbers() {
+    return {};
+}
+
+std::vector<NamedNumber> TransferModel::numbers() const {
+    return const_cast<TransferModel*>(this)->numbers();
+}
+
+std::vector<SectionRow> TransferModel::sections() {
+    return {};
 }
 
 }  // namespace paim

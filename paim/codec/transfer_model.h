@@ -19,12 +19,13 @@
 #include "paim/base/export.h"
 #include "paim/codec/decode_limits.h"
 #include "paim/codec/low_rank.h"
-#include "paim/codec/section_row.h"
 #include "paim/transfer/layout.h"
 
 namespace paim {
 
 struct FrameCost;      // codec/frame_cost.h
+struct NamedNumber;    // codec/section_row.h
+struct SectionRow;     // the same
 class TransferPlayer;  // codec/transfer_player.h
 
 class PAIM_EXPORT TransferModel {
@@ -70,16 +71,16 @@ class PAIM_EXPORT TransferModel {
     virtual std::vector<Eigen::MatrixXd> point_metrics() const { return {}; }
 
     // The numbers of the metadata that this codec has, in the order of the file.
-    virtual std::vector<NamedNumber> numbers() { return {}; }
+    virtual std::vector<NamedNumber> numbers();
     // The same numbers, to be read only.
-    std::vector<NamedNumber> numbers() const { return const_cast<TransferModel*>(this)->numbers(); }
+    std::vector<NamedNumber> numbers() const;
     // Called when the numbers have been read.
     // num_vertices  of the mesh
     // returns       number of points of the matrix
     virtual uint32_t start(uint32_t num_vertices) = 0;
     // The sections in addition to those of the matrix, in the order of the file. Called after
     // start().
-    virtual std::vector<SectionRow> sections() { return {}; }
+    virtual std::vector<SectionRow> sections();
     // Whether files store these sections packed even if all their values are floats.
     virtual bool always_packed() const { return false; }
 

@@ -5,6 +5,7 @@
 
 #include "paim/base/export.h"
 #include "paim/base/vector.h"
+#include "paim/mesh/root_motion.h"
 #include "paim/sh/index.h"
 
 namespace paim {
@@ -35,6 +36,12 @@ class PAIM_EXPORT DistantLight : public LightField {
   private:
     LightCoefficients coefficients_;
 };
+
+// The light turned by a rotation of the scene: what came from ω comes from rotation · ω.
+LightCoefficients turn(const LightCoefficients& light, const Eigen::Matrix3d& rotation);
+
+// Light of the scene in the local axes of a mesh that stands there like this.
+LightCoefficients to_local(const LightCoefficients& light, const RigidTransform& root);
 
 // Coefficients of the light rotated about +Y by the angle, counter-clockwise seen from above, as by
 // the option --env-rotation of the tools.

@@ -11,7 +11,8 @@
 namespace paim {
 
 struct Pose {
-    // [V] scene units, relative to the sequence's origin; finite where a face has the vertex
+    // [V] scene units, relative to the sequence's origin and the offset of the pose; finite where a
+    // face has the vertex
     std::vector<Vec3f> positions;
     std::vector<Vec3f> normals;  // [V] unit; zero where a vertex has no face of any area
 };
@@ -28,6 +29,10 @@ class PoseSource {
     // Zero unless the mesh is far from the world's origin (mesh/origin.h).
     virtual Vec3d origin() const { return Vec3d::Zero(); }
 
+    // What is added to the positions of pose p, in double, to make them relative to the origin. Zero
+    // unless the mesh travels so far that its poses need origins of their own (mesh/origin.h).
+    virtual Vec3d pose_offset(uint32_t /*p*/) const { return Vec3d::Zero(); }
+
     // A name for messages and manifests: a file name, or what made the pose.
     virtual std::string pose_name(uint32_t p) const = 0;
 
@@ -38,5 +43,9 @@ class PoseSource {
     // Reads pose p < num_poses(). May be called from several threads at once.
     virtual Pose load_pose(uint32_t p) const = 0;
 };
+
+// Pose p with positions relative to the origin, which floats of a mesh that travels far hold less
+// exactly.
+Pose load_from_origin(const PoseSource& source, uint32_t p);
 
 }  // namespace paim

@@ -39,6 +39,11 @@ std::vector<uint32_t> check_same_part(const Asset& asset, size_t number, const B
     std::vector<uint32_t> old_vertex = match_vertices(
         mesh.topology, asset.vertex_order, baked.topology(), bake.directory().string(),
         still ? "triangles of the still meshes" : "triangles");
+    // Positions and transfer are compared in local coordinates.
+    if (mesh.root_motion != baked.root_motion()) {
+        throw_bad_input("{}: expected a file made from this bake, got one of another root motion",
+                        bake.directory().string());
+    }
     const TransferLayout& layout = bake.identity().layout;
     if (mesh.layout.kind != layout.kind || mesh.layout.in_bands > layout.in_bands ||
         (mesh.layout.channels != 1 && mesh.layout.channels != layout.channels)) {

@@ -6,7 +6,7 @@
 
 #include "paim/base/error.h"
 #include "player/gl/check.h"
-#include "player/render/clip_from_world.h"
+#include "player/render/clip_from_local.h"
 #include "player/render/depth_range.h"
 #include "player/render/plan_upload.h"
 #include "player/render/value_textures.h"
@@ -56,9 +56,10 @@ void MeshRenderer::upload_triangles() {
 }
 
 void MeshRenderer::draw(const Frame& frame, const LightCoefficients& light, float aspect) {
+    const RigidTransform root = root_at(mesh_.root_motion, frame.time);
     program_.use();
     int unit = geometry_.bind(program_, 0, frame.time, frame.limits.geometry_components);
-    unit = transfer_->bind(program_, unit, frame, light);
+    unit = transfer_->bind(program_, unit, frame, to_local(light, root));
     program_.set_texture("albedo", unit, albedo_.handle());
     program_.set("width_log2", plan_.width_log2);
     program_.set("num_vertices", static_cast<int>(mesh_.topology.num_vertices));
@@ -66,7 +67,8 @@ void MeshRenderer::draw(const Frame& frame, const LightCoefficients& light, floa
     const LowRank& geometry = mesh_.positions;
     program_.set("geometry_step", Vec3f(geometry.step(0), geometry.step(1), geometry.step(2)));
     const DepthRange depth = depth_range(frame.camera, frame.bounds);
-    program_.set("clip_from_world", clip_from_world(frame.camera, aspect, depth, frame.region));
+    program_.set("clip_from_local",
+                 clip_from_local(frame.camera, aspect, depth, frame.region, root));
 
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);

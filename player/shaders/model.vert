@@ -24,7 +24,7 @@ uniform int num_geometry_int16;  // components in use
 uniform int num_geometry_int8;
 uniform int albedo_stride;  // 1, or 0 where one value serves all
 uniform vec3 geometry_step;
-uniform mat4 clip_from_world;
+uniform mat4 clip_from_local;
 
 out vec3 vertex_radiance;
 
@@ -133,5 +133,5 @@ vec3 shade(int v) {
 void main() {
     int v = gl_VertexID;
     vertex_radiance = shade(v) * fetch(albedo, v * albedo_stride).rgb;
-    gl_Position = clip_from_world * rebuild_position(v);
+    gl_Position = clip_from_local * rebuild_position(v);
 }

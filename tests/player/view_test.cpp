@@ -10,7 +10,7 @@
 #include <string>
 #include <tuple>
 
-#include "player/render/clip_from_world.h"
+#include "player/render/clip_from_local.h"
 #include "player/render/cost.h"
 #include "player/render/depth_range.h"
 #include "player/ui/keys.h"
@@ -275,7 +275,7 @@ TEST(OrbitCamera, MovesWithTheMouse) {
 TEST(ClipFromWorld, SeesWhatTheRaysOfTheCameraSee) {
     const float aspect = 1.5f;
     const Camera camera = frame_bounds(unit_bounds(), aspect);
-    const glm::mat4 to_clip = clip_from_world(camera, aspect, {0.1f, 100.0f});
+    const glm::mat4 to_clip = clip_from_local(camera, aspect, {0.1f, 100.0f});
     for (const auto& [u, v] : {std::pair{0.5f, 0.5f}, {0.1f, 0.9f}, {0.99f, 0.3f}}) {
         const Vec3f point = camera.eye + 5.0f * camera.ray_direction(u, v, aspect);
         const glm::vec4 clip = to_clip * glm::vec4(point.x(), point.y(), point.z(), 1.0f);
@@ -287,7 +287,7 @@ TEST(ClipFromWorld, SeesWhatTheRaysOfTheCameraSee) {
 TEST(DepthRange, HoldsTheBounds) {
     const Camera camera = frame_bounds(unit_bounds(), 1.0f, 0.5f, 0.3f);
     const DepthRange range = depth_range(camera, unit_bounds());
-    const glm::mat4 to_clip = clip_from_world(camera, 1.0f, range);
+    const glm::mat4 to_clip = clip_from_local(camera, 1.0f, range);
     for (int corner = 0; corner < 8; ++corner) {
         const Bounds bounds = unit_bounds();
         const glm::vec4 world((corner & 1) ? bounds.lower.x() : bounds.upper.x(),

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "paim/codec/codecs.h"
+#include "paim/codec/section_row.h"
 #include "paim/codec/transfer_model.h"
 
 namespace paim::toy {

@@ -58,6 +58,7 @@ Asset make_shell(const BakeReader& bake, const EncodeOptions& options, const Tra
     mesh.albedo = in_order(bake.albedo(), order.old_vertex);
     mesh.layout = layout;
     mesh.positions.num_poses = bake.num_poses();
+    mesh.root_motion = bake.identity().root_motion;
     if (auto still = still_part(bake, layout.in_bands)) {
         shell.parts.push_back(in_cache_order(std::move(*still)));
     }

@@ -6,6 +6,7 @@
 
 #include "paim/codec/cpca/vertex_clusters.h"
 #include "paim/codec/frame_cost.h"
+#include "paim/codec/section_row.h"
 #include "paim/codec/transfer_model.h"
 #include "paim/codec/transfer_player.h"
 

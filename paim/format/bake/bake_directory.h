@@ -12,6 +12,7 @@
 #include "paim/format/bake/pose_statistics.h"
 #include "paim/format/container/container_reader.h"
 #include "paim/mesh/pose_source.h"
+#include "paim/mesh/root_motion.h"
 #include "paim/transfer/layout.h"
 
 namespace paim {
@@ -31,7 +32,8 @@ struct BakeIdentity {
     uint32_t num_vertices = 0;
     uint32_t num_triangles = 0;
     uint64_t mesh_xxh3 = 0;        // of triangles and albedo
-    Vec3d origin = Vec3d::Zero();  // origin of positions, scene units
+    Vec3d origin = Vec3d::Zero();  // origin of the scene's coordinates, scene units
+    RootMotion root_motion;        // [P] or empty: poses are in local coordinates
     struct Source {
         std::string name;
         uint64_t xxh3 = 0;
@@ -47,7 +49,8 @@ struct BakeIdentity {
 // Checksum of the triangles and the albedo, which all poses share.
 uint64_t mesh_checksum(const Topology& topology, const Albedo& albedo);
 
-// One baked pose. Planes as in transfer/layout.h.
+// One baked pose, in its local coordinates and axes where the bake has a root motion. Planes as in
+// transfer/layout.h.
 struct BakedPose {
     std::vector<float> positions;  // [3][V] scene units
     std::vector<float> normals;    // [3][V]

@@ -12,6 +12,7 @@
 #include "paim/base/json_text.h"
 #include "paim/codec/asset.h"
 #include "paim/format/container/metadata.h"
+#include "paim/format/container/root_numbers.h"
 
 namespace paim {
 
@@ -20,6 +21,8 @@ using nlohmann::ordered_json;
 namespace {
 
 constexpr uint32_t kManifestVersion = 2;
+// With a root motion, so that readers which know nothing of it refuse the bake.
+constexpr uint32_t kRootMotionVersion = 3;
 constexpr uint32_t kMaxCount = std::numeric_limits<int32_t>::max();
 constexpr uint64_t kMaxSizeBytes = 64 << 20;
 
@@ -39,6 +42,13 @@ uint64_t parse_hex(const std::string& text, const std::string& file, const char*
 
 std::string shown(const Vec3d& point) {
     return fmt::format("({}, {}, {})", point.x(), point.y(), point.z());
+}
+
+std::string shown(const RootMotion& motion) {
+    if (motion.empty()) return "none";
+    const std::vector<double> numbers = root_numbers(motion);
+    const uint64_t checksum = xxh3(numbers.data(), numbers.size() * sizeof(double));
+    return fmt::format("one of checksum {}", hex(checksum));
 }
 
 // The first difference of two lists of the same length, in words; empty if there is none.
@@ -62,7 +72,7 @@ std::string as_manifest_text(const std::string& text) {
 std::string manifest_text(const BakeIdentity& identity) {
     ordered_json json;
     json["format"] = "paim-bake";
-    json["version"] = kManifestVersion;
+    json["version"] = identity.root_motion.empty() ? kManifestVersion : kRootMotionVersion;
     json["baker"] = identity.baker;
     json["transfer_kind"] = "diffuse";
     json["bands"] = identity.layout.in_bands;
@@ -84,6 +94,11 @@ std::string manifest_text(const BakeIdentity& identity) {
     for (const auto& pose : identity.poses) {
         poses.push_back({{"name", pose.name}, {"xxh3", hex(pose.xxh3)}});
     }
+    const std::vector<double> root = root_numbers(identity.root_motion);
+    for (size_t p = 0; p * kRootNumbers < root.size(); ++p) {
+        const auto first = root.begin() + static_cast<ptrdiff_t>(p * kRootNumbers);
+        poses[p]["root"] = std::vector<double>(first, first + kRootNumbers);
+    }
     json["poses"] = std::move(poses);
     for (const auto& source : identity.still_meshes) {
         json["static"].push_back({{"name", source.name}, {"xxh3", hex(source.xxh3)}});
@@ -96,9 +111,10 @@ BakeIdentity read_manifest(const std::filesystem::path& path) {
     const std::string file = path.string();
     const Metadata metadata({bytes.data(), bytes.size()}, file);
     if (metadata.text("format") != "paim-bake") throw_bad_input("{}: not a bake's manifest", file);
-    if (const uint32_t version = metadata.integer("version", 1, kMaxCount);
-        version != kManifestVersion) {
-        throw_unsupported("{}: bake version {}, expected {}", file, version, kManifestVersion);
+    const uint32_t version = metadata.integer("version", 1, kMaxCount);
+    if (version != kManifestVersion && version != kRootMotionVersion) {
+        throw_unsupported("{}: bake version {}, expected {} or {}", file, version, kManifestVersion,
+                          kRootMotionVersion);
     }
     if (metadata.text("transfer_kind") != "diffuse") {
         throw_unsupported("{}: transfer of kind '{}'", file, metadata.text("transfer_kind"));
@@ -135,7 +151,16 @@ BakeIdentity read_manifest(const std::filesystem::path& path) {
         return BakeIdentity::Source{source.text("name"),
                                     parse_hex(source.text("xxh3"), file, "xxh3")};
     };
-    for (const nlohmann::json& entry : *poses) identity.poses.push_back(source_of(entry));
+    std::vector<double> root;
+    for (const nlohmann::json& entry : *poses) {
+        identity.poses.push_back(source_of(entry));
+        if (version != kRootMotionVersion) continue;
+        constexpr double kMax = std::numeric_limits<double>::max();
+        const Metadata pose = Metadata::part(entry, file);
+        const std::vector<double> numbers = pose.numbers("root", kRootNumbers, -kMax, kMax);
+        root.insert(root.end(), numbers.begin(), numbers.end());
+    }
+    identity.root_motion = root_motion_of(root, file);
     const auto still_meshes = metadata.root().find("static");
     if (still_meshes == metadata.root().end()) return identity;
     if (!still_meshes->is_array() || still_meshes->empty()) {
@@ -166,6 +191,7 @@ std::string first_difference(const BakeIdentity& there, const BakeIdentity& want
           differ("triangles", there.num_triangles, wanted.num_triangles),
           differ("poses", there.num_poses(), wanted.num_poses()),
           differ("origin", shown(there.origin), shown(wanted.origin)),
+          differ("root motion", shown(there.root_motion), shown(wanted.root_motion)),
           differ("static files", there.still_meshes.size(), wanted.still_meshes.size()),
           differ("checksum of faces and albedo", hex(there.mesh_xxh3), hex(wanted.mesh_xxh3))}) {
         if (!difference.empty()) return difference;

@@ -30,6 +30,11 @@ const Albedo& BakedPart::albedo() const {
     return still_ == nullptr ? bake_.albedo() : still_->albedo;
 }
 
+const RootMotion& BakedPart::root_motion() const {
+    static const RootMotion none;
+    return still_ == nullptr ? bake_.identity().root_motion : none;
+}
+
 void BakedPart::read_position_rows(uint32_t p, uint64_t first, uint64_t count, float* out) const {
     if (still_ == nullptr) return bake_.read_position_rows(p, first, count, out);
     copy_rows(still_->pose.positions, first, count, out);

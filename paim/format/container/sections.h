@@ -25,6 +25,9 @@ constexpr Tag kWeightSteps[2] = {Tag("GWST"), Tag("TWST")};  // f32 [K]
 // Only if geometry is smoothed: i16 [1 + K][3], rounds of the mean and each component.
 constexpr Tag kSmoothing("GSMO");
 
+// Only if the moving part has a root motion: f64 [P][6], rotation vector, translation.
+constexpr Tag kRootMotion("ROOT");
+
 // .paim: the still part; all four or none.
 constexpr Tag kStillTriangles("STRI");  // u32 [F][3]
 constexpr Tag kStillPositions("SPOS");  // f32, i16 or i8 [3][S]

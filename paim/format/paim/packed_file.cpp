@@ -13,6 +13,7 @@
 #include "paim/base/half.h"
 #include "paim/base/parallel.h"
 #include "paim/codec/surface_smoothing.h"
+#include "paim/format/container/root_numbers.h"
 #include "paim/format/container/sections.h"
 #include "paim/format/pack/index_encoder.h"
 #include "paim/format/pack/plane_encoder.h"
@@ -140,6 +141,12 @@ class Packer {
                 }};
     }
     Task operator()(const std::vector<float>* row) const { return floats(*row); }
+    Task operator()(const RootMotion* motion) const {
+        return {spec(ScalarType::f64), SectionCodec::zstd, [motion] {
+                    const std::vector<double> numbers = root_numbers(*motion);
+                    return zstd_compress(as_bytes(std::span(numbers)));
+                }};
+    }
 
   private:
     SectionSpec spec(ScalarType type) const {

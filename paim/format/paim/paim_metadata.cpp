@@ -1,5 +1,6 @@
 // The JSON metadata of a .paim.
 #include "paim/format/paim/paim_metadata.h"
+#include "paim/codec/section_row.h"
 
 #include <nlohmann/json.hpp>
 
@@ -24,7 +25,7 @@ std::string paim_metadata(const Asset& asset) {
     root["num_poses"] = asset.num_poses();
     root["frames_per_second"] = asset.frames_per_second;
     if (const Vec3d& o = asset.origin; !o.isZero(0.0)) root["origin"] = {o.x(), o.y(), o.z()};
-    root["transfer_kind"] = "diffuse";
+    root["transfer_kind"] = mesh.root_motion.empty() ? kDiffuse : kDiffuseLocal;
     root["bands"] = mesh.layout.in_bands;
     root["channels"] = mesh.layout.channels;
     if (asset.vertex_order == VertexOrder::cache) root["vertex_order"] = "local";

@@ -9,6 +9,11 @@
 
 namespace paim {
 
+// Kinds of transfer: in the axes of the scene, or in those of a part that has a root motion. Readers
+// that know nothing of root motion refuse the second.
+constexpr const char* kDiffuse = "diffuse";
+constexpr const char* kDiffuseLocal = "diffuse-local";
+
 std::string paim_metadata(const Asset& asset);
 
 // The index of the singular value of each of num_components components (LowRank::singular_indices).

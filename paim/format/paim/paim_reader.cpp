@@ -9,6 +9,7 @@
 
 #include "paim/base/error.h"
 #include "paim/codec/codecs.h"
+#include "paim/codec/section_row.h"
 #include "paim/format/container/mesh_sections.h"
 #include "paim/format/container/metadata.h"
 #include "paim/format/container/sections.h"
@@ -39,9 +40,9 @@ TransferLayout read_layout(const Metadata& metadata) {
     layout.in_bands = metadata.integer("bands", 1, sh::kMaxBands);
     layout.channels = metadata.integer("channels", 1, 3);
     if (layout.channels == 2) throw_unsupported("{}: 2 transfer channels", metadata.file());
-    if (metadata.text("transfer_kind") != "diffuse") {
-        throw_unsupported("{}: transfer of kind '{}'", metadata.file(),
-                          metadata.text("transfer_kind"));
+    if (const std::string kind = metadata.text("transfer_kind");
+        kind != kDiffuse && kind != kDiffuseLocal) {
+        throw_unsupported("{}: transfer of kind '{}'", metadata.file(), kind);
     }
     return layout;
 }
@@ -100,6 +101,7 @@ CodedMesh start_moving(const Metadata& metadata) {
     if (metadata.root().contains("geometry_fraction_bits")) {
         mesh.positions.fraction_bits = metadata.integer("geometry_fraction_bits", 2, 4);
     }
+    if (metadata.text("transfer_kind") == kDiffuseLocal) mesh.root_motion.resize(num_poses);
     mesh.transfer = start_transfer(metadata);
     const uint32_t num_points = mesh.transfer->start(mesh.topology.num_vertices);
     mesh.transfer->matrix = start_matrix(metadata, "transfer_components", num_points,

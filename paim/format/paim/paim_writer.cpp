@@ -4,6 +4,7 @@
 
 #include "paim/base/check.h"
 #include "paim/base/half.h"
+#include "paim/format/container/root_numbers.h"
 #include "paim/format/container/sections.h"
 #include "paim/format/paim/packed_file.h"
 #include "paim/format/paim/paim_metadata.h"
@@ -17,6 +18,7 @@ namespace {
 struct PlainType {
     ScalarType operator()(Topology*) const { return ScalarType::u32; }
     ScalarType operator()(const SingularValues&) const { return ScalarType::f64; }
+    ScalarType operator()(RootMotion*) const { return ScalarType::f64; }
     ScalarType operator()(const MatrixValues& row) const {
         return row.is_component && row.matrix->precision == Precision::f16 ? ScalarType::f16
                                                                            : ScalarType::f32;
@@ -47,6 +49,10 @@ struct PlainValues {
     void operator()(const MatrixValues& row) const { floats(row.values->floats()); }
     void operator()(const StoredValues* row) const { floats(row->floats()); }
     void operator()(const std::vector<float>* row) const { floats(*row); }
+    void operator()(const RootMotion* motion) const {
+        const std::vector<double> numbers = root_numbers(*motion);
+        writer.append(section, std::span<const double>(numbers));
+    }
     void operator()(const SmallNumbers&) const { PAIM_CHECK(!"integers are packed"); }
 
   private:

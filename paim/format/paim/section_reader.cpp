@@ -9,6 +9,7 @@
 #include "paim/base/error.h"
 #include "paim/codec/surface_smoothing.h"
 #include "paim/format/container/mesh_sections.h"
+#include "paim/format/container/root_numbers.h"
 #include "paim/format/container/sections.h"
 #include "paim/format/pack/plane_predictor.h"
 #include "paim/format/paim/section_table.h"
@@ -47,6 +48,7 @@ struct AllowedTypes {
     Types operator()(const MatrixValues&) const { return kValues; }
     Types operator()(StoredValues*) const { return kValues; }
     Types operator()(const SmallNumbers&) const { return {ScalarType::i16}; }
+    Types operator()(RootMotion*) const { return {ScalarType::f64}; }
     template <typename Row>
     Types operator()(const Row&) const {
         return {ScalarType::f32};
@@ -253,6 +255,9 @@ struct RowReader {
     void operator()(std::vector<float>* values) const {
         *values = reader.read_f32(section);
         check_finite(reader, row.tag, *values);
+    }
+    void operator()(RootMotion* motion) const {
+        *motion = root_motion_of(reader.read_f64(section), reader.label(section));
     }
 
   private:

@@ -7,6 +7,7 @@
 #include "paim/base/check.h"
 #include "paim/base/error.h"
 #include "paim/codec/surface_smoothing.h"
+#include "paim/format/container/root_numbers.h"
 #include "paim/format/container/sections.h"
 
 namespace paim {
@@ -40,6 +41,10 @@ class TableBuilder {
             part_ = 1;
             add_still(*still);
             part_ = 0;
+        }
+        if (!moving.root_motion.empty()) {
+            add(section::kRootMotion, {size_of(moving.root_motion.size()), kRootNumbers},
+                &moving.root_motion);
         }
         for (const SectionRow& row : moving.transfer->sections()) add_codec_row(row);
         LowRank* const matrices[] = {&moving.positions, &moving.transfer->matrix};

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "paim/codec/asset.h"
+#include "paim/codec/section_row.h"
 #include "paim/format/container/container.h"
 
 namespace paim {
@@ -32,8 +33,9 @@ struct MatrixValues {
     StoredValues* values;  // nullptr: not in memory, but given in pieces
     bool is_component = false;
 };
-using RowValues = std::variant<Topology*, Albedo*, SingularValues, Weights, WeightSteps, Steps,
-                               MatrixValues, StoredValues*, SmallNumbers, std::vector<float>*>;
+using RowValues =
+    std::variant<Topology*, Albedo*, SingularValues, Weights, WeightSteps, Steps, MatrixValues,
+                 StoredValues*, SmallNumbers, std::vector<float>*, RootMotion*>;
 
 // A dimension that only the file knows.
 constexpr uint32_t kAnySize = std::numeric_limits<uint32_t>::max();

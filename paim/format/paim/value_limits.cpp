@@ -1,6 +1,7 @@
 // What the numbers of a .paim must keep to so that every pose decodes to finite values.
 #include "paim/format/paim/value_limits.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -53,18 +54,26 @@ void check_smoothing(const ContainerReader& reader, const LowRank& positions) {
 
 void check_magnitudes(const ContainerReader& reader, const CodedMesh& mesh) {
     constexpr double kMax = std::numeric_limits<float>::max();
-    const auto check = [&](const char* what, const LowRank& matrix, double gain) {
+    // added  to magnitudes
+    const auto check = [&](const char* what, const LowRank& matrix, double gain, double added) {
         for (const double bound : magnitude_bounds(matrix)) {
-            if (!(bound <= kMax && bound * gain <= kMax)) {
+            const double most = bound * gain + added;
+            if (!(bound <= kMax && most <= kMax)) {
                 throw_bad_input(
                     "{}: {}: means, components and weights decode to numbers of up to {:.3g}, "
                     "expected at most {:.3g}",
-                    reader.name(), what, bound * gain, kMax);
+                    reader.name(), what, most, kMax);
             }
         }
     };
-    check("positions", mesh.positions, 1.0);
-    check("transfer", mesh.transfer->matrix, mesh.transfer->vertex_gain());
+    double farthest = 0.0;
+    for (const RigidTransform& root : mesh.root_motion) {
+        farthest = std::max(farthest, root.translation.cwiseAbs().maxCoeff());
+    }
+    // A rotation of three coordinates makes one of them at most √3 times as large.
+    const double turned = mesh.root_motion.empty() ? 1.0 : std::sqrt(3.0);
+    check("positions", mesh.positions, turned, farthest);
+    check("transfer", mesh.transfer->matrix, mesh.transfer->vertex_gain(), 0.0);
 }
 
 }  // namespace paim

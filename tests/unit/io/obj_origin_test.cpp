@@ -40,6 +40,24 @@ TEST(ObjOrigin, KeepsTheDigitsOfMeshesFarAway) {
     EXPECT_EQ(ObjSequence(stray.files()).origin(), Vec3d(1000000, 2, 0));
 }
 
+// A body of size 2 that travels 200,000: floats near 200,000 are 0.016 apart.
+TEST(ObjOrigin, GivesPosesOfATravellerOriginsOfTheirOwn) {
+    const auto at = [](int x) {
+        return fmt::format("v {0}.1 0 0\nv {1}.1 0 0\nv {0}.1 2 0\nf 1 2 3\n", x, x + 1);
+    };
+    const ObjTestFiles files({at(0), at(100000), at(200000)});
+    const ObjSequence sequence(files.files());
+    EXPECT_EQ(sequence.origin(), Vec3d::Zero());
+    EXPECT_EQ(sequence.pose_offset(0), Vec3d::Zero());
+    EXPECT_EQ(sequence.pose_offset(1), Vec3d(100000, 2, 0));  // multiples of 2
+    EXPECT_NEAR(sequence.load_pose(2).positions[0].x(), 0.1, 1e-6);
+    EXPECT_NEAR(load_from_origin(sequence, 2).positions[0].x(), 200000.1, 0.008);
+    // Still meshes are counted from a given origin.
+    ObjOptions options;
+    options.origin = Vec3d::Zero();
+    EXPECT_EQ(ObjSequence(files.files(), options).pose_offset(2), Vec3d::Zero());
+}
+
 TEST(ObjOrigin, IsZeroWhereFloatsAreEnough) {
     const ObjTestFiles files({"v 10 0 0\nv 11 0 0\nv 10 1 0\nf 1 2 3\n"});
     EXPECT_EQ(ObjSequence(files.files()).origin(), Vec3d::Zero());

@@ -1,0 +1,57 @@
+// A baked pose in the local coordinates of a body that travels and turns.
+#include "compressor/bake/local_pose.h"
+
+#include <span>
+#include <vector>
+
+#include "paim/base/parallel.h"
+#include "paim/sh/rotate.h"
+
+namespace paim {
+
+namespace {
+
+// Turns vectors [3][V] and adds `shift` to them.
+void transform(const Eigen::Matrix3d& rotation, const Vec3d& shift, std::vector<float>& planes) {
+    const size_t count = planes.size() / 3;
+    for (size_t v = 0; v < count; ++v) {
+        const Vec3d from(double{planes[v]}, double{planes[count + v]},
+                         double{planes[2 * count + v]});
+        const Vec3d to = rotation * from + shift;
+        for (size_t axis = 0; axis < 3; ++axis) {
+            planes[axis * count + v] = static_cast<float>(to[static_cast<int>(axis)]);
+        }
+    }
+}
+
+// Turns the coefficients of every vertex and channel.
+void turn(const sh::Rotation& rotation, const TransferLayout& layout, std::vector<float>& planes) {
+    constexpr size_t kVerticesPerPiece = 256;
+    const size_t num_vertices = planes.size() / layout.num_planes();
+    parallel_for(num_vertices, kVerticesPerPiece, [&](size_t begin, size_t end) {
+        std::vector<float> from(layout.num_coefficients()), to(from.size());
+        for (size_t v = begin; v < end; ++v) {
+            for (uint32_t channel = 0; channel < layout.channels; ++channel) {
+                float* const first = planes.data() + layout.plane(channel, 0) * num_vertices + v;
+                for (size_t i = 0; i < from.size(); ++i) from[i] = first[i * num_vertices];
+                rotation.apply(from, to);
+                for (size_t i = 0; i < to.size(); ++i) first[i * num_vertices] = to[i];
+            }
+        }
+    });
+}
+
+}  // namespace
+
+void move_to_local(const RigidTransform& root, const Vec3d& offset, const TransferLayout& layout,
+                   BakedPose& pose) {
+    const Eigen::Matrix3d to_local = root.rotation.conjugate().toRotationMatrix();
+    transform(to_local, to_local * (offset - root.translation), pose.positions);
+    if (!root.turns()) return;
+    transform(to_local, Vec3d::Zero(), pose.normals);
+    const sh::Rotation rotation(static_cast<int>(layout.in_bands), to_local);
+    turn(rotation, layout, pose.transfer);
+    turn(rotation, layout, pose.noise);
+}
+
+}  // namespace paim

@@ -1,0 +1,66 @@
+// Where each pose of a moving mesh stands in the scene, apart from its shape.
+#include "paim/mesh/root_motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "paim/base/check.h"
+
+namespace paim {
+
+Vec3d rotation_vector(const Eigen::Quaterniond& rotation) {
+    const double sine = rotation.vec().norm();
+    if (sine == 0.0) return Vec3d::Zero();
+    const double sign = rotation.w() < 0.0 ? -1.0 : 1.0;
+    const double angle = 2.0 * std::atan2(sine, sign * rotation.w());
+    return sign * angle / sine * rotation.vec();
+}
+
+Eigen::Quaterniond rotation_of(const Vec3d& vector) {
+    const double angle = vector.norm();
+    if (angle == 0.0) return Eigen::Quaterniond::Identity();
+    const Vec3d axis = vector / angle;
+    const double sine = std::sin(0.5 * angle);
+    return {std::cos(0.5 * angle), sine * axis.x(), sine * axis.y(), sine * axis.z()};
+}
+
+RigidTransform root_at(const RootMotion& motion, double time) {
+    if (motion.empty()) return {};
+    const double clamped = std::clamp(time, 0.0, static_cast<double>(motion.size()) - 1.0);
+    const auto before = static_cast<size_t>(clamped);
+    const double share = clamped - std::floor(clamped);
+    if (share == 0.0) return motion[before];
+    const RigidTransform& a = motion[before];
+    const RigidTransform& b = motion[before + 1];
+    RigidTransform root;
+    root.rotation = a.turns() || b.turns() ? a.rotation.slerp(share, b.rotation) : a.rotation;
+    root.translation = (1.0 - share) * a.translation + share * b.translation;
+    return root;
+}
+
+void move_to_scene(const RigidTransform& root, std::span<float> planes) {
+    if (root.is_identity()) return;
+    PAIM_CHECK_EQ(planes.size() % 3, 0u);
+    const size_t count = planes.size() / 3;
+    const Eigen::Matrix3d rotation = root.rotation.toRotationMatrix();
+    for (size_t v = 0; v < count; ++v) {
+        const Vec3d local(double{planes[v]}, double{planes[count + v]},
+                          double{planes[2 * count + v]});
+        const Vec3d scene = rotation * local + root.translation;
+        for (size_t axis = 0; axis < 3; ++axis) {
+            planes[axis * count + v] = static_cast<float>(scene[static_cast<int>(axis)]);
+        }
+    }
+}
+
+Travel travel_of(const RootMotion& motion) {
+    Travel travel;
+    for (size_t p = 1; p < motion.size(); ++p) {
+        travel.distance += (motion[p].translation - motion[p - 1].translation).norm();
+        travel.angle_deg +=
+            motion[p].rotation.angularDistance(motion[p - 1].rotation) * 180.0 / kPi;
+    }
+    return travel;
+}
+
+}  // namespace paim

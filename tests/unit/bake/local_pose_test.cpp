@@ -1,0 +1,85 @@
+// A baked pose in local coordinates: the same body under the same light.
+#include "compressor/bake/local_pose.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "paim/base/seed.h"
+#include "paim/light/light.h"
+#include "paim/shade/shade.h"
+
+namespace paim {
+namespace {
+
+constexpr uint32_t kVertices = 5;
+
+std::vector<float> random_values(size_t count, uint64_t seed) {
+    RandomStream random(seed);
+    std::vector<float> values(count);
+    for (float& value : values) value = static_cast<float>(2.0 * random.uniform() - 1.0);
+    return values;
+}
+
+BakedPose random_pose(const TransferLayout& layout) {
+    BakedPose pose;
+    pose.positions = random_values(3 * kVertices, 1);
+    pose.normals = random_values(3 * kVertices, 2);
+    pose.transfer = random_values(size_t{layout.num_planes()} * kVertices, 3);
+    pose.noise = random_values(size_t{layout.num_planes()} * kVertices, 4);
+    return pose;
+}
+
+RigidTransform some_root() {
+    return {Eigen::Quaterniond(Eigen::AngleAxisd(1.3, Vec3d(2, -1, 1).normalized())),
+            Vec3d(3, 4, 5)};
+}
+
+// Lit in local axes by the light that is turned there, it has the radiance that it had before.
+TEST(MoveToLocal, KeepsTheRadiance) {
+    for (const uint32_t channels : {1u, 3u}) {
+        const TransferLayout layout{TransferKind::diffuse, 4, channels};
+        const BakedPose before = random_pose(layout);
+        BakedPose after = before;
+        move_to_local(some_root(), Vec3d::Zero(), layout, after);
+        LightCoefficients light{4, {}};
+        const std::vector<float> numbers = random_values(3 * 16, 5);
+        for (size_t i = 0; i < 16; ++i) {
+            light.values.emplace_back(numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]);
+        }
+        std::vector<Vec3f> expected, got;
+        shade(layout, before.transfer, {}, light, expected);
+        shade(layout, after.transfer, {}, to_local(light, some_root()), got);
+        for (size_t v = 0; v < kVertices; ++v) {
+            EXPECT_LT((got[v] - expected[v]).norm(), 1e-5f) << v;
+        }
+        EXPECT_NE(after.noise, before.noise);
+        double energy_before = 0.0, energy_after = 0.0;
+        for (const float n : before.noise) energy_before += double{n} * n;
+        for (const float n : after.noise) energy_after += double{n} * n;
+        EXPECT_NEAR(energy_after, energy_before, 1e-5 * energy_before);
+    }
+}
+
+TEST(MoveToLocal, MovesPositionsAndTurnsNormals) {
+    const TransferLayout layout{TransferKind::diffuse, 2, 1};
+    const BakedPose before = random_pose(layout);
+    BakedPose after = before;
+    const Vec3d offset(1e6, 0, -1e6);
+    RigidTransform root = some_root();
+    root.translation += offset;
+    move_to_local(root, offset, layout, after);
+    const auto vector = [](const std::vector<float>& planes, size_t v) {
+        return Vec3d(double{planes[v]}, double{planes[kVertices + v]},
+                     double{planes[2 * kVertices + v]});
+    };
+    for (size_t v = 0; v < kVertices; ++v) {
+        const Vec3d scene = root.to_scene(vector(after.positions, v)) - offset;
+        EXPECT_LT((scene - vector(before.positions, v)).norm(), 1e-6) << v;
+        const Vec3d normal = root.rotation * vector(after.normals, v);
+        EXPECT_LT((normal - vector(before.normals, v)).norm(), 1e-6) << v;
+    }
+}
+
+}  // namespace
+}  // namespace paim
