@@ -70,14 +70,23 @@ RigidTransform fit_weighted(std::span<const Vec3d> from, std::span<const Vec3d> 
     return fit;
 }
 
+// Whether rounds have come to an end.
+// near  a distance between points that counts
+bool is_same(const RigidTransform& a, const RigidTransform& b, double near) {
+    constexpr double kSame = 1e-12;
+    return (a.rotation.coeffs() - b.rotation.coeffs()).norm() <= kSame &&
+           (a.translation - b.translation).norm() <= kSame * (near + a.translation.norm());
+}
+
 // Iteratively reweighted least squares of Huber's loss.
 RigidTransform fit(std::span<const Vec3d> from, std::span<const Vec3d> to, bool with_rotation) {
     PAIM_CHECK_EQ(from.size(), to.size());
     RigidTransform best;
     if (from.empty()) return best;
     best.translation = median_difference(from, to);
-    constexpr int kRounds = 30;
-    constexpr double kQuadraticMedians = 3.0;
+    constexpr int kRounds = 100;
+    // Points that move with the body keep the upper hand while they are 3 of 5.
+    constexpr double kQuadraticMedians = 1.5;
     std::vector<double> distances(from.size()), weights(from.size());
     for (int round = 0; round < kRounds; ++round) {
         double largest = 0.0;
@@ -93,7 +102,7 @@ RigidTransform fit(std::span<const Vec3d> from, std::span<const Vec3d> to, bool 
             weights[v] = distances[v] <= near ? 1.0 : near / distances[v];
         }
         const RigidTransform next = fit_weighted(from, to, weights, with_rotation);
-        const bool same = next == best;
+        const bool same = is_same(next, best, near);
         best = next;
         if (same) break;
     }
@@ -168,14 +177,16 @@ class Variants {
     void set(uint32_t p, std::span<const Vec3d> points, const RigidTransform& translated,
              const RigidTransform& moved) {
         if (p % pose_step_ != 0) return;
-        const RigidTransform* const roots[] = {nullptr, &translated, &moved};
-        for (size_t i = 0; i < 3; ++i) {
-            Eigen::Index row = 0;
-            for (size_t v = 0; v < points.size(); v += point_step_, row += 3) {
-                const Vec3d local = roots[i] ? roots[i]->to_local(points[v]) : points[v];
-                matrices_[i].block<3, 1>(row, p / pose_step_) =
-                    clipped(local - reference_.points[v]);
-            }
+        Eigen::Index row = 0;
+        for (size_t v = 0; v < points.size(); v += point_step_, row += 3) {
+            const Vec3d& first = reference_.points[v];
+            const Vec3d near = clipped(translated.to_local(points[v]) - first);
+            const auto entry = [&](size_t variant) {
+                return matrices_[variant].block<3, 1>(row, p / pose_step_);
+            };
+            entry(0) = near + translated.translation;
+            entry(1) = near;
+            entry(2) = clipped(moved.to_local(points[v]) - first);
         }
     }
 
@@ -268,6 +279,8 @@ RootMotion find_root_motion(const PoseSource& source, RootMotionChoice choice,
     RootMotion motions[3];
     for (RootMotion& motion : motions) motion.resize(num_poses);
     if (reference.points.empty()) return {};
+    // A first pose without size says nothing about the others.
+    if (reference.size == 0.0 && choice == RootMotionChoice::automatic) return {};
     Variants variants(reference, num_poses);
     parallel_for(num_poses, 1, [&](size_t task, size_t) {
         const auto p = static_cast<uint32_t>(task);

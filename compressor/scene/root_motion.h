@@ -19,7 +19,7 @@ enum class RootMotionChoice : uint32_t {
 };
 
 // The rigid transform that takes the points `from` closest to `to`, in squared distances where most
-// points move with the body, and in distances for points farther off than three times the median:
+// points move with the body, and in distances for points farther off than one and a half times the median:
 // limbs that swing, and outliers, hardly turn it. Where points do not decide a rotation, as on a
 // line, it is the one nearest to the identity.
 // from, to  of the same size (checked), finite

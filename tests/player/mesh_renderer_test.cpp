@@ -45,6 +45,7 @@ Image reference(const Asset& asset, const Frame& frame, const LightCoefficients&
     DecodedPose pose;
     const CodedMesh& mesh = asset.moving();
     MeshDecoder(mesh).decode(frame.time, frame.limits, pose);
+    move_to_scene(pose.root, pose.positions);
     return ray_cast(mesh.topology, from_planes(pose.positions),
                     vertex_radiance(mesh, frame.time, frame.limits, light), frame.camera, kWidth,
                     kHeight, kBackground);
@@ -226,6 +227,50 @@ TEST_P(MeshRendererTest, DrawsFractionalPoses) {
         const Frame frame = make_frame(asset, time);
         expect_equal(reference(asset, frame, light), draw(renderer, frame, light));
     }
+}
+
+TEST_P(MeshRendererTest, MovesAndTurnsBodies) {
+    for (const uint32_t num_clusters : {0u, 3u}) {
+        TestAssetOptions options;
+        options.num_clusters = num_clusters;
+        options.cluster_components = 2;
+        Asset asset = make_test_asset(options);
+        RootMotion& motion = asset.moving().root_motion;
+        motion.resize(asset.num_poses());
+        for (uint32_t p = 0; p < asset.num_poses(); ++p) {
+            motion[p] = {rotation_of(p * Vec3d(0.3, 0.8, -0.2)), p * Vec3d(0.2, -0.1, 0.4)};
+        }
+        const LightCoefficients light = make_test_light(5);
+        MeshRenderer renderer(asset.moving(), {});
+        for (const double time : {0.0, 1.0, 2.5, 5.0}) {
+            SCOPED_TRACE(time);
+            const Frame frame = make_frame(asset, time);
+            expect_equal(reference(asset, frame, light), draw(renderer, frame, light));
+        }
+    }
+}
+
+// Far away, a camera that goes along sees what one on the spot sees.
+TEST_P(MeshRendererTest, DoesNotShakeFarFromTheOrigin) {
+    Asset asset = make_test_asset({});
+    const LightCoefficients light = make_test_light(5);
+    Frame frame = make_frame(asset, 0.0);
+    // Floats near 2^20 are multiples of 1/8. The cameras are on such places.
+    const auto rounded = [](const Vec3f& v) { return Vec3f((8.0f * v).array().round() / 8.0f); };
+    frame.camera.eye = rounded(frame.camera.eye);
+    frame.camera.target = rounded(frame.camera.target);
+    MeshRenderer on_the_spot(asset.moving(), {});
+    const Image expected = draw(on_the_spot, frame, light);
+    const Vec3f offset(0x1p20f, 0.0f, -0x1p20f);
+    asset.moving().root_motion.resize(asset.num_poses());
+    for (RigidTransform& root : asset.moving().root_motion) {
+        root.translation = offset.cast<double>();
+    }
+    frame.camera.eye += offset;
+    frame.camera.target += offset;
+    frame.bounds = pose_bounds(asset, 0.0, 3);
+    MeshRenderer far_away(asset.moving(), {});
+    expect_equal(expected, draw(far_away, frame, light));
 }
 
 TEST_P(MeshRendererTest, HonoursLimitsOfTheFrame) {

@@ -293,7 +293,7 @@ std::vector<Vec3f> vertex_radiance(const CodedMesh& mesh, double time, const Dec
     DecodedPose pose;
     MeshDecoder(mesh).decode(time, limits, pose);
     std::vector<Vec3f> radiance;
-    shade(pose.layout, pose.transfer, mesh.albedo, light, radiance);
+    shade(pose.layout, pose.transfer, mesh.albedo, to_local(light, pose.root), radiance);
     return radiance;
 }
 

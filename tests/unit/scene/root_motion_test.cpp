@@ -89,7 +89,7 @@ PoseSet animated(const std::function<Vec3d(uint32_t, const Vec3d&)>& at, uint32_
 }
 
 Vec3d swing(uint32_t p, const Vec3d& point) {
-    return {point.x() + 0.2 * point.z() * std::sin(p), point.y(), point.z()};
+    return {point.x() + 0.2 * (point.z() - 1.5) * std::sin(p), point.y(), point.z()};
 }
 
 Vec3d turned(double angle_rad, const Vec3d& point) {
