@@ -1,0 +1,107 @@
+// A body that walks, on the whole road: what is taken out, what is said, what plays.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+
+#include "paim/codec/playback.h"
+#include "paim/format/paim/paim_read.h"
+#include "tests/cli/tool_test.h"
+
+namespace paim {
+namespace {
+
+using nlohmann::json;
+
+class RootMotionTool : public ToolTest {
+  protected:
+    static constexpr int kPoses = 9, kRings = 9, kSegments = 8;
+
+    // A tube 2 units tall that walks 5 units along x from pose to pose. Its upper half swings by 0.3
+    // along z.
+    RootMotionTool() {
+        std::filesystem::create_directory(directory_ / "walk");
+        for (int p = 0; p < kPoses; ++p) {
+            std::string text;
+            for (int ring = 0; ring < kRings; ++ring) {
+                const double y = 0.25 * ring;
+                for (int segment = 0; segment < kSegments; ++segment) {
+                    const double angle = 2.0 * kPi * segment / kSegments;
+                    text += fmt::format("v {:.9f} {:.9f} {:.9f}\n", 5.0 * p + 0.2 * std::sin(angle),
+                                        y, 0.2 * std::cos(angle) + swing(p, y));
+                }
+            }
+            for (int ring = 0; ring + 1 < kRings; ++ring) {
+                for (int segment = 0; segment < kSegments; ++segment) {
+                    const auto number = [&](int r, int s) {
+                        return 1 + r * kSegments + s % kSegments;
+                    };
+                    text += fmt::format("f {} {} {} {}\n", number(ring, segment),
+                                        number(ring, segment + 1), number(ring + 1, segment + 1),
+                                        number(ring + 1, segment));
+                }
+            }
+            write(fmt::format("walk/{}.obj", p), text);
+        }
+    }
+
+    static double swing(int p, double y) {
+        return 0.3 * std::max(0.0, y - 1.0) * std::sin(2.0 * kPi * p / kPoses);
+    }
+
+    // With default settings of the encoder.
+    json make(const std::string& name, const Arguments& options) const {
+        Arguments arguments{path("walk"), "-o",     path(name + ".paim"), "--rays", "32", "--bands",
+                            "3",          "--json", "--measure"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        return parse_object(compress(arguments));
+    }
+};
+
+TEST_F(RootMotionTool, KeepsTheSwingOfAWalk) {
+    const json report = make("x", {});
+    EXPECT_NEAR(report["bake"]["root_motion"]["distance"].get<double>(), 40.0, 0.5);
+    EXPECT_EQ(report["bake"]["root_motion"]["angle_deg"], 0.0);
+    const json info = parse_object(info({path("x.paim"), "--json"}));
+    EXPECT_EQ(info["root_motion"], report["bake"]["root_motion"]);
+    EXPECT_EQ(parse_object(info({path("x.bake"), "--json"}))["root_motion"], info["root_motion"]);
+    // Vertices come in the order of the bake, and so of the OBJ.
+    Playback playback(std::make_shared<const Asset>(read_paim(path("x.paim"))));
+    const int top = (kRings - 1) * kSegments;
+    for (int p = 0; p < kPoses; ++p) {
+        playback.update(p);
+        const auto planes = playback.positions();
+        const auto num_vertices = static_cast<int>(planes.size() / 3);
+        EXPECT_NEAR(planes[static_cast<size_t>(top)], 5.0 * p, 1e-3) << p;
+        EXPECT_NEAR(planes[static_cast<size_t>(2 * num_vertices + top)], 0.2 + swing(p, 2.0), 1e-3)
+            << p;
+    }
+    expect_success(analyze({path("x.bake"), "--verify", path("x.paim")}));
+}
+
+TEST_F(RootMotionTool, LeavesPosesAsTheyAreIfAsked) {
+    const json none = make("none", {"--root-motion", "none"});
+    EXPECT_FALSE(none["bake"].contains("root_motion"));
+    // A floor stays in its place.
+    EXPECT_FALSE(make("floor", {"--floor"})["bake"].contains("root_motion"));
+    EXPECT_TRUE(make("rigid", {"--root-motion", "rigid"})["bake"].contains("root_motion"));
+    // Files of one are not those of the other.
+    const ToolResult other = analyze({path("none.bake"), "--verify", path("rigid.paim")});
+    EXPECT_EQ(other.exit_code, 2);
+    EXPECT_TRUE(contains(other.err, "another root motion")) << other.err;
+}
+
+// A bake of another motion is another bake.
+TEST_F(RootMotionTool, IsPartOfTheIdentityOfABake) {
+    const auto bake = [&](const std::string& choice) {
+        return compress(
+            {"bake", path("walk"), "-o", path("x.bake"), "--rays", "2", "--root-motion", choice});
+    };
+    expect_success(bake("none"));
+    const ToolResult again = bake("translation");
+    EXPECT_EQ(again.exit_code, 2);
+    EXPECT_TRUE(contains(again.err, "root motion: none there")) << again.err;
+}
+
+}  // namespace
+}  // namespace paim
