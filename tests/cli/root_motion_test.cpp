@@ -62,9 +62,10 @@ TEST_F(RootMotionTool, KeepsTheSwingOfAWalk) {
     const json report = make("x", {});
     EXPECT_NEAR(report["bake"]["root_motion"]["distance"].get<double>(), 40.0, 0.5);
     EXPECT_EQ(report["bake"]["root_motion"]["angle_deg"], 0.0);
-    const json info = parse_object(info({path("x.paim"), "--json"}));
-    EXPECT_EQ(info["root_motion"], report["bake"]["root_motion"]);
-    EXPECT_EQ(parse_object(info({path("x.bake"), "--json"}))["root_motion"], info["root_motion"]);
+    const json of_file = parse_object(info({path("x.paim"), "--json"}));
+    EXPECT_EQ(of_file["root_motion"], report["bake"]["root_motion"]);
+    EXPECT_EQ(parse_object(info({path("x.bake"), "--json"}))["root_motion"],
+              of_file["root_motion"]);
     // Vertices come in the order of the bake, and so of the OBJ.
     Playback playback(std::make_shared<const Asset>(read_paim(path("x.paim"))));
     const int top = (kRings - 1) * kSegments;
