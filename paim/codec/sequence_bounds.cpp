@@ -39,15 +39,18 @@ Bounds still_bounds(const Asset& asset) {
 class MovingBounds {
   public:
     explicit MovingBounds(const CodedMesh& mesh)
-        : positions_(mesh.positions), vertices_(face_vertices(mesh.topology)) {}
+        : positions_(mesh.positions),
+          num_usual_(mesh.positions.num_usual_components()),
+          vertices_(face_vertices(mesh.topology)) {}
 
     Bounds at(double time, uint32_t num_components) {
-        decoder_.decode(positions_, time, num_components, planes_);
+        decoder_.decode(positions_, time, std::min(num_components, num_usual_), planes_);
         return bounds_of_vertices(planes_, vertices_);
     }
 
   private:
     const LowRank& positions_;
+    const uint32_t num_usual_;
     const std::vector<uint32_t> vertices_;
     PositionDecoder decoder_;
     std::vector<float> planes_;
