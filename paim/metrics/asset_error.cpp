@@ -90,11 +90,29 @@ TransferError measure_transfer(const CodedMesh& mesh, const BakedPart& bake,
     return error;
 }
 
+// Adds the errors of outliers, and puts both into the places where they usually are.
+// outliers  of pose p, by vertices of the file
+void take_out(const PositionOutliers& outliers, uint32_t p, std::span<float> decoded,
+              std::span<float> baked, DistanceError& error) {
+    const size_t num_vertices = baked.size() / 3;
+    for (const PositionOutlier& outlier : outliers.of_pose(p)) {
+        Vec3f position;
+        for (size_t axis = 0; axis < 3; ++axis) {
+            position[static_cast<int>(axis)] = decoded[axis * num_vertices + outlier.vertex];
+        }
+        error.add({position.data(), 3}, {outlier.position.data(), 3}, p);
+    }
+    for (const std::span<float> planes : {decoded, baked}) {
+        outliers.replace(p, static_cast<uint32_t>(num_vertices), 0, planes);
+    }
+}
+
 // counted  vertices of the file that a face has, ascending
 SurfaceError measure_surface(const CodedMesh& mesh, const BakedPart& bake,
                              const std::vector<uint32_t>& old_vertex,
                              const std::vector<uint32_t>& counted) {
     SurfaceError error;
+    const PositionOutliers outliers = find_outliers(bake).reordered(old_vertex);
     ShapeErrorMeter shape(mesh.topology);
     PositionDecoder decoder;
     std::vector<float> decoded, baked;
@@ -103,6 +121,7 @@ SurfaceError measure_surface(const CodedMesh& mesh, const BakedPart& bake,
         bake.read_position_rows(p, 0, baked.size(), baked.data());
         reorder_planes(baked, old_vertex);
         decoder.decode(mesh.positions, p, mesh.positions.num_components, decoded);
+        take_out(outliers, p, decoded, baked, error.outliers);
         shape.add(decoded, baked);
         for (auto* const planes : {&baked, &decoded}) {
             keep_vertices(*planes, bake.num_vertices(), counted);
@@ -168,6 +187,9 @@ std::vector<NamedError> named_errors(const AssetError& error) {
         {"sted_worst_piece", error.shape.worst.sted(), false},
         {"normal_angle_deg", error.shape.whole.normal_angle_deg, false},
         {"normal_angle_deg_worst_piece", error.shape.worst.normal_angle_deg, false}};
+    if (error.outliers.num_vertices > 0) {
+        errors.push_back({"position_outlier_worst", error.outliers.worst, false});
+    }
     if (!error.still) return errors;
     const TransferError& still = error.still->transfer;
     errors.insert(errors.end(), {{"scenery_transfer_error", still.error, true},
@@ -199,6 +221,7 @@ ErrorStatement read_error_statement(const Asset& asset, const std::filesystem::p
         statement.band_power = measured.text("light_spectrum");
         AssetError with_all;
         with_all.still.emplace();
+        with_all.outliers.num_vertices = 1;
         for (NamedError& named : named_errors(with_all)) {
             if (!measured.root().contains(named.name)) continue;
             named.value =

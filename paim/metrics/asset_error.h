@@ -16,10 +16,12 @@
 namespace paim {
 
 // Errors of one part. Transfer errors are relative to the transfer of this part; position errors
-// use the diagonal of this part.
+// use the diagonal of this part. Outliers (mesh/outliers.h) are measured apart. In the other errors
+// they count as vertices without error where they usually are.
 struct SurfaceError {
     GeometryError geometry;
     PieceShapeError shape;
+    DistanceError outliers;  // of outliers alone; nothing was added if there are none
 };
 struct MeshError : SurfaceError {
     TransferError transfer;
