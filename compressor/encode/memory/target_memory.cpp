@@ -113,10 +113,14 @@ struct Need {
     uint64_t factors() const {
         return (geometry_values() + transfer_values()) * kFloat + weights() * kDouble;
     }
-    uint64_t held() const { return factors() + mesh() + codecs.kept_bytes; }
+    // Outliers are held in both orders, and while they are measured.
+    uint64_t held() const {
+        return factors() + mesh() + codecs.kept_bytes + 3 * size.streamed.outlier_bytes;
+    }
 
     uint64_t searching() const {
-        const uint64_t refining = models() + std::max({trying(), smoothing(), measuring(), packing()});
+        const uint64_t refining =
+            models() + std::max({trying(), smoothing(), measuring(), packing()});
         return std::max(codecs.preparing_bytes, codecs.coding_bytes + refining);
     }
 };

@@ -10,8 +10,10 @@
 #include "compressor/encode/memory/memory_plan.h"
 #include "compressor/encode/memory/target_memory.h"
 #include "compressor/encode/noise/component_noise.h"
+#include "compressor/encode/quantise/exceptions.h"
 #include "compressor/encode/quantise/float_matrix.h"
 #include "compressor/encode/search/transfer_encoder.h"
+#include "compressor/encode/svd/vertex_motion.h"
 #include "paim/codec/codecs.h"
 #include "paim/mesh/face_vertices.h"
 #include "paim/metrics/vertex_match.h"
@@ -22,6 +24,10 @@ namespace {
 
 // Components that are dropped beforehand may take this share of the error that is asked for.
 constexpr double kDroppedShare = 0.15;
+
+// Share of a vertex's motion that dropped components may take, where it is more than the distance
+// that is asked for. What is left is √(1 − 0.19) = 90 % of the motion.
+const double kLostByTarget = std::sqrt(0.19);
 
 // The fewest components whose rest is at most `most`, in squares of singular values.
 template <typename EnergyOf>
@@ -53,20 +59,6 @@ CodedMesh in_cache_order(CodedMesh mesh) {
     mesh.albedo = in_order(mesh.albedo, order.old_vertex);
     mesh.topology = std::move(order.topology);
     return mesh;
-}
-
-// Largest diagonal of a pose's bounding box, of these vertices.
-double largest_diagonal(const BakeReader& bake, const std::vector<uint32_t>& vertices) {
-    GeometryError measured;
-    const uint32_t num_vertices = bake.identity().num_vertices;
-    std::vector<float> positions;
-    for (uint32_t p = 0; p < bake.num_poses(); ++p) {
-        positions.resize(size_t{3} * num_vertices);
-        bake.read_position_rows(p, 0, positions.size(), positions.data());
-        keep_vertices(positions, num_vertices, vertices);
-        measured.add(positions, positions, p);
-    }
-    return measured.diagonal;
 }
 
 // The asset without positions and transfer of the part that moves.
@@ -114,6 +106,7 @@ AssetError measure_best(const EncodeProblem& problem) {
     Asset best = problem.shell;
     best.moving().positions =
         float_matrix(problem.geometry, problem.geometry.num_components(), Precision::f32);
+    append_exceptions(problem.outliers, best.moving().positions);
     best.moving().transfer = plain_transfer(
         float_matrix(problem.transfer, problem.transfer.num_components(), Precision::f32));
     return measure_asset(best, problem.bake, problem.spectrum);
@@ -121,12 +114,14 @@ AssetError measure_best(const EncodeProblem& problem) {
 
 }  // namespace
 
-EncodeProblem read_problem(const BakeReader& bake, const EncodeOptions& options,
-                           const EncodeTarget& target) {
+EncodeProblem read_problem(const BakeReader& bake, const PositionOutliers& outliers,
+                           const EncodeOptions& options, const EncodeTarget& target) {
     const std::vector<SearchedCodec> codecs =
         searched_codecs(encoders_to_try(target.codec, options.precision));
-    uint32_t in_flight = choose_num_in_flight(encode_size(bake, options), options.memory_bytes,
-                                              bake.directory().string());
+    EncodeSize streamed = encode_size(bake, options);
+    streamed.outlier_bytes = outliers.size_bytes();
+    uint32_t in_flight =
+        choose_num_in_flight(streamed, options.memory_bytes, bake.directory().string());
     const BakeIdentity& identity = bake.identity();
     CacheOrder order = cache_order(bake.topology());
     EncodeProblem problem{.bake = bake,
@@ -142,20 +137,27 @@ EncodeProblem read_problem(const BakeReader& bake, const EncodeOptions& options,
     const std::vector<uint32_t> counted = face_vertices(bake.topology());
     problem.num_face_vertices = static_cast<uint32_t>(counted.size());
     const double num_positions = static_cast<double>(counted.size()) * bake.num_poses();
-    const GeometryRows geometry_rows(bake);
+    problem.outliers = outliers.reordered(order.old_vertex);
+    const GeometryRows geometry_rows(bake, outliers);
     const PrincipalComponents geometry = principal_components(geometry_rows, in_flight);
-    const double distance = largest_diagonal(bake, counted) *
-                            target.geometry_error.value_or(kGeometryPerTransferError * asked);
+    const double diagonal = largest_diagonal(bake, outliers, counted);
+    const double distance =
+        diagonal * target.geometry_error.value_or(kGeometryPerTransferError * asked);
+    problem.least_geometry_components =
+        components_for_motion(geometry_rows, geometry, counted,
+                              {kLostByTarget, std::max(distance, kInvisibleMotion * diagonal)});
     const TransferRows transfer_rows(bake, problem.layout.in_bands);
     const TransferRows noise_rows(bake, problem.layout.in_bands, TransferRows::Content::noise);
     const PrincipalComponents transfer = principal_components(transfer_rows, in_flight);
     const ComponentNoise noise =
         measure_component_noise(transfer_rows, noise_rows, problem.layout, transfer, in_flight);
     const double energy = transfer_energy(problem);
-    TargetSize size{encode_size(bake, options), problem.layout.num_planes()};
+    TargetSize size{streamed, problem.layout.num_planes()};
     size.geometry_components = components_for(
         geometry.rank(), kDroppedShare * kDroppedShare * distance * distance * num_positions,
         [&](uint32_t k) { return geometry.singular_values[k] * geometry.singular_values[k]; });
+    size.geometry_components =
+        std::max(size.geometry_components, problem.least_geometry_components);
     size.transfer_components = components_for(
         noise.num_above_noise, kDroppedShare * kDroppedShare * asked * asked * energy * num_values,
         [&](uint32_t k) { return noise.signal_of(static_cast<Eigen::Index>(k)); });

@@ -8,6 +8,7 @@
 #include "compressor/encode/quantise/scaled_factors.h"
 #include "paim/format/pack/plane_predictor.h"
 #include "paim/mesh/cache_order.h"
+#include "paim/mesh/outliers.h"
 #include "paim/metrics/asset_error.h"
 
 namespace paim {
@@ -21,10 +22,13 @@ struct EncodeProblem {
     Asset shell = {};
     PlanePredictor predictor = {};  // of the part that moves
     ScaledFactors geometry = {},
-                  transfer = {};            // as many components as can matter; noise taken out
+                  transfer = {};  // as many components as can matter; without outliers and noise
     std::vector<double> plane_weight = {};  // [planes of layout] of squared transfer errors
     // Of these components, not quantised: no file of this bake has smaller errors.
     AssetError best_achievable = {};
+    PositionOutliers outliers = {};  // of vertices in cache order
+    // Components of the geometry that every coding keeps, so that no vertex loses its motion.
+    uint32_t least_geometry_components = 0;
     uint32_t num_face_vertices = 0;  // of the part that moves; the others count for nothing
     double transfer_energy = 0.0;    // weighted ‖y‖² of the whole bake
     uint64_t spare_bytes = 0;        // of options.memory_bytes, without what is held throughout
@@ -38,9 +42,10 @@ struct EncodeProblem {
     }
 };
 
+// outliers  of the bake
 // Errors: unsupported, saying what is needed, if options.memory_bytes do not suffice for all that
 // encode_to_target() does.
-EncodeProblem read_problem(const BakeReader& bake, const EncodeOptions& options,
-                           const EncodeTarget& target);
+EncodeProblem read_problem(const BakeReader& bake, const PositionOutliers& outliers,
+                           const EncodeOptions& options, const EncodeTarget& target);
 
 }  // namespace paim

@@ -2,6 +2,7 @@
 #include "compressor/encode/search/rate_control.h"
 
 #include "compressor/encode/quantise/choose_smoothing.h"
+#include "compressor/encode/quantise/exceptions.h"
 #include "compressor/encode/quantise/float_matrix.h"
 #include "compressor/encode/quantise/trim_bands.h"
 #include "compressor/encode/search/step_scaling.h"
@@ -19,6 +20,7 @@ Asset build(const EncodeProblem& problem, const QuantisedStill& still, const Cod
                          ? smoothed(problem.geometry, coding.geometry, mesh.topology)
                          : float_matrix(problem.geometry, coding.geometry.num_components,
                                         coding.geometry_precision);
+    append_exceptions(problem.outliers, mesh.positions);
     const TransferCoding& transfer = coding.transfer;
     mesh.transfer = transfer.settings->code(problem, transfer.quantiser, transfer.precision);
     trim_bands(asset);

@@ -22,7 +22,7 @@ void code_positions_as_floats(const EncodeProblem& problem, double most_error, P
                               Coding& coding) {
     const std::vector<double> alike(3, 1.0);
     const std::vector<double> tails = tail_errors(problem.geometry, alike);
-    uint32_t k = 0;
+    uint32_t k = problem.least_geometry_components;
     while (k + 1 < tails.size() && tails[k] > most_error) ++k;
     coding.geometry = {1.0, k, alike};
     coding.geometry_precision = precision;
@@ -95,7 +95,8 @@ bool CodingSearch::choose_geometry(double target, Coding& coding) const {
     const ScaledFactors& factors = problem_.geometry;
     // Vertices that no face has come last.
     auto choice = cheapest_part(part_choices(factors, alike, most, factors.num_components(),
-                                             problem_.predictor, problem_.num_face_vertices));
+                                             problem_.predictor, problem_.num_face_vertices,
+                                             problem_.least_geometry_components));
     if (!choice) return use_float_positions(problem_, target, coding);
     coding.geometry = std::move(choice->quantiser);
     coding.geometry_bytes = choice->bytes;

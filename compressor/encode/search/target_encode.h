@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "compressor/encode/options.h"
+#include "paim/mesh/outliers.h"
 #include "paim/metrics/asset_error.h"
 
 namespace paim {
@@ -18,6 +19,7 @@ struct TargetSummary {
     uint32_t geometry_components = 0;
     uint32_t num_vertices = 0, num_poses = 0;
     uint64_t size_bytes = 0;
+    PositionOutliers outliers;  // of the bake, coded as exceptions
 
     const Candidate& chosen() const;
 };
