@@ -113,7 +113,7 @@ struct Need {
     uint64_t factors() const {
         return (geometry_values() + transfer_values()) * kFloat + weights() * kDouble;
     }
-    // Outliers are held in both orders, and while they are measured.
+    // Outliers are held in both orders, and by the bake's vertices while they are measured.
     uint64_t held() const {
         return factors() + mesh() + codecs.kept_bytes + 3 * size.streamed.outlier_bytes;
     }

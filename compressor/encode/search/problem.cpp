@@ -15,6 +15,7 @@
 #include "compressor/encode/search/transfer_encoder.h"
 #include "compressor/encode/svd/vertex_motion.h"
 #include "paim/codec/codecs.h"
+#include "paim/format/bake/baked_part.h"
 #include "paim/mesh/face_vertices.h"
 #include "paim/metrics/vertex_match.h"
 
@@ -106,7 +107,7 @@ AssetError measure_best(const EncodeProblem& problem) {
     Asset best = problem.shell;
     best.moving().positions =
         float_matrix(problem.geometry, problem.geometry.num_components(), Precision::f32);
-    append_exceptions(problem.outliers, best.moving().positions);
+    append_exceptions(problem.file_outliers, best.moving().positions);
     best.moving().transfer = plain_transfer(
         float_matrix(problem.transfer, problem.transfer.num_components(), Precision::f32));
     return measure_asset(best, problem.bake, problem.spectrum);
@@ -114,10 +115,11 @@ AssetError measure_best(const EncodeProblem& problem) {
 
 }  // namespace
 
-EncodeProblem read_problem(const BakeReader& bake, const PositionOutliers& outliers,
-                           const EncodeOptions& options, const EncodeTarget& target) {
+EncodeProblem read_problem(const BakeReader& bake, const EncodeOptions& options,
+                           const EncodeTarget& target) {
     const std::vector<SearchedCodec> codecs =
         searched_codecs(encoders_to_try(target.codec, options.precision));
+    const PositionOutliers outliers = find_outliers(BakedPart(bake, 0));
     EncodeSize streamed = encode_size(bake, options);
     streamed.outlier_bytes = outliers.size_bytes();
     uint32_t in_flight =
@@ -137,7 +139,8 @@ EncodeProblem read_problem(const BakeReader& bake, const PositionOutliers& outli
     const std::vector<uint32_t> counted = face_vertices(bake.topology());
     problem.num_face_vertices = static_cast<uint32_t>(counted.size());
     const double num_positions = static_cast<double>(counted.size()) * bake.num_poses();
-    problem.outliers = outliers.reordered(order.old_vertex);
+    problem.outliers = outliers;
+    problem.file_outliers = outliers.reordered(order.old_vertex);
     const GeometryRows geometry_rows(bake, outliers);
     const PrincipalComponents geometry = principal_components(geometry_rows, in_flight);
     const double diagonal = largest_diagonal(bake, outliers, counted);

@@ -26,7 +26,8 @@ struct EncodeProblem {
     std::vector<double> plane_weight = {};  // [planes of layout] of squared transfer errors
     // Of these components, not quantised: no file of this bake has smaller errors.
     AssetError best_achievable = {};
-    PositionOutliers outliers = {};  // of vertices in cache order
+    PositionOutliers outliers = {};       // by vertices of the bake
+    PositionOutliers file_outliers = {};  // by vertices in cache order
     // Components of the geometry that every coding keeps, so that no vertex loses its motion.
     uint32_t least_geometry_components = 0;
     uint32_t num_face_vertices = 0;  // of the part that moves; the others count for nothing
@@ -42,10 +43,9 @@ struct EncodeProblem {
     }
 };
 
-// outliers  of the bake
 // Errors: unsupported, saying what is needed, if options.memory_bytes do not suffice for all that
 // encode_to_target() does.
-EncodeProblem read_problem(const BakeReader& bake, const PositionOutliers& outliers,
-                           const EncodeOptions& options, const EncodeTarget& target);
+EncodeProblem read_problem(const BakeReader& bake, const EncodeOptions& options,
+                           const EncodeTarget& target);
 
 }  // namespace paim

@@ -20,7 +20,7 @@ Asset build(const EncodeProblem& problem, const QuantisedStill& still, const Cod
                          ? smoothed(problem.geometry, coding.geometry, mesh.topology)
                          : float_matrix(problem.geometry, coding.geometry.num_components,
                                         coding.geometry_precision);
-    append_exceptions(problem.outliers, mesh.positions);
+    append_exceptions(problem.file_outliers, mesh.positions);
     const TransferCoding& transfer = coding.transfer;
     mesh.transfer = transfer.settings->code(problem, transfer.quantiser, transfer.precision);
     trim_bands(asset);

@@ -10,7 +10,6 @@
 #include "compressor/encode/search/size_fit.h"
 #include "paim/base/check.h"
 #include "paim/base/file.h"
-#include "paim/format/bake/baked_part.h"
 
 namespace paim {
 
@@ -49,8 +48,7 @@ TargetSummary encode_to_target(const BakeReader& bake, const EncodeOptions& opti
     PAIM_CHECK(target.transfer_error || target.size_bytes);
     remove_abandoned_versions(output);
     say("finding components");
-    PositionOutliers outliers = find_outliers(BakedPart(bake, 0));
-    const EncodeProblem problem = read_problem(bake, outliers, options, target);
+    const EncodeProblem problem = read_problem(bake, options, target);
     if (target.transfer_error) check_feasible(problem, *target.transfer_error);
     say("comparing ways to code them");
     EncodedFiles files(problem, options, target);
@@ -67,7 +65,7 @@ TargetSummary encode_to_target(const BakeReader& bake, const EncodeOptions& opti
     summary.geometry_components = result.geometry_components;
     summary.num_vertices = problem.geometry.num_points;
     summary.num_poses = bake.num_poses();
-    summary.outliers = std::move(outliers);
+    summary.outliers = problem.outliers;
     summary.size_bytes = result.file.size_bytes();
     return summary;
 }

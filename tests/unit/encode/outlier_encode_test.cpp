@@ -8,6 +8,7 @@
 #include "paim/codec/sequence_bounds.h"
 #include "paim/format/paim/paim_read.h"
 #include "paim/format/paim/section_table.h"
+#include "paim/metrics/prefix_error.h"
 #include "tests/kept_motion.h"
 #include "tests/unit/encode/search/target_encode_fixture.h"
 
@@ -123,6 +124,7 @@ class OutlierEncode : public TargetEncode {
         const Bounds bounds = sequence_bounds(made.asset), expected = sequence_bounds(clean.asset);
         EXPECT_LT((bounds.lower - expected.lower).cwiseAbs().maxCoeff(), 0.03f);
         EXPECT_LT((bounds.upper - expected.upper).cwiseAbs().maxCoeff(), 0.03f);
+        EXPECT_LT(prefix_errors(made.asset.moving(), {}).position_rms[0], 1.0);
         // The last components of the file are the exceptions.
         const LowRank& positions = made.asset.moving().positions;
         EXPECT_GE(positions.num_usual_components() + 1,

@@ -109,6 +109,13 @@ TEST(Outliers, AreNotMotion) {
     none(
         40,
         [&](uint32_t v, uint32_t p) {
+            const float away = v < 3 ? 1.5f * std::max(0.0f, time(p) - 32) : 0.0f;
+            return Vec3f(swing(v, p) + Vec3f(away, 0, 0));
+        },
+        "a small piece flies away at last");
+    none(
+        40,
+        [&](uint32_t v, uint32_t p) {
             return Vec3f(swing(v, p) + (p >= 31 ? Vec3f(70, 0, 0) : Vec3f(0, 0, 0)));
         },
         "a cut to another place");
