@@ -8,6 +8,7 @@
 #include <span>
 
 #include "paim/codec/mesh_decoder.h"
+#include "paim/format/bake/baked_part.h"
 #include "paim/mesh/face_vertices.h"
 #include "paim/metrics/image_error.h"
 
@@ -52,8 +53,10 @@ std::vector<Image> measure_curves(const BakeReader& bake, const Asset& asset, co
     using Clock = std::chrono::steady_clock;
     MeshDecoder decoder(asset.moving());
     const std::vector<uint32_t> counted = face_vertices(bake.topology());
-    const auto positions_of = [&](const DecodedPose& pose) {
+    const PositionOutliers outliers = find_outliers(BakedPart(bake, 0));
+    const auto positions_of = [&](const DecodedPose& pose, uint32_t p) {
         std::vector<float> planes = pose.positions;
+        outliers.replace(p, bake.identity().num_vertices, 0, planes);
         keep_vertices(planes, bake.identity().num_vertices, counted);
         return planes;
     };
@@ -81,7 +84,7 @@ std::vector<Image> measure_curves(const BakeReader& bake, const Asset& asset, co
             for (size_t light = 0; light < images.size(); ++light) {
                 sums[j].images[light].add(compare_images(images[light], reference[light]));
             }
-            point.distance.add(positions_of(decoded), positions_of(baked), p);
+            point.distance.add(positions_of(decoded, p), positions_of(baked, p), p);
             add_transfer(point.transfer, decoded, baked, p);
             if (p == stage.poses().front()) point.images = std::move(images);
             on_step();

@@ -8,6 +8,7 @@
 
 #include "paim/cli/light_options.h"
 #include "paim/codec/sequence_bounds.h"
+#include "paim/format/bake/baked_part.h"
 #include "paim/light/load_light.h"
 #include "paim/light/sky.h"
 #include "paim/mesh/face_vertices.h"
@@ -51,9 +52,11 @@ namespace {
 Bounds bounds_of_poses(const BakeReader& bake) {
     Bounds bounds;
     const std::vector<uint32_t> vertices = face_vertices(bake.topology());
+    const PositionOutliers outliers = find_outliers(BakedPart(bake, 0));
     std::vector<float> planes(size_t{3} * bake.identity().num_vertices);
     for (uint32_t p = 0; p < bake.num_poses(); ++p) {
         bake.read_position_rows(p, 0, planes.size(), planes.data());
+        outliers.replace(p, bake.identity().num_vertices, 0, planes);
         move_to_scene(root_at(bake.identity().root_motion, p), planes);
         bounds.extend(bounds_of_vertices(planes, vertices));
     }

@@ -113,7 +113,8 @@ void add_component_options(CLI::App& app, CompressOptions& options, EncodeArgume
         ->type_name("K")
         ->group(kGroup);
     app.add_option("--geometry-components", arguments.geometry_components,
-                   "Components of the geometry: a number, 'all' or 'auto' (for an error of 1 %)")
+                   "Components of the geometry: a number, 'all' or 'auto' (for an error of 1 % and "
+                   "every vertex's motion)")
         ->capture_default_str()
         ->type_name("K")
         ->group(kGroup);

@@ -11,6 +11,7 @@
 #include "compressor/encode/memory/memory_plan.h"
 #include "compressor/encode_report.h"
 #include "compressor/mesh_warnings.h"
+#include "compressor/outlier_notes.h"
 #include "compressor/output_check.h"
 #include "compressor/target_report.h"
 #include "paim/base/error.h"
@@ -100,6 +101,18 @@ void check_band_power(const CompressOptions& options, uint32_t bands) {
     cli::print_notes("paim-compress", options.band_power, power.notes);
 }
 
+// The report of an encoding with the outliers of its bake, which notes name.
+template <typename Report>
+ordered_json tell_with_outliers(const CompressOptions& options, const BakeIdentity& bake,
+                                const Report& report) {
+    ordered_json json = tell(options, report);
+    const PositionOutliers& outliers = report.summary.outliers;
+    if (outliers.empty()) return json;
+    print_notes(outlier_notes(bake, outliers));
+    json["outliers"] = outliers_json(bake, outliers);
+    return json;
+}
+
 ordered_json run_bake(const CompressOptions& options) {
     check_output(options.output);
     return tell(options, bake(options, BakeInput(options), options.output));
@@ -113,9 +126,12 @@ ordered_json run_encode(const CompressOptions& options, const std::filesystem::p
     check_memory(reader, encode_options);
     check_band_power(options, reader.identity().layout.in_bands);
     reader.verify_all();
-    if (options.target) return tell(options, encode_target(options, encode_options, reader));
+    if (options.target) {
+        return tell_with_outliers(options, reader.identity(),
+                                  encode_target(options, encode_options, reader));
+    }
     const EncodeReport report = encode_streamed(options, encode_options, reader);
-    ordered_json json = tell(options, report);
+    ordered_json json = tell_with_outliers(options, reader.identity(), report);
     if (!options.json && report.more_rays_would_help()) {
         fmt::print(stderr,
                    "note: most of the error is bake noise: more rays would help more than more "

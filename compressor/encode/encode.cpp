@@ -16,12 +16,16 @@
 #include "compressor/encode/noise/component_noise.h"
 #include "compressor/encode/noise/rank_selection.h"
 #include "compressor/encode/noise/shrinkage.h"
+#include "compressor/encode/quantise/exceptions.h"
 #include "compressor/encode/state_errors.h"
 #include "compressor/encode/svd/projected_blocks.h"
+#include "compressor/encode/svd/vertex_motion.h"
 #include "paim/base/file.h"
 #include "paim/base/json_text.h"
 #include "paim/codec/codecs.h"
+#include "paim/format/bake/baked_part.h"
 #include "paim/format/paim/paim_write.h"
+#include "paim/mesh/face_vertices.h"
 #include "paim/metrics/singular_value_error.h"
 
 namespace paim {
@@ -66,13 +70,15 @@ LowRank start_matrix(const BakeReader& bake, const RowSource& rows,
     return matrix;
 }
 
-// shrinkage  applied to the components, or none
+// Called for each block of rows, in order, before it is written.
+using OnBlock = std::function<void(uint64_t first, EncodedRows& block)>;
+
 void stream(PaimWriter& writer, Attribute attribute, const RowSource& rows,
-            const PrincipalComponents& components, uint32_t num_components,
-            const Shrinkage* shrinkage, uint32_t num_in_flight) {
+            const PrincipalComponents& components, uint32_t num_components, uint32_t num_in_flight,
+            const OnBlock& on_block) {
     uint64_t first = 0;
     const auto append = [&](EncodedRows& block) {
-        if (shrinkage != nullptr) shrinkage->apply(first, block.components);
+        on_block(first, block);
         first += block.mean.size();
         writer.append_mean(attribute, block.mean);
         for (uint32_t k = 0; k < num_components; ++k) {
@@ -80,6 +86,33 @@ void stream(PaimWriter& writer, Attribute attribute, const RowSource& rows,
         }
     };
     for_each_encoded_block(rows, components, num_components, append, num_in_flight);
+}
+
+// Writes rows of the exceptions behind `num_usual` components.
+OnBlock append_exception_rows(PaimWriter& writer, const std::vector<FloatException>& exceptions,
+                              const PositionOutliers& outliers, uint32_t num_vertices,
+                              uint32_t num_usual) {
+    return [&, num_vertices, num_usual](uint64_t first, EncodedRows& block) {
+        std::vector<float> rows;
+        for (uint32_t j = 0; j < exceptions.size(); ++j) {
+            rows.assign(block.mean.size(), 0.0f);
+            exceptions[j].add_rows(outliers, num_vertices, first, rows);
+            writer.append_component({Attribute::geometry, num_usual + j}, rows);
+        }
+    };
+}
+
+// How many components of the geometry to keep.
+uint32_t choose_geometry(const BakeReader& bake, const EncodeOptions& options,
+                         const PositionOutliers& outliers, const RowSource& rows,
+                         const PrincipalComponents& geometry) {
+    const uint32_t of_all = choose_components(options.geometry, geometry.singular_values,
+                                              geometry.rank(), options.automatic_geometry_error);
+    if (options.geometry.kind != ComponentChoice::Kind::automatic) return of_all;
+    const std::vector<uint32_t> vertices = face_vertices(bake.topology());
+    MotionLimits limits;
+    limits.invisible = kInvisibleMotion * largest_diagonal(bake, outliers, vertices);
+    return std::max(of_all, components_for_motion(rows.silent(), geometry, vertices, limits));
 }
 
 // Sum of squares of the bake's transfer in the bands of the layout, over all rows and poses.
@@ -95,13 +128,11 @@ double transfer_energy(const BakeReader& bake, const PoseStatistics& total,
 
 // All but the size and what is measured.
 EncodeSummary summarise(const BakeReader& bake, const EncodeOptions& options,
-                        const Decomposition& parts, const Shrinkage& shrinkage,
-                        const PoseStatistics& total) {
+                        const Decomposition& parts, uint32_t geometry_components,
+                        const Shrinkage& shrinkage, const PoseStatistics& total) {
     const auto& [geometry, transfer, noise] = parts;
     EncodeSummary summary;
-    summary.geometry_components =
-        choose_components(options.geometry, geometry.singular_values, geometry.rank(),
-                          options.automatic_geometry_error);
+    summary.geometry_components = geometry_components;
     summary.transfer_components =
         choose_components(options.transfer, noise, options.automatic_transfer_error);
     summary.geometry_rank = geometry.rank();
@@ -141,11 +172,14 @@ std::string provenance(const BakeIdentity& identity, const PoseStatistics& total
 EncodeSummary encode_unmeasured(const BakeReader& bake, const EncodeOptions& options,
                                 const std::filesystem::path& output,
                                 const std::function<void(uint64_t)>& on_rows) {
-    const uint32_t in_flight = choose_num_in_flight(
-        encode_size(bake, options), options.memory_bytes, bake.directory().string());
+    const PositionOutliers outliers = find_outliers(BakedPart(bake, 0));
+    EncodeSize size = encode_size(bake, options);
+    size.outlier_bytes = outliers.size_bytes();
+    const uint32_t in_flight =
+        choose_num_in_flight(size, options.memory_bytes, bake.directory().string());
     Asset asset = asset_shell(bake, options);
     CodedMesh& mesh = asset.moving();
-    const GeometryRows baked_geometry(bake);
+    const GeometryRows baked_geometry(bake, outliers);
     const TransferRows baked_transfer(bake, mesh.layout.in_bands);
     const TransferRows baked_noise(bake, mesh.layout.in_bands, TransferRows::Content::noise);
     const ReportingRows geometry_rows(baked_geometry, on_rows);
@@ -158,10 +192,14 @@ EncodeSummary encode_unmeasured(const BakeReader& bake, const EncodeOptions& opt
         measure_component_noise(transfer_rows, noise_rows, mesh.layout, parts.transfer, in_flight);
     const Shrinkage shrinkage(parts.noise);
     const PoseStatistics total = bake.total_statistics();
-    EncodeSummary summary = summarise(bake, options, parts, shrinkage, total);
+    const uint32_t num_usual =
+        choose_geometry(bake, options, outliers, geometry_rows, parts.geometry);
+    EncodeSummary summary = summarise(bake, options, parts, num_usual, shrinkage, total);
+    summary.outliers = outliers;
     asset.provenance_json = provenance(bake.identity(), total, summary);
-    mesh.positions =
-        start_matrix(bake, geometry_rows, parts.geometry, summary.geometry_components, options);
+    mesh.positions = start_matrix(bake, geometry_rows, parts.geometry, num_usual, options);
+    const std::vector<FloatException> exceptions = float_exceptions(outliers);
+    append_weights(exceptions, mesh.positions);
     mesh.transfer = plain_transfer(
         start_matrix(bake, transfer_rows, parts.transfer, summary.transfer_components, options));
     summary.size_bytes = paim_size_bytes(asset);
@@ -171,10 +209,13 @@ EncodeSummary encode_unmeasured(const BakeReader& bake, const EncodeOptions& opt
                                output.string());
     }
     PaimWriter writer(output, asset);
-    stream(writer, Attribute::geometry, geometry_rows, parts.geometry, summary.geometry_components,
-           nullptr, in_flight);
+    stream(
+        writer, Attribute::geometry, geometry_rows, parts.geometry, num_usual, in_flight,
+        append_exception_rows(writer, exceptions, outliers, mesh.topology.num_vertices, num_usual));
     stream(writer, Attribute::transfer, transfer_rows, parts.transfer, summary.transfer_components,
-           summary.shrunk ? &shrinkage : nullptr, in_flight);
+           in_flight, [&](uint64_t first, EncodedRows& block) {
+               if (summary.shrunk) shrinkage.apply(first, block.components);
+           });
     writer.commit();
     return summary;
 }
@@ -183,7 +224,8 @@ EncodeSummary encode_unmeasured(const BakeReader& bake, const EncodeOptions& opt
 
 uint64_t num_rows_to_read(const BakeReader& bake, const EncodeOptions& options) {
     const uint32_t bands = std::min(options.bands, bake.identity().layout.in_bands);
-    return 2 * GeometryRows(bake).num_rows() + 4 * TransferRows(bake, bands).num_rows();
+    return 2 * uint64_t{3} * bake.identity().num_vertices +
+           4 * TransferRows(bake, bands).num_rows();
 }
 
 void check_memory(const BakeReader& bake, const EncodeOptions& options) {

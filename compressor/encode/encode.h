@@ -12,6 +12,7 @@
 
 #include "compressor/encode/options.h"
 #include "paim/format/bake/bake_directory.h"
+#include "paim/mesh/outliers.h"
 #include "paim/metrics/asset_error.h"
 
 namespace paim {
@@ -37,6 +38,7 @@ struct EncodeSummary {
         return std::hypot(expected_truncation_error, expected_noise_error);
     }
     uint64_t size_bytes = 0;
+    PositionOutliers outliers;           // of the bake, coded as exceptions
     std::optional<AssetError> measured;  // with EncodeOptions::measure; under flat light
 };
 

@@ -67,6 +67,10 @@ struct EncodeTarget {
     BandPower spectrum = BandPower::flat(1);
 };
 
+// Of the diagonal: motion of a vertex up to this RMS distance cannot be seen. It is the geometry
+// error that goes with a transfer error of 1 % (below).
+constexpr double kInvisibleMotion = 2e-4;
+
 // The geometry error for a transfer error E, if none is asked for: E / 50 of the diagonal. A figure
 // that is a thousand pixels high then errs by 0.2 pixels at 1 % and by one pixel at 5 %.
 constexpr double kGeometryPerTransferError = 1.0 / 50.0;

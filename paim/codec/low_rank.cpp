@@ -80,6 +80,15 @@ std::vector<float> LowRank::mean_floats() const {
     return result;
 }
 
+uint32_t LowRank::num_usual_components() const {
+    uint32_t count = num_components;
+    while (count > 0 && singular_index(count - 1) < singular_values.size() &&
+           singular_values[singular_index(count - 1)] == 0.0) {
+        --count;
+    }
+    return count;
+}
+
 void LowRank::keep_components(uint32_t count) {
     if (count >= num_components) return;
     num_components = count;

@@ -12,6 +12,9 @@
 
 namespace paim {
 
+// The most exceptions of a pose (LowRank::num_usual_components()).
+constexpr uint32_t kExceptionsPerPose = 2;
+
 // The largest step of integers: 2^15 times it is finite. Larger ones are neither written nor read.
 constexpr float kMaxStep = std::numeric_limits<float>::max() / 32768.0f;
 
@@ -49,6 +52,10 @@ struct PAIM_EXPORT LowRank {
     uint32_t singular_index(uint32_t k) const {
         return singular_indices.empty() ? k : singular_indices[k];
     }
+    // The components before the exceptions. An exception is a component that is zero but for
+    // vertices that are outliers in one pose, with weights that are zero but in this pose. Its
+    // singular value is 0, so that exceptions come last.
+    uint32_t num_usual_components() const;
     size_t num_rows() const { return size_t{num_planes} * num_points; }
     float step(uint32_t plane) const { return steps.empty() ? 1.0f : steps[plane]; }
     bool holds_floats() const { return mean.holds_floats(); }

@@ -39,16 +39,19 @@ Bounds still_bounds(const Asset& asset) {
 class MovingBounds {
   public:
     explicit MovingBounds(const CodedMesh& mesh)
-        : mesh_(mesh), vertices_(face_vertices(mesh.topology)) {}
+        : mesh_(mesh),
+          num_usual_(mesh.positions.num_usual_components()),
+          vertices_(face_vertices(mesh.topology)) {}
 
     Bounds at(double time, uint32_t num_components) {
-        decoder_.decode(mesh_.positions, time, num_components, planes_);
+        decoder_.decode(mesh_.positions, time, std::min(num_components, num_usual_), planes_);
         move_to_scene(root_at(mesh_.root_motion, time), planes_);
         return bounds_of_vertices(planes_, vertices_);
     }
 
   private:
     const CodedMesh& mesh_;
+    const uint32_t num_usual_;
     const std::vector<uint32_t> vertices_;
     PositionDecoder decoder_;
     std::vector<float> planes_;

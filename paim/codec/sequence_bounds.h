@@ -1,5 +1,6 @@
 // Bounds of a coded animation in space, of vertices that a face has (mesh/face_vertices.h). The
-// player and the reference images frame them, so that their default cameras agree.
+// player and the reference images frame them, so that their default cameras agree. Outliers
+// (mesh/outliers.h) are left out: their vertices are where they are without exceptions.
 #pragma once
 
 #include <cstdint>

@@ -95,12 +95,30 @@ TransferError measure_transfer(const CodedMesh& mesh, const BakedPart& bake,
     return error;
 }
 
+// Adds the errors of outliers, and puts both into the places where they usually are.
+// outliers  of pose p, by vertices of the file
+void take_out(const PositionOutliers& outliers, uint32_t p, std::span<float> decoded,
+              std::span<float> baked, DistanceError& error) {
+    const size_t num_vertices = baked.size() / 3;
+    for (const PositionOutlier& outlier : outliers.of_pose(p)) {
+        Vec3f position;
+        for (size_t axis = 0; axis < 3; ++axis) {
+            position[static_cast<int>(axis)] = decoded[axis * num_vertices + outlier.vertex];
+        }
+        error.add({position.data(), 3}, {outlier.position.data(), 3}, p);
+    }
+    for (const std::span<float> planes : {decoded, baked}) {
+        outliers.replace(p, static_cast<uint32_t>(num_vertices), 0, planes);
+    }
+}
+
 }  // namespace
 
 PartMeter::PartMeter(const Asset& asset, size_t number, const BakeReader& bake)
     : bake_(bake),
       baked_(bake, number),
       old_vertex_(check_same_part(asset, number, bake, baked_)),
+      outliers_(find_outliers(baked_).reordered(old_vertex_)),
       shape_(asset.parts[number].topology) {}
 
 SurfaceError PartMeter::surface(const LowRank& positions) const {
@@ -118,6 +136,10 @@ SurfaceError PartMeter::surface(const LowRank& positions) const {
             reorder_planes(baked, old_vertex_);
             PositionDecoder().decode(positions, p, positions.num_components, poses[j].positions);
         });
+        for (size_t j = 0; j < poses.size(); ++j) {
+            take_out(outliers_, static_cast<uint32_t>(first + j), poses[j].positions,
+                     poses[j].reference, error.outliers);
+        }
         shape.add(poses);
         for (size_t j = 0; j < poses.size(); ++j) {
             for (auto* const planes : {&poses[j].reference, &poses[j].positions}) {
@@ -195,6 +217,9 @@ std::vector<NamedError> named_errors(const AssetError& error) {
         {"sted_worst_piece", error.shape.worst.sted(), false},
         {"normal_angle_deg", error.shape.whole.normal_angle_deg, false},
         {"normal_angle_deg_worst_piece", error.shape.worst.normal_angle_deg, false}};
+    if (error.outliers.num_vertices > 0) {
+        errors.push_back({"position_outlier_worst", error.outliers.worst, false});
+    }
     if (!error.still) return errors;
     const TransferError& still = error.still->transfer;
     errors.insert(
@@ -229,6 +254,7 @@ ErrorStatement read_error_statement(const Asset& asset, const std::filesystem::p
         statement.band_power = measured.text("light_spectrum");
         AssetError with_all;
         with_all.still.emplace();
+        with_all.outliers.num_vertices = 1;
         for (NamedError& named : named_errors(with_all)) {
             if (!measured.root().contains(named.name)) continue;
             named.value =

@@ -17,10 +17,12 @@
 namespace paim {
 
 // Errors of one part. Transfer errors are relative to the transfer of this part; position errors
-// use the diagonal of this part.
+// use the diagonal of this part. Outliers (mesh/outliers.h) are measured apart. In the other errors
+// they count as vertices without error where they usually are.
 struct SurfaceError {
     GeometryError geometry;
     PieceShapeError shape;
+    DistanceError outliers;  // of outliers alone; nothing was added if there are none
 };
 struct MeshError : SurfaceError {
     TransferError transfer;
@@ -57,6 +59,7 @@ class PartMeter {
     const BakeReader& bake_;
     BakedPart baked_;
     std::vector<uint32_t> old_vertex_;  // [V] the vertex of the bake for each vertex of the file
+    PositionOutliers outliers_;         // by vertices of the file
     ShapeNeighbours shape_;
 };
 

@@ -106,6 +106,24 @@ ComponentEnergy component_energy(const CodedMesh& mesh, Attribute attribute,
     return result;
 }
 
+namespace {
+
+// Of positions without exceptions, as stated errors are.
+ComponentEnergy usual_energy(const CodedMesh& mesh) {
+    const std::vector<double> alike(3, 1.0);
+    const uint32_t num_usual = mesh.positions.num_usual_components();
+    if (num_usual == mesh.positions.num_components) {
+        return component_energy(mesh, Attribute::geometry, alike);
+    }
+    CodedMesh usual = mesh;
+    usual.positions.keep_components(num_usual);
+    ComponentEnergy energy = component_energy(usual, Attribute::geometry, alike);
+    energy.dropped.resize(1 + size_t{mesh.positions.num_components}, 0.0);
+    return energy;
+}
+
+}  // namespace
+
 PrefixErrors prefix_errors(const CodedMesh& mesh, const std::optional<ErrorStatement>& statement) {
     const ErrorStatement whole = statement.value_or(ErrorStatement{});
     const bool named = whole.band_power == "flat" || whole.band_power == "natural";
@@ -124,7 +142,7 @@ PrefixErrors prefix_errors(const CodedMesh& mesh, const std::optional<ErrorState
     const double error_to_bake =
         transfer_error ? stated(whole, "transfer_deviation").value_or(0.0) : 0.0;
     const double share = error_to_bake < 1.0 ? 1.0 - error_to_bake * error_to_bake : 1.0;
-    const ComponentEnergy geometry = component_energy(mesh, Attribute::geometry, {1.0, 1.0, 1.0});
+    const ComponentEnergy geometry = usual_energy(mesh);
     const double num_positions = static_cast<double>(face_vertices(mesh.topology).size()) *
                                  static_cast<double>(mesh.num_poses());
     return {

@@ -24,6 +24,7 @@ ComponentEnergy component_energy(const CodedMesh& mesh, Attribute attribute,
 
 // Errors with the first k components, k = 0 … K. The stated error of the whole file and the
 // contribution of the missing components are assumed to be orthogonal: error² = stated² + dropped.
+// Exceptions (LowRank::num_usual_components()) are in no error of positions.
 struct PrefixErrors {
     std::string band_power;
     std::vector<double> transfer;      // [1 + Kt] relative to the bake's transfer

@@ -3,7 +3,9 @@
 #include <cctype>
 #include <ostream>
 
+#include "paim/format/paim/paim_read.h"
 #include "tests/cli/tool_test.h"
+#include "tests/kept_motion.h"
 
 namespace paim {
 namespace {
@@ -44,6 +46,10 @@ TEST_P(RealSequence, GoesAllTheWay) {
         EXPECT_GT(json[part]["components"].get<int>(), 0) << part;
         EXPECT_LT(json[part]["components"].get<uint32_t>(), sequence.num_poses) << part;
     }
+    // Of every vertex that moves by more than what cannot be seen.
+    const BakeReader bake(path("x.bake"));
+    const double seen = 10.0 * 2e-4 * diagonal_of(bake);
+    EXPECT_GT(least_kept_motion(read_paim(path("x.paim")), bake, seen).share, 0.9);
     json = parse_object(info({path("x.paim"), "--json"}));
     EXPECT_EQ(json["num_poses"], sequence.num_poses);
     EXPECT_EQ(json["size_bytes"], std::filesystem::file_size(path("x.paim")));
@@ -92,6 +98,11 @@ TEST_P(RealSequence, MeetsEveryTargetWithEveryCodec) {
             EXPECT_LE(json["measured"]["transfer_total_error"].get<double>(), std::stod(error));
             const ToolResult verified = analyze({path("x.bake"), "--verify", path("x.paim")});
             EXPECT_EQ(verified.exit_code, 0) << verified.err;
+            // Of every vertex that moves by more than the distance that is allowed.
+            const double least = 10.0 * json["geometry_target"].get<double>();
+            const KeptMotion kept =
+                least_kept_motion(read_paim(path("x.paim")), BakeReader(path("x.bake")), least);
+            EXPECT_GT(kept.share, 0.9) << kept.vertex;
             return json;
         };
         const auto paper = encode({"--precision", "f32"});

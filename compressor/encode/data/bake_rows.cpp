@@ -4,13 +4,17 @@
 #include <algorithm>
 
 #include "paim/base/check.h"
+#include "paim/mesh/face_vertices.h"
+#include "paim/metrics/geometry_error.h"
 
 namespace paim {
 
 void GeometryRows::read(uint64_t first, Eigen::MatrixXf& block) const {
     for (uint32_t p = 0; p < num_columns(); ++p) {
-        bake_.read_position_rows(p, first, static_cast<uint64_t>(block.rows()),
-                                 block.col(p).data());
+        float* const rows = block.col(p).data();
+        const auto count = static_cast<size_t>(block.rows());
+        bake_.read_position_rows(p, first, count, rows);
+        outliers_.replace(p, bake_.identity().num_vertices, first, {rows, count});
     }
 }
 
@@ -43,6 +47,21 @@ void TransferRows::read(uint64_t first, Eigen::MatrixXf& block) const {
             done += piece;
         }
     }
+}
+
+double largest_diagonal(const BakeReader& bake, const PositionOutliers& outliers,
+                        const std::vector<uint32_t>& vertices) {
+    GeometryError measured;
+    const uint32_t num_vertices = bake.identity().num_vertices;
+    std::vector<float> positions;
+    for (uint32_t p = 0; p < bake.num_poses(); ++p) {
+        positions.resize(size_t{3} * num_vertices);
+        bake.read_position_rows(p, 0, positions.size(), positions.data());
+        outliers.replace(p, num_vertices, 0, positions);
+        keep_vertices(positions, num_vertices, vertices);
+        measured.add(positions, positions, p);
+    }
+    return measured.diagonal;
 }
 
 }  // namespace paim

@@ -1,15 +1,20 @@
 // The data matrices of a bake (E3), a column a pose; rows plane-major.
 #pragma once
 
+#include <vector>
+
 #include "compressor/encode/data/row_source.h"
 #include "paim/format/bake/bake_directory.h"
+#include "paim/mesh/outliers.h"
 
 namespace paim {
 
-// Rows (v, x|y|z).
+// Rows (v, x|y|z), outliers where they usually are.
 class GeometryRows : public RowSource {
   public:
-    explicit GeometryRows(const BakeReader& bake) : bake_(bake) {}
+    // Keeps references.
+    GeometryRows(const BakeReader& bake, const PositionOutliers& outliers)
+        : bake_(bake), outliers_(outliers) {}
 
     uint64_t num_rows() const override { return uint64_t{3} * bake_.identity().num_vertices; }
     uint32_t num_columns() const override { return bake_.num_poses(); }
@@ -17,6 +22,7 @@ class GeometryRows : public RowSource {
 
   private:
     const BakeReader& bake_;
+    const PositionOutliers& outliers_;
 };
 
 // Rows (v, i[, channel]) of the first bands.
@@ -38,5 +44,9 @@ class TransferRows : public RowSource {
     TransferLayout layout_;  // with the bands that are kept
     uint64_t num_vertices_;
 };
+
+// Largest diagonal of a pose's bounding box, of these vertices, without outliers.
+double largest_diagonal(const BakeReader& bake, const PositionOutliers& outliers,
+                        const std::vector<uint32_t>& vertices);
 
 }  // namespace paim

@@ -9,9 +9,11 @@
 #include "compressor/encode/noise/shrinkage.h"
 #include "compressor/encode/svd/projected_blocks.h"
 #include "compressor/encode/svd/tsqr.h"
+#include "compressor/encode/svd/vertex_motion.h"
 #include "paim/base/error.h"
 #include "paim/base/parallel.h"
 #include "paim/format/bake/bake_directory.h"
+#include "paim/mesh/outliers.h"
 
 namespace paim {
 
@@ -70,14 +72,15 @@ uint64_t encode_memory_bytes(const EncodeSize& size, uint32_t num_in_flight) {
         kPoseNameBytes * poses +
         2 * (principal_components_bytes(poses) + poses * components * sizeof(float)) +
         component_noise_bytes(size.num_vertices, size.bands) +
-        Shrinkage::held_bytes(size.num_vertices, size.bands);
+        Shrinkage::held_bytes(size.num_vertices, size.bands) + 2 * size.outlier_bytes;
     const auto rows_at_work = [&](uint64_t num_blocks) {
         return rows_at_work_bytes(poses, components, size.num_threads, num_blocks);
     };
     const uint64_t measured_at_once = std::min(num_in_flight, kMaxMeasuredAtOnce);
     const uint64_t streamed = std::max(
         {triangular_factor_bytes(poses, num_in_flight) + rows_at_work(num_in_flight),
-         jacobi_svd_bytes(poses),
+         jacobi_svd_bytes(poses), outliers_bytes(size.num_vertices, poses, size.num_threads),
+         components_for_motion_bytes(poses, size.num_threads),
          component_noise_scratch_bytes(poses, size.bands, num_in_flight) +
              rows_at_work(measured_at_once),
          encoded_blocks_bytes(poses, components, num_in_flight) + rows_at_work(num_in_flight)});

@@ -23,6 +23,7 @@ struct EncodeSize {
     uint64_t num_vertices = 0;
     uint64_t bands = 1;
     uint64_t still_mesh_bytes = 0;  // still_mesh_bytes() of the bake
+    uint64_t outlier_bytes = 0;     // of those that were found (mesh/outliers.h)
 };
 
 // Memory of the still mesh of a bake: its baked pose, triangles and colours.

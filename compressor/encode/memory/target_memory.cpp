@@ -115,7 +115,11 @@ struct Need {
         return SurfaceSmoother::bytes(vertices(), size.streamed.num_triangles) +
                PartMeter::kept_bytes(vertices(), size.streamed.num_triangles);
     }
-    uint64_t held() const { return factors() + mesh() + neighbours() + codecs.kept_bytes; }
+    // Outliers are held in both orders, and by the meter.
+    uint64_t held() const {
+        return factors() + mesh() + neighbours() + codecs.kept_bytes +
+               3 * size.streamed.outlier_bytes;
+    }
 
     uint64_t searching() const {
         const uint64_t refining =

@@ -2,8 +2,11 @@
 #include "compressor/encode/search/held_positions.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "compressor/encode/quantise/exceptions.h"
 #include "compressor/encode/quantise/float_matrix.h"
+#include "compressor/encode/svd/vertex_motion.h"
 #include "paim/mesh/face_vertices.h"
 
 namespace paim {
@@ -17,29 +20,24 @@ constexpr double kHeldDistance = 0.25;
 // What dropped components may take of the errors of edges and normals: a tenth in squares.
 constexpr double kDroppedOfShape = 0.3;
 
-// Largest diagonal of a pose's bounding box, of these vertices.
-double largest_diagonal(const BakeReader& bake, const std::vector<uint32_t>& vertices) {
-    GeometryError measured;
-    const uint32_t num_vertices = bake.identity().num_vertices;
-    std::vector<float> positions;
-    for (uint32_t p = 0; p < bake.num_poses(); ++p) {
-        positions.resize(size_t{3} * num_vertices);
-        bake.read_position_rows(p, 0, positions.size(), positions.data());
-        keep_vertices(positions, num_vertices, vertices);
-        measured.add(positions, positions, p);
-    }
-    return measured.diagonal;
-}
+// Share of a vertex's motion that dropped components may take, where it is more than the distance
+// that is asked for. What is left is √(1 − 0.19) = 90 % of the motion.
+const double kLostByTarget = std::sqrt(0.19);
 
 }  // namespace
 
-HeldPositions::HeldPositions(const BakeReader& bake, const EncodeTarget& target, uint32_t in_flight)
-    : rows_(bake),
+HeldPositions::HeldPositions(const BakeReader& bake, const PositionOutliers& outliers,
+                             const EncodeTarget& target, uint32_t in_flight)
+    : rows_(bake, outliers),
       all_(principal_components(rows_, in_flight)),
       is_known_(target.transfer_error.has_value()) {
     const std::vector<uint32_t> counted = face_vertices(bake.topology());
     num_positions_ = static_cast<double>(counted.size()) * bake.num_poses();
-    target_ = targets_of(target, asked_error(target), largest_diagonal(bake, counted)).surface;
+    const double diagonal = largest_diagonal(bake, outliers, counted);
+    target_ = targets_of(target, asked_error(target), diagonal).surface;
+    least_components_ = components_for_motion(
+        rows_, all_, counted,
+        {kLostByTarget, std::max(target_.distance, kInvisibleMotion * diagonal)});
     allow(kHeldDistance * target_.distance);
 }
 
@@ -61,8 +59,10 @@ bool HeldPositions::need_more(const EncodeProblem& problem) {
 }
 
 SurfaceError HeldPositions::best_surface(const EncodeProblem& problem) {
-    return problem.meter->surface(
-        float_matrix(problem.geometry, problem.geometry.num_components(), Precision::f32));
+    LowRank positions =
+        float_matrix(problem.geometry, problem.geometry.num_components(), Precision::f32);
+    append_exceptions(problem.file_outliers, positions);
+    return problem.meter->surface(positions);
 }
 
 void HeldPositions::allow(double distance) {
@@ -70,6 +70,7 @@ void HeldPositions::allow(double distance) {
     num_components_ = components_for(
         all_.rank(), kDroppedShare * kDroppedShare * distance * distance * num_positions_,
         [&](uint32_t k) { return all_.singular_values[k] * all_.singular_values[k]; });
+    num_components_ = std::max(num_components_, least_components_);
 }
 
 }  // namespace paim

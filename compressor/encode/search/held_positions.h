@@ -32,9 +32,12 @@ uint32_t components_for(uint32_t all, double most, const EnergyOf& energy_of) {
 class HeldPositions {
   public:
     // Keeps a reference to the bake.
-    HeldPositions(const BakeReader& bake, const EncodeTarget& target, uint32_t in_flight);
+    HeldPositions(const BakeReader& bake, const PositionOutliers& outliers,
+                  const EncodeTarget& target, uint32_t in_flight);
 
     uint32_t num_components() const { return num_components_; }
+    // Without which a vertex would lose its motion.
+    uint32_t least_components() const { return least_components_; }
 
     // Reads the components into the problem.
     void read(EncodeProblem& problem, const std::vector<uint32_t>& old_vertex,
@@ -57,7 +60,7 @@ class HeldPositions {
     SurfaceTarget target_;
     bool is_known_ = false;  // the target
     double distance_ = 0.0;
-    uint32_t num_components_ = 0;
+    uint32_t num_components_ = 0, least_components_ = 0;
 };
 
 }  // namespace paim

@@ -30,7 +30,7 @@ std::vector<double> tail_errors(const ScaledFactors& factors,
 std::vector<PartChoice> part_choices(const ScaledFactors& factors,
                                      const std::vector<double>& plane_weight, double most_error,
                                      uint32_t most_components, const PlanePredictor& predictor,
-                                     uint32_t num_counted) {
+                                     uint32_t num_counted, uint32_t least_components) {
     ScaledFactors few = num_counted == factors.num_points
                             ? sample(factors, kSampledValues)
                             : sample(first_points(factors, num_counted), kSampledValues);
@@ -47,7 +47,7 @@ std::vector<PartChoice> part_choices(const ScaledFactors& factors,
     for (const double share : kShares) {
         uint32_t k = 0;
         while (k < factors.num_components() && tails[k] > share * most_error) ++k;
-        counts.insert(std::min(k, most_components));
+        counts.insert(std::clamp(k, std::min(least_components, most_components), most_components));
     }
     std::vector<PartChoice> choices;
     for (const uint32_t count : counts) {

@@ -21,11 +21,12 @@ struct PartChoice {
 // plane_weight     of squared errors
 // most_error       weighted, Σ over rows and poses
 // most_components  of the factors that may be kept
+// least_components that are kept of those
 // num_counted      of the points, whose errors count: the first ones
 std::vector<PartChoice> part_choices(const ScaledFactors& factors,
                                      const std::vector<double>& plane_weight, double most_error,
                                      uint32_t most_components, const PlanePredictor& predictor,
-                                     uint32_t num_counted);
+                                     uint32_t num_counted, uint32_t least_components = 0);
 
 // Of these the one with the fewest bytes, or fewer components within 1 % of it.
 std::optional<PartChoice> cheapest_part(std::vector<PartChoice> choices);

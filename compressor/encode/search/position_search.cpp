@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "compressor/encode/quantise/choose_smoothing.h"
+#include "compressor/encode/quantise/exceptions.h"
 #include "compressor/encode/quantise/float_matrix.h"
 #include "compressor/encode/search/part_search.h"
 #include "compressor/encode/search/step_scaling.h"
@@ -35,7 +36,7 @@ SurfaceError measure(const EncodeProblem& problem, const LowRank& positions) {
 // Floats with the fewest components whose rest is at most `most_error`, a sum of squares.
 PositionCoding floats_within(const EncodeProblem& problem, double most_error, Precision precision) {
     const std::vector<double> tails = tail_errors(problem.geometry, alike());
-    uint32_t k = 0;
+    uint32_t k = problem.least_geometry_components;
     while (k + 1 < tails.size() && tails[k] > most_error) ++k;
     const uint64_t value = precision == Precision::f16 ? 2 : 4;
     return {{1.0, k, alike()}, precision, problem.geometry.mean.size() * (4 + k * value)};
@@ -77,9 +78,12 @@ std::optional<LowRank> code_if_it_fits(const EncodeProblem& problem, const Posit
 }  // namespace
 
 LowRank code_positions(const EncodeProblem& problem, const PositionCoding& coding) {
-    return is_integer(coding.precision)
-               ? smoothed(problem.geometry, coding.quantiser, *problem.smoother)
-               : float_matrix(problem.geometry, coding.quantiser.num_components, coding.precision);
+    LowRank positions =
+        is_integer(coding.precision)
+            ? smoothed(problem.geometry, coding.quantiser, *problem.smoother)
+            : float_matrix(problem.geometry, coding.quantiser.num_components, coding.precision);
+    append_exceptions(problem.file_outliers, positions);
+    return positions;
 }
 
 std::optional<PositionCoding> choose_positions(const EncodeProblem& problem, Precision precision,
@@ -101,9 +105,10 @@ std::optional<PositionCoding> choose_positions(const EncodeProblem& problem, Pre
     double distance = target.distance;
     for (int round = 0; round < kMaxRounds; ++round) {
         // Vertices that no face has come last.
-        auto choice = cheapest_part(part_choices(
-            problem.geometry, alike(), squared_distances(problem, distance),
-            problem.geometry.num_components(), problem.predictor, problem.num_face_vertices));
+        auto choice = cheapest_part(
+            part_choices(problem.geometry, alike(), squared_distances(problem, distance),
+                         problem.geometry.num_components(), problem.predictor,
+                         problem.num_face_vertices, problem.least_geometry_components));
         if (!choice) break;
         coding = PositionCoding{std::move(choice->quantiser), Precision::i16, choice->bytes};
         const auto matrix = code_if_it_fits(problem, *coding);

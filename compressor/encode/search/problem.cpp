@@ -10,10 +10,13 @@
 #include "compressor/encode/memory/memory_plan.h"
 #include "compressor/encode/memory/target_memory.h"
 #include "compressor/encode/noise/component_noise.h"
+#include "compressor/encode/quantise/exceptions.h"
 #include "compressor/encode/quantise/float_matrix.h"
 #include "compressor/encode/search/held_positions.h"
 #include "compressor/encode/search/transfer_encoder.h"
+#include "compressor/encode/svd/vertex_motion.h"
 #include "paim/codec/codecs.h"
+#include "paim/format/bake/baked_part.h"
 #include "paim/mesh/face_vertices.h"
 #include "paim/metrics/vertex_match.h"
 
@@ -106,8 +109,11 @@ EncodeProblem read_problem(const BakeReader& bake, const EncodeOptions& options,
                            const EncodeTarget& target) {
     const std::vector<SearchedCodec> codecs =
         searched_codecs(encoders_to_try(target.codec, options.precision));
-    uint32_t in_flight = choose_num_in_flight(encode_size(bake, options), options.memory_bytes,
-                                              bake.directory().string());
+    const PositionOutliers outliers = find_outliers(BakedPart(bake, 0));
+    EncodeSize streamed = encode_size(bake, options);
+    streamed.outlier_bytes = outliers.size_bytes();
+    uint32_t in_flight =
+        choose_num_in_flight(streamed, options.memory_bytes, bake.directory().string());
     const BakeIdentity& identity = bake.identity();
     CacheOrder order = cache_order(bake.topology());
     EncodeProblem problem{.bake = bake,
@@ -122,16 +128,19 @@ EncodeProblem read_problem(const BakeReader& bake, const EncodeOptions& options,
     problem.meter.emplace(problem.shell, 0, bake);
     if (problem.shell.still() != nullptr) problem.still_meter.emplace(problem.shell, 1, bake);
     problem.num_face_vertices = static_cast<uint32_t>(face_vertices(bake.topology()).size());
+    problem.outliers = outliers;
+    problem.file_outliers = outliers.reordered(order.old_vertex);
 
     const double asked = asked_error(target);
-    HeldPositions positions(bake, target, in_flight);
+    HeldPositions positions(bake, outliers, target, in_flight);
+    problem.least_geometry_components = positions.least_components();
     const TransferRows transfer_rows(bake, problem.layout.in_bands);
     const TransferRows noise_rows(bake, problem.layout.in_bands, TransferRows::Content::noise);
     const PrincipalComponents transfer = principal_components(transfer_rows, in_flight);
     const ComponentNoise noise =
         measure_component_noise(transfer_rows, noise_rows, problem.layout, transfer, in_flight);
     const double num_values = static_cast<double>(identity.num_vertices) * bake.num_poses();
-    TargetSize size{encode_size(bake, options), problem.layout.num_planes()};
+    TargetSize size{streamed, problem.layout.num_planes()};
     size.transfer_components = components_for(
         noise.num_above_noise,
         kDroppedShare * kDroppedShare * asked * asked * transfer_energy(problem) * num_values,

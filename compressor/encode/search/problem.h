@@ -10,6 +10,7 @@
 #include "paim/codec/surface_smoothing.h"
 #include "paim/format/pack/plane_predictor.h"
 #include "paim/mesh/cache_order.h"
+#include "paim/mesh/outliers.h"
 #include "paim/metrics/asset_error.h"
 
 namespace paim {
@@ -26,10 +27,14 @@ struct EncodeProblem {
     std::optional<SurfaceSmoother> smoother = {};  // of the part that moves
     std::optional<PartMeter> meter = {}, still_meter = {};
     ScaledFactors geometry = {},
-                  transfer = {};            // as many components as can matter; noise taken out
+                  transfer = {};  // as many components as can matter; without outliers and noise
     std::vector<double> plane_weight = {};  // [planes of layout] of squared transfer errors
     // Of these components, not quantised: no file of this bake has smaller errors.
     AssetError best_achievable = {};
+    PositionOutliers outliers = {};       // by vertices of the bake
+    PositionOutliers file_outliers = {};  // by vertices in cache order
+    // Components of the geometry that every coding keeps, so that no vertex loses its motion.
+    uint32_t least_geometry_components = 0;
     uint32_t num_face_vertices = 0;  // of the part that moves; the others count for nothing
     double transfer_energy = 0.0;    // weighted ‖y‖² of the whole bake
     uint64_t spare_bytes = 0;        // of options.memory_bytes, without what is held throughout

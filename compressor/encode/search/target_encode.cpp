@@ -65,6 +65,7 @@ TargetSummary encode_to_target(const BakeReader& bake, const EncodeOptions& opti
     summary.geometry_components = result.geometry_components;
     summary.num_vertices = problem.geometry.num_points;
     summary.num_poses = bake.num_poses();
+    summary.outliers = problem.outliers;
     summary.size_bytes = result.file.size_bytes();
     return summary;
 }

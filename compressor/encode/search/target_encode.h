@@ -6,6 +6,7 @@
 
 #include "compressor/encode/options.h"
 #include "compressor/encode/search/targets.h"
+#include "paim/mesh/outliers.h"
 
 namespace paim {
 
@@ -17,6 +18,7 @@ struct TargetSummary {
     uint32_t geometry_components = 0;
     uint32_t num_vertices = 0, num_poses = 0;
     uint64_t size_bytes = 0;
+    PositionOutliers outliers;  // of the bake, coded as exceptions
 
     const Candidate& chosen() const;
 };

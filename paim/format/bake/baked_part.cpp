@@ -5,6 +5,7 @@
 #include <span>
 
 #include "paim/base/check.h"
+#include "paim/mesh/face_vertices.h"
 
 namespace paim {
 
@@ -48,6 +49,13 @@ void BakedPart::read_transfer_rows(uint32_t p, uint64_t first, uint64_t count, f
 void BakedPart::read_noise_rows(uint32_t p, uint64_t first, uint64_t count, float* out) const {
     if (still_ == nullptr) return bake_.read_noise_rows(p, first, count, out);
     copy_rows(still_->pose.noise, first, count, out);
+}
+
+PositionOutliers find_outliers(const BakedPart& part) {
+    return find_outliers(part.num_vertices(), part.num_poses(), face_vertices(part.topology()),
+                         [&](uint32_t p, uint64_t first, uint64_t count, float* rows) {
+                             part.read_position_rows(p, first, count, rows);
+                         });
 }
 
 }  // namespace paim

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "paim/format/bake/bake_directory.h"
+#include "paim/mesh/outliers.h"
 
 namespace paim {
 
@@ -30,6 +31,10 @@ class BakedPart {
     const BakeReader& bake_;
     const BakedStillMesh* still_;  // nullptr: the moving part
 };
+
+// Outliers of the vertices that a face has (mesh/outliers.h). Reads the positions once, or twice if
+// there are any outliers.
+PositionOutliers find_outliers(const BakedPart& part);
 
 // 1, or 2 with still meshes.
 inline size_t num_baked_parts(const BakeReader& bake) {

@@ -78,14 +78,15 @@ CodedTransfer start_transfer(const Metadata& metadata) {
 
 // A matrix with the dimensions of the file, without values.
 // components  the metadata's member with the number of components
+// exceptions  the most components of exceptions
 LowRank start_matrix(const Metadata& metadata, const char* components, uint32_t num_points,
-                     uint32_t num_planes, uint32_t num_poses) {
+                     uint32_t num_planes, uint32_t num_poses, uint64_t exceptions) {
     LowRank matrix;
     matrix.num_points = num_points;
     matrix.num_planes = num_planes;
     matrix.num_poses = num_poses;
-    // No matrix has more components than columns or rows.
-    const uint64_t most = std::min<uint64_t>(num_poses, matrix.num_rows());
+    // No matrix has more components than columns or rows, but for exceptions.
+    const uint64_t most = std::min<uint64_t>(num_poses, matrix.num_rows()) + exceptions;
     matrix.num_components = metadata.integer(components, 0, static_cast<uint32_t>(most));
     return matrix;
 }
@@ -96,8 +97,8 @@ CodedMesh start_moving(const Metadata& metadata) {
         metadata.integer("num_vertices", 0, std::numeric_limits<int32_t>::max());
     mesh.layout = read_layout(metadata);
     const uint32_t num_poses = metadata.integer("num_poses", 1, kMaxPoses);
-    mesh.positions =
-        start_matrix(metadata, "geometry_components", mesh.topology.num_vertices, 3, num_poses);
+    mesh.positions = start_matrix(metadata, "geometry_components", mesh.topology.num_vertices, 3,
+                                  num_poses, uint64_t{kExceptionsPerPose} * num_poses);
     if (metadata.root().contains("geometry_fraction_bits")) {
         mesh.positions.fraction_bits = metadata.integer("geometry_fraction_bits", 2, 4);
     }
@@ -105,7 +106,7 @@ CodedMesh start_moving(const Metadata& metadata) {
     mesh.transfer = start_transfer(metadata);
     const uint32_t num_points = mesh.transfer->start(mesh.topology.num_vertices);
     mesh.transfer->matrix = start_matrix(metadata, "transfer_components", num_points,
-                                         mesh.layout.num_planes(), num_poses);
+                                         mesh.layout.num_planes(), num_poses, 0);
     return mesh;
 }
 

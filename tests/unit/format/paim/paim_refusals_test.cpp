@@ -244,8 +244,8 @@ TEST(PaimRefusals, RefusesContentsThatCannotBePlayed) {
     asset.provenance_json = "{\"a\": " + asset.provenance_json + "}";
     EXPECT_NE(complaint(asset).find("nested more than 16 deep"), std::string::npos);
 
-    asset = make_example_asset(2, 1, 2, 3);  // three components of two poses
-    EXPECT_NE(complaint(asset).find("'geometry_components': expected 0 to 2, got 3"),
+    asset = make_example_asset(2, 1, 2, 7);  // of two poses, each with two exceptions
+    EXPECT_NE(complaint(asset).find("'geometry_components': expected 0 to 6, got 7"),
               std::string::npos);
 
     const Asset whole = make_example_asset();

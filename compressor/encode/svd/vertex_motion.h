@@ -1,0 +1,33 @@
+// How many components the motion of every single vertex needs.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "compressor/encode/svd/principal_components.h"
+
+namespace paim {
+
+// Components are chosen by the energy of all vertices together. In this sum a hand that waves on a
+// body that walks counts for nothing, and nor does a small part next to a large one, although one
+// sees them move. So the motion that dropped components take from a vertex is limited, too: an RMS
+// distance over the poses.
+struct MotionLimits {
+    // Dropped motion may be this share of the vertex's motion within the mesh, which is the RMS over
+    // the poses of its distance from its mean, both relative to the mean of all vertices of a pose.
+    // So walking does not make limbs stand still. A vertex loses no larger share of its motion.
+    double lost_share = 0.1;
+    // Scene units; dropped motion up to this is too small to be seen.
+    double invisible = 0.0;
+};
+
+// The fewest components with which every vertex is within one of the two limits.
+// rows      planes x, y and z of V rows each; read twice
+// vertices  that count, ascending
+uint32_t components_for_motion(const RowSource& rows, const PrincipalComponents& components,
+                               std::span<const uint32_t> vertices, const MotionLimits& limits);
+
+// Memory of components_for_motion() for P poses.
+uint64_t components_for_motion_bytes(uint64_t num_poses, uint64_t num_threads);
+
+}  // namespace paim
