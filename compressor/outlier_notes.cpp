@@ -20,7 +20,8 @@ const PositionOutlier& farthest(std::span<const PositionOutlier> outliers) {
 
 std::string note(const BakeIdentity& bake, std::span<const PositionOutlier> outliers) {
     const PositionOutlier& worst = farthest(outliers);
-    const Vec3d position = worst.position.cast<double>() + bake.origin;
+    const Vec3d local = worst.position.cast<double>();
+    const Vec3d position = root_at(bake.root_motion, worst.pose).to_scene(local) + bake.origin;
     const std::string others =
         outliers.size() > 1
             ? fmt::format(" and {} more of {} vertices", outliers.size() - 1, bake.num_vertices)

@@ -41,6 +41,12 @@ void multiply(std::vector<float>& values, float scale) {
     for (float& value : values) value *= scale;
 }
 
+// The weights of exceptions may be as large as floats are; sums with them stay finite.
+void multiply_weights(std::vector<float>& weights, float scale) {
+    constexpr float kMost = 1e37f;
+    for (float& weight : weights) weight = std::clamp(weight * scale, -kMost, kMost);
+}
+
 // Integers by their steps, floats by the mean and the weights.
 void multiply(LowRank& matrix, float scale) {
     for (double& value : matrix.singular_values) value *= double{scale};
@@ -48,7 +54,7 @@ void multiply(LowRank& matrix, float scale) {
     std::vector<float> floats = matrix.mean.floats();
     multiply(floats, scale);
     matrix.mean = StoredValues(std::move(floats));
-    multiply(matrix.weights, scale);
+    multiply_weights(matrix.weights, scale);
     multiply(matrix.weight_steps, scale);
 }
 
@@ -66,8 +72,11 @@ void scale_to_unit(Asset& asset) {
     const LowRank& moving = asset.moving().positions;
     double largest = largest_magnitude(moving, moving.mean);
     if (largest == 0.0) largest = largest_offset(moving);
-    // A still part that is larger than anything must stay finite.
+    // A still part or a path that is larger than anything must stay finite.
     for (const CodedMesh& part : asset.parts) {
+        for (const RigidTransform& root : part.root_motion) {
+            largest = std::max(largest, 0x1p-60 * root.translation.cwiseAbs().maxCoeff());
+        }
         largest =
             std::max(largest, 0x1p-60 * largest_magnitude(part.positions, part.positions.mean));
     }

@@ -11,6 +11,7 @@
 #include "paim/base/tbb_parallel.h"
 #include "paim/codec/codecs.h"
 #include "paim/codec/mesh_decoder.h"
+#include "paim/codec/section_row.h"
 
 namespace paim::bench {
 

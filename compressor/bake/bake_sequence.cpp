@@ -43,6 +43,21 @@ class ReadAhead {
     std::future<Pose> pose_;
 };
 
+// Moves a pose to local coordinates, where isolated vertices are at the place that they have in the
+// first pose.
+void move_to_local(const IsolatedAtRest& source, const RootMotion& root_motion, uint32_t p,
+                   const Vec3d& offset, const TransferLayout& layout, BakedPose& baked) {
+    move_to_local(root_motion[p], offset, layout, baked);
+    const Vec3d at_rest = source.place().cast<double>() + source.pose_offset(0);
+    const Vec3f place = root_motion[0].to_local(at_rest).cast<float>();
+    const size_t num_vertices = source.topology().num_vertices;
+    for (const uint32_t v : source.isolated()) {
+        for (size_t axis = 0; axis < 3; ++axis) {
+            baked.positions[axis * num_vertices + v] = place[static_cast<int>(axis)];
+        }
+    }
+}
+
 }  // namespace
 
 BakeIdentity bake_identity(const PoseSource& source, const BakeOptions& options,
@@ -114,7 +129,7 @@ BakeSummary bake_sequence(const PoseSource& given, const BakeOptions& options,
             baked.statistics.mesh = report_pose(source.topology(), pose.positions);
             if (!root_motion.empty()) {
                 const Vec3d offset = near_body ? source.pose_offset(p) : Vec3d::Zero();
-                move_to_local(root_motion[p], offset, identity.layout, baked);
+                move_to_local(source, root_motion, p, offset, identity.layout, baked);
             }
             writer.write_pose(p, baked);
             statistics = baked.statistics;

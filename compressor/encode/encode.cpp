@@ -173,8 +173,7 @@ EncodeSummary encode_unmeasured(const BakeReader& bake, const EncodeOptions& opt
                                 const std::filesystem::path& output,
                                 const std::function<void(uint64_t)>& on_rows) {
     const PositionOutliers outliers = find_outliers(BakedPart(bake, 0));
-    EncodeSize size = encode_size(bake, options);
-    size.outlier_bytes = outliers.size_bytes();
+    const EncodeSize size = with_outliers(encode_size(bake, options), outliers);
     const uint32_t in_flight =
         choose_num_in_flight(size, options.memory_bytes, bake.directory().string());
     Asset asset = asset_shell(bake, options);

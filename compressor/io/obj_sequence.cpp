@@ -129,8 +129,11 @@ void ObjSequence::check_size(const BoundsD& bounds) const {
 // enough.
 void ObjSequence::check_local(size_t file, const BoundsD& bounds) const {
     if (bounds.empty()) return;
-    for (const Vec3f& corner : local(file, {bounds.lower, bounds.upper})) {
-        if (corner.allFinite()) continue;
+    const std::vector<Vec3d> corners{bounds.lower, bounds.upper};
+    const std::vector<Vec3f> near = local(file, corners);
+    for (size_t j = 0; j < corners.size(); ++j) {
+        // From the origin as well, for what is counted from there.
+        if (near[j].allFinite() && (corners[j] - origin_).cast<float>().allFinite()) continue;
         throw_bad_input("{}: coordinates are too large when counted from the origin ({}, {}, {})",
                         files_[file].string(), origin_.x(), origin_.y(), origin_.z());
     }

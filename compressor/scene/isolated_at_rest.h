@@ -12,7 +12,8 @@ namespace paim {
 // Vertices that no face has cannot be seen. Exporters put them anywhere, still or moving. Here all
 // of them lie at one place in every pose: the point of the bounding box of the first pose's faces
 // that is nearest to the origin of the coordinates. So they add nothing to bounds, have no
-// components, and no coordinate of a mean is larger because of them. They have no normal, and so no
+// components, and no coordinate of a mean is larger because of them. (Where poses have offsets or
+// local coordinates, the place is that of the first pose there.) They have no normal, and so no
 // transfer. Without such vertices this is the source itself.
 class IsolatedAtRest : public PoseSource {
   public:
@@ -28,6 +29,10 @@ class IsolatedAtRest : public PoseSource {
     // Of the source's pose and of the place, so that poses with another place are other poses.
     uint64_t pose_checksum(uint32_t p) const override;
     Pose load_pose(uint32_t p) const override;
+
+    // Their numbers, and their place relative to the offset of the first pose.
+    const std::vector<uint32_t>& isolated() const { return isolated_; }
+    const Vec3f& place() const { return place_; }
 
   private:
     const PoseSource& source_;

@@ -85,7 +85,7 @@ RigidTransform fit(std::span<const Vec3d> from, std::span<const Vec3d> to, bool 
     if (from.empty()) return best;
     best.translation = median_difference(from, to);
     constexpr int kRounds = 100;
-    // Points that move with the body keep the upper hand while they are 3 of 5.
+    // With this factor, a body whose points are three fifths of all decides.
     constexpr double kQuadraticMedians = 1.5;
     std::vector<double> distances(from.size()), weights(from.size());
     for (int round = 0; round < kRounds; ++round) {
@@ -95,7 +95,7 @@ RigidTransform fit(std::span<const Vec3d> from, std::span<const Vec3d> to, bool 
             largest = std::max(largest, distances[v]);
         }
         if (largest == 0.0) break;
-        // Points that are all but exact let no other have a say.
+        // Where most distances are 0, other points hardly count.
         const double near =
             std::max(kQuadraticMedians * median_of(distances), std::numeric_limits<double>::min());
         for (size_t v = 0; v < from.size(); ++v) {
@@ -194,7 +194,7 @@ class Variants {
         uint32_t num_components = 0;  // that leave a thousandth of the body's size as RMS distance
         double energy = 0.0;          // sum of all squares about the mean
 
-        bool is_much_less_than(const Cost& other) const {
+        bool is_better_than(const Cost& other) const {
             if (num_components != other.num_components) {
                 return num_components < other.num_components;
             }
@@ -239,7 +239,14 @@ RigidTransform rounded(const RigidTransform& root, const Reference& reference) {
         return Vec3d((numbers / unit).array().round().matrix() * unit);
     };
     RigidTransform result;
-    result.rotation = rotation_of(to_multiples(rotation_vector(root.rotation), kRotationUnit_rad));
+    Vec3d turn = to_multiples(rotation_vector(root.rotation), kRotationUnit_rad);
+    // No more than half a turn, which would be less than half a turn the other way.
+    while (!(turn.norm() < kPi)) {
+        Eigen::Index axis = 0;
+        turn.cwiseAbs().maxCoeff(&axis);
+        turn[axis] -= std::copysign(kRotationUnit_rad, turn[axis]);
+    }
+    result.rotation = rotation_of(turn);
     const double size = reference.size > 0.0 ? reference.size : 1.0;
     const double unit = std::ldexp(kRotationUnit_rad, std::ilogb(size));
     result.translation = to_multiples(root.translation + reference.centre, unit);
@@ -254,7 +261,7 @@ size_t choose(RootMotionChoice choice, const Variants& variants) {
     Variants::Cost least = variants.cost_of(best);
     for (const size_t variant : {1, 2}) {
         const Variants::Cost cost = variants.cost_of(variant);
-        if (!cost.is_much_less_than(least)) continue;
+        if (!cost.is_better_than(least)) continue;
         least = cost;
         best = variant;
     }

@@ -38,10 +38,10 @@ class PAIM_EXPORT DistantLight : public LightField {
 };
 
 // The light turned by a rotation of the scene: what came from ω comes from rotation · ω.
-LightCoefficients turn(const LightCoefficients& light, const Eigen::Matrix3d& rotation);
+PAIM_EXPORT LightCoefficients turn(const LightCoefficients& light, const Eigen::Matrix3d& rotation);
 
 // Light of the scene in the local axes of a mesh that stands there like this.
-LightCoefficients to_local(const LightCoefficients& light, const RigidTransform& root);
+PAIM_EXPORT LightCoefficients to_local(const LightCoefficients& light, const RigidTransform& root);
 
 // Coefficients of the light rotated about +Y by the angle, counter-clockwise seen from above, as by
 // the option --env-rotation of the tools.

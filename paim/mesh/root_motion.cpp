@@ -26,7 +26,8 @@ Eigen::Quaterniond rotation_of(const Vec3d& vector) {
 
 RigidTransform root_at(const RootMotion& motion, double time) {
     if (motion.empty()) return {};
-    const double clamped = std::clamp(time, 0.0, static_cast<double>(motion.size()) - 1.0);
+    const double number = std::isnan(time) ? 0.0 : time;
+    const double clamped = std::clamp(number, 0.0, static_cast<double>(motion.size()) - 1.0);
     const auto before = static_cast<size_t>(clamped);
     const double share = clamped - std::floor(clamped);
     if (share == 0.0) return motion[before];

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "paim/base/export.h"
 #include "paim/base/vector.h"
 
 namespace paim {
@@ -35,14 +36,14 @@ constexpr double kRotationUnit_rad = 0x1p-22;
 // [P] one transform a pose; or empty: local coordinates are scene coordinates in every pose.
 using RootMotion = std::vector<RigidTransform>;
 
-// The transform at `time` in poses, clamped to 0 … P−1. Between two poses translations are
+// The transform at `time` in poses, clamped to 0 … P−1 (0 if it is not a number). Between two poses translations are
 // interpolated linearly, rotations along the shorter arc at constant speed (slerp). The identity if
 // the motion is empty.
-RigidTransform root_at(const RootMotion& motion, double time);
+PAIM_EXPORT RigidTransform root_at(const RootMotion& motion, double time);
 
 // Moves points of a pose from local coordinates to the scene, in double, in place.
 // planes  [3][V]: all x, then all y, then all z
-void move_to_scene(const RigidTransform& root, std::span<float> planes);
+PAIM_EXPORT void move_to_scene(const RigidTransform& root, std::span<float> planes);
 
 // How far a body goes: the length of its path and the sum of the angles between poses.
 struct Travel {

@@ -114,11 +114,12 @@ void take_out(const PositionOutliers& outliers, uint32_t p, std::span<float> dec
 
 }  // namespace
 
-PartMeter::PartMeter(const Asset& asset, size_t number, const BakeReader& bake)
+PartMeter::PartMeter(const Asset& asset, size_t number, const BakeReader& bake,
+                     const std::optional<PositionOutliers>& outliers)
     : bake_(bake),
       baked_(bake, number),
       old_vertex_(check_same_part(asset, number, bake, baked_)),
-      outliers_(find_outliers(baked_).reordered(old_vertex_)),
+      outliers_((outliers ? *outliers : find_outliers(baked_)).reordered(old_vertex_)),
       shape_(asset.parts[number].topology) {}
 
 SurfaceError PartMeter::surface(const LowRank& positions) const {

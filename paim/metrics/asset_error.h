@@ -33,14 +33,16 @@ struct AssetError : MeshError {
     std::optional<MeshError> still;
 };
 
-// Decodes one part and measures its errors, as often as one likes. Vertices that no face has do not
+// Decodes one part and measures its errors, any number of times. Vertices that no face has do not
 // count (mesh/face_vertices.h). It keeps what belongs to the mesh, and a reference to the bake.
 class PartMeter {
   public:
     // number  of the part, in the asset and in the bake
     // bake    verified (BakeReader::verify_all)
     // Errors: bad input if the part was not made from this bake; the message says what differs.
-    PartMeter(const Asset& asset, size_t number, const BakeReader& bake);
+    // outliers  of the bake's part where they are known; otherwise they are found
+    PartMeter(const Asset& asset, size_t number, const BakeReader& bake,
+              const std::optional<PositionOutliers>& outliers = {});
 
     // It holds kPosesMeasured poses at a time.
     SurfaceError surface(const LowRank& positions) const;
@@ -63,14 +65,15 @@ class PartMeter {
     ShapeNeighbours shape_;
 };
 
-// Measures all parts. Errors: those of PartMeter. It is also an error if asset or bake has a part that the other does not have.
+// Measures all parts. Errors: those of PartMeter. It is also an error if asset or bake has a part
+// that the other does not have.
 AssetError measure_asset(const Asset& asset, const BakeReader& bake, const BandPower& spectrum);
 
 // Poses whose positions are measured side by side.
 constexpr uint32_t kPosesMeasured = 8;
 
-// Planes [V][P] of floats that PartMeter::transfer() holds at once: baked, noise, decoded, and two more
-// while it decodes.
+// Planes [V][P] of floats that PartMeter::transfer() holds at once: baked, noise, decoded, and two
+// more while it decodes.
 constexpr uint64_t kPlanesMeasured = 5;
 
 // Memory of PartMeter::measure() in addition to the asset and to what the meter keeps.

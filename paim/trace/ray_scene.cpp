@@ -84,13 +84,19 @@ RTCRay make_ray(const Vec3f& origin, const Vec3f& direction) {
 }
 
 // Factor of the coordinates that are given to Embree, which misses hits if they are beyond about
-// 1e±18.
+// 1e±18. It makes the median vertex about 1, so that a single one far away does not make the others
+// too small. Embree passes over triangles of vertices that are beyond its range then.
 float embree_scale(std::span<const Vec3f> positions, std::span<const Vec3f> more_positions) {
-    float largest = 0.0f;
+    std::vector<float> magnitudes;
+    magnitudes.reserve(positions.size() + more_positions.size());
     for (const auto points : {positions, more_positions}) {
-        for (const Vec3f& x : points) largest = std::max(largest, x.cwiseAbs().maxCoeff());
+        for (const Vec3f& x : points) magnitudes.push_back(x.cwiseAbs().maxCoeff());
     }
-    return unit_scale(static_cast<double>(largest));
+    if (magnitudes.empty()) return 1.0f;
+    const auto middle = magnitudes.begin() + static_cast<ptrdiff_t>(magnitudes.size() / 2);
+    std::nth_element(magnitudes.begin(), middle, magnitudes.end());
+    if (*middle > 0.0f) return unit_scale(double{*middle});
+    return unit_scale(double{*std::max_element(middle, magnitudes.end())});
 }
 
 // Replaces triangles without area by points, which no ray hits. Otherwise rounding could let a ray

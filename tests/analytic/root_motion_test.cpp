@@ -10,6 +10,7 @@
 #include "compressor/encode/encode.h"
 #include "compressor/encode/search/target_encode.h"
 #include "compressor/scene/root_motion.h"
+#include "compressor/scene/still_mesh.h"
 #include "paim/codec/playback.h"
 #include "paim/format/paim/paim_read.h"
 #include "paim/metrics/asset_error.h"
@@ -53,6 +54,48 @@ class RootMotionRoad : public testing::Test {
         options.measure = true;
         summary_ = encode(reader, options, directory_ / "x.paim");
         return read_paim(directory_ / "x.paim");
+    }
+
+    // Of the same body under the same light, coded in local coordinates and in the scene's.
+    // among_still_meshes  with a wall next to the path, off which light bounces
+    void expect_same_picture(bool among_still_meshes) {
+        const PoseSet body = moved(&walk);
+        Surroundings surroundings;
+        if (among_still_meshes) {
+            surroundings.still_mesh.add(
+                PoseSet({4, {{0, 1, 2}, {0, 2, 3}}},
+                        {{{-40, -9, -60}, {200, -9, -60}, {200, 9, -60}, {-40, 9, -60}}}));
+        }
+        const uint32_t bounces = among_still_meshes ? 1 : 0;
+        EncodeOptions all;
+        all.geometry.kind = all.transfer.kind = ComponentChoice::Kind::all;
+        std::vector<std::shared_ptr<const Asset>> assets;
+        for (const RootMotionChoice choice : {RootMotionChoice::none, RootMotionChoice::rigid}) {
+            const std::string name = std::string(among_still_meshes ? "still" : "alone") +
+                                     (choice == RootMotionChoice::none ? "_n.bake" : "_r.bake");
+            encode(bake(body, choice, name, surroundings, bounces), all, directory_ / "x.paim");
+            assets.push_back(std::make_shared<const Asset>(read_paim(directory_ / "x.paim")));
+        }
+        EXPECT_TRUE(assets[0]->moving().root_motion.empty());
+        EXPECT_EQ(assets[1]->moving().root_motion.size(), kPoses);
+        LightCoefficients light{4, std::vector<Vec3f>(16, Vec3f(0.1f, 0.2f, -0.1f))};
+        light.values[0] = {2, 2, 2};
+        light.values[3] = {0.5f, -1, 0};
+        Playback scene(assets[0]), local(assets[1]);
+        for (Playback* playback : {&scene, &local}) playback->set_light(DistantLight(light));
+        for (uint32_t p = 0; p < kPoses; ++p) {
+            for (Playback* playback : {&scene, &local}) playback->update(p);
+            for (size_t j = 0; j < scene.positions().size(); ++j) {
+                ASSERT_NEAR(local.positions()[j], scene.positions()[j], 1e-4f) << p << ' ' << j;
+            }
+            for (size_t v = 0; v < scene.radiance().size(); ++v) {
+                ASSERT_LT((local.radiance()[v] - scene.radiance()[v]).norm(), 1e-4f)
+                    << p << ' ' << v;
+            }
+        }
+        // Positions before they are moved are small.
+        EXPECT_LT(std::abs(local.local_positions()[0]), 5.0f);
+        EXPECT_TRUE(local.root().turns());
     }
 
     TemporaryDirectory directory_;
@@ -131,36 +174,36 @@ TEST_F(RootMotionRoad, BakesATravellerAsOnTheSpot) {
     }
 }
 
+// A vertex without faces goes along with the body, and costs no component.
+TEST_F(RootMotionRoad, LeavesIsolatedVerticesAtRest) {
+    const PoseSet body = moved(&walk);
+    Topology topology = body.topology();
+    const uint32_t isolated = topology.num_vertices++;
+    std::vector<std::vector<Vec3f>> positions;
+    for (uint32_t p = 0; p < kPoses; ++p) {
+        positions.push_back(body.load_pose(p).positions);
+        positions.back().push_back(Vec3f(70, -30, 5));
+    }
+    const BakeReader reader =
+        bake(PoseSet(topology, positions), RootMotionChoice::automatic, "i.bake");
+    ASSERT_EQ(reader.identity().root_motion.size(), kPoses);
+    for (uint32_t p = 0; p < kPoses; ++p) {
+        for (size_t axis = 0; axis < 3; ++axis) {
+            const auto at = [&](uint32_t pose) {
+                return reader.read_pose(pose).positions[axis * topology.num_vertices + isolated];
+            };
+            EXPECT_EQ(at(p), at(0)) << p;
+            EXPECT_LT(std::abs(at(p)), 5.0f);
+        }
+    }
+}
+
 // The same body under the same light, coded in local coordinates and in the scene's.
 TEST_F(RootMotionRoad, ShowsTheSamePicture) {
-    const PoseSet body = moved(&walk);
-    EncodeOptions all;
-    all.geometry.kind = all.transfer.kind = ComponentChoice::Kind::all;
-    std::vector<std::shared_ptr<const Asset>> assets;
-    for (const RootMotionChoice choice : {RootMotionChoice::none, RootMotionChoice::rigid}) {
-        const char* const name = choice == RootMotionChoice::none ? "n.bake" : "r.bake";
-        encode(bake(body, choice, name), all, directory_ / "x.paim");
-        assets.push_back(std::make_shared<const Asset>(read_paim(directory_ / "x.paim")));
+    for (const bool among_still_meshes : {false, true}) {
+        SCOPED_TRACE(among_still_meshes);
+        expect_same_picture(among_still_meshes);
     }
-    EXPECT_TRUE(assets[0]->moving().root_motion.empty());
-    EXPECT_EQ(assets[1]->moving().root_motion.size(), kPoses);
-    LightCoefficients light{4, std::vector<Vec3f>(16, Vec3f(0.1f, 0.2f, -0.1f))};
-    light.values[0] = {2, 2, 2};
-    light.values[3] = {0.5f, -1, 0};
-    Playback scene(assets[0]), local(assets[1]);
-    for (Playback* playback : {&scene, &local}) playback->set_light(DistantLight(light));
-    for (uint32_t p = 0; p < kPoses; ++p) {
-        for (Playback* playback : {&scene, &local}) playback->update(p);
-        for (size_t j = 0; j < scene.positions().size(); ++j) {
-            ASSERT_NEAR(local.positions()[j], scene.positions()[j], 1e-4f) << p << ' ' << j;
-        }
-        for (size_t v = 0; v < scene.radiance().size(); ++v) {
-            ASSERT_LT((local.radiance()[v] - scene.radiance()[v]).norm(), 1e-4f) << p << ' ' << v;
-        }
-    }
-    // Positions before they are moved are small.
-    EXPECT_LT(std::abs(local.local_positions()[0]), 5.0f);
-    EXPECT_TRUE(local.root().turns());
 }
 
 }  // namespace

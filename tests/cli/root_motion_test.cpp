@@ -17,15 +17,22 @@ class RootMotionTool : public ToolTest {
   protected:
     static constexpr int kPoses = 9, kRings = 9, kSegments = 8;
 
+    RootMotionTool() { write_walk("walk", -1); }
+
     // A tube 2 units tall that walks 5 units along x from pose to pose. Its upper half swings by 0.3
     // along z.
-    RootMotionTool() {
-        std::filesystem::create_directory(directory_ / "walk");
+    // bad_pose  in which the first vertex is far away; -1: none
+    void write_walk(const std::string& folder, int bad_pose) const {
+        std::filesystem::create_directory(directory_ / folder);
         for (int p = 0; p < kPoses; ++p) {
             std::string text;
             for (int ring = 0; ring < kRings; ++ring) {
                 const double y = 0.25 * ring;
                 for (int segment = 0; segment < kSegments; ++segment) {
+                    if (p == bad_pose && ring == 0 && segment == 0) {
+                        text += "v 5000 4000 0\n";
+                        continue;
+                    }
                     const double angle = 2.0 * kPi * segment / kSegments;
                     text += fmt::format("v {:.9f} {:.9f} {:.9f}\n", 5.0 * p + 0.2 * std::sin(angle),
                                         y, 0.2 * std::cos(angle) + swing(p, y));
@@ -41,7 +48,7 @@ class RootMotionTool : public ToolTest {
                                         number(ring + 1, segment));
                 }
             }
-            write(fmt::format("walk/{}.obj", p), text);
+            write(fmt::format("{}/{}.obj", folder, p), text);
         }
     }
 
@@ -50,8 +57,9 @@ class RootMotionTool : public ToolTest {
     }
 
     // With default settings of the encoder.
-    json make(const std::string& name, const Arguments& options) const {
-        Arguments arguments{path("walk"), "-o",     path(name + ".paim"), "--rays", "32", "--bands",
+    json make(const std::string& name, const Arguments& options,
+              const std::string& folder = "walk") const {
+        Arguments arguments{path(folder), "-o",     path(name + ".paim"), "--rays", "32", "--bands",
                             "3",          "--json", "--measure"};
         arguments.insert(arguments.end(), options.begin(), options.end());
         return parse_object(compress(arguments));
@@ -78,6 +86,19 @@ TEST_F(RootMotionTool, KeepsTheSwingOfAWalk) {
             << p;
     }
     expect_success(analyze({path("x.bake"), "--verify", path("x.paim")}));
+}
+
+// An outlier neither bends the path nor hides the swing, and is named where it is in the scene.
+TEST_F(RootMotionTool, SeesPastAnOutlier) {
+    write_walk("bad", 4);
+    const json report = make("bad", {}, "bad");
+    EXPECT_NEAR(report["bake"]["root_motion"]["distance"].get<double>(), 40.0, 0.5);
+    EXPECT_LT(report["encode"]["measured"]["position_relative_rms"].get<double>(), 1e-3);
+    const ToolResult encoded =
+        compress({"encode", path("bad.bake"), "-o", path("bad5.paim"), "--max-error", "20%"});
+    expect_success(encoded);
+    EXPECT_TRUE(contains(encoded.err, "(5000, 4000, ")) << encoded.err;
+    expect_success(analyze({path("bad.bake"), "--verify", path("bad5.paim")}));
 }
 
 TEST_F(RootMotionTool, LeavesPosesAsTheyAreIfAsked) {

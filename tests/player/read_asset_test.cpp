@@ -135,6 +135,21 @@ TEST(ScaleToUnit, LeavesStillPartsFiniteAndPointsAlone) {
     EXPECT_EQ(sequence_bounds(point).diagonal(), 0.0f);
 }
 
+// A path that is many times longer than the body, and an exception (codec/low_rank.h) far away.
+TEST(ScaleToUnit, LeavesPathsAndExceptionsFinite) {
+    Asset asset = make_test_asset({});
+    scale_asset(asset, -100);
+    CodedMesh& mesh = asset.moving();
+    mesh.root_motion.resize(asset.num_poses());
+    mesh.root_motion.back().translation = Vec3d(0x1p40, 0, 0);
+    mesh.positions.weights.back() = 1e32f;
+    mesh.positions.singular_values.back() = 0.0;
+    scale_to_unit(asset);
+    EXPECT_TRUE(sequence_bounds(asset).upper.allFinite());
+    EXPECT_GT(sequence_bounds(asset).upper.x(), 1.0f);
+    EXPECT_TRUE(std::isfinite(mesh.positions.weights.back()));
+}
+
 // What a snapshot and the window draw from: the same camera and bounds, in one unit.
 TEST(ScaleToUnit, IsAppliedToEveryFileThatIsLoaded) {
     const TemporaryDirectory directory;

@@ -272,7 +272,7 @@ TEST(OrbitCamera, MovesWithTheMouse) {
     EXPECT_TRUE(orbit.camera().eye.allFinite());
 }
 
-TEST(ClipFromWorld, SeesWhatTheRaysOfTheCameraSee) {
+TEST(ClipFromLocal, SeesWhatTheRaysOfTheCameraSee) {
     const float aspect = 1.5f;
     const Camera camera = frame_bounds(unit_bounds(), aspect);
     const glm::mat4 to_clip = clip_from_local(camera, aspect, {0.1f, 100.0f});

@@ -58,6 +58,12 @@ EncodeSize encode_size(const BakeReader& bake, const EncodeOptions& options) {
     return encode_size(bake_size(bake), options);
 }
 
+EncodeSize with_outliers(EncodeSize size, const PositionOutliers& outliers) {
+    size.outlier_bytes = outliers.size_bytes();
+    size.num_exceptions = kExceptionsPerPose * outliers.poses().size();
+    return size;
+}
+
 uint64_t mesh_bytes(uint64_t num_triangles, uint64_t num_colours) {
     return num_triangles * sizeof(Triangle) + num_colours * sizeof(Vec3f);
 }
@@ -72,7 +78,8 @@ uint64_t encode_memory_bytes(const EncodeSize& size, uint32_t num_in_flight) {
         kPoseNameBytes * poses +
         2 * (principal_components_bytes(poses) + poses * components * sizeof(float)) +
         component_noise_bytes(size.num_vertices, size.bands) +
-        Shrinkage::held_bytes(size.num_vertices, size.bands) + 2 * size.outlier_bytes;
+        Shrinkage::held_bytes(size.num_vertices, size.bands) + 4 * size.outlier_bytes +
+        poses * size.num_exceptions * sizeof(float);
     const auto rows_at_work = [&](uint64_t num_blocks) {
         return rows_at_work_bytes(poses, components, size.num_threads, num_blocks);
     };

@@ -11,6 +11,7 @@
 namespace paim {
 
 class BakeReader;
+class PositionOutliers;
 
 // What the memory of encoding depends on. Rows are streamed: vertices count for their albedo and
 // their noise only.
@@ -24,6 +25,7 @@ struct EncodeSize {
     uint64_t bands = 1;
     uint64_t still_mesh_bytes = 0;  // still_mesh_bytes() of the bake
     uint64_t outlier_bytes = 0;     // of those that were found (mesh/outliers.h)
+    uint64_t num_exceptions = 0;    // components that they take, at most
 };
 
 // Memory of the still mesh of a bake: its baked pose, triangles and colours.
@@ -39,6 +41,9 @@ EncodeSize bake_size(const BakeReader& bake);
 // The same with the components and bands that the options ask for.
 EncodeSize encode_size(EncodeSize bake, const EncodeOptions& options);
 EncodeSize encode_size(const BakeReader& bake, const EncodeOptions& options);
+
+// The same with the outliers that were found.
+EncodeSize with_outliers(EncodeSize size, const PositionOutliers& outliers);
 
 // Measured: code, libraries and threads take 18 MB before there are any data.
 constexpr uint64_t kProgramBytes = 24'000'000;

@@ -57,8 +57,13 @@ struct Need {
     uint64_t point_values() const {
         return codecs.num_points * size.num_planes * (size.transfer_components + uint64_t{1});
     }
+    // Of outliers: components that are zero but for these.
+    uint64_t exception_values() const { return 3 * vertices() * size.streamed.num_exceptions; }
+
     uint64_t weights() const {
-        return (size.geometry_components + uint64_t{size.transfer_components}) * poses();
+        return (size.geometry_components + uint64_t{size.transfer_components} +
+                size.streamed.num_exceptions) *
+               poses();
     }
 
     // Four copies of the mesh: in the order of the bake and of the file, in the problem and in a
@@ -74,8 +79,8 @@ struct Need {
     // Integers of both parts, twice: the best model and the one that is tried. Positions are there
     // once more. One column is rounded at a time, as floats.
     uint64_t models() const {
-        return kInteger *
-                   (3 * geometry_values() + 2 * std::max(transfer_values(), point_values())) +
+        return kInteger * (3 * (geometry_values() + exception_values()) +
+                           2 * std::max(transfer_values(), point_values())) +
                3 * weights() * kFloat +
                std::max(vertices(), codecs.num_points) * size.num_planes * kFloat;
     }
@@ -87,7 +92,8 @@ struct Need {
 
     // Floats of everything, to find the error that these components leave.
     uint64_t best_achievable() const {
-        return (geometry_values() + transfer_values() + weights()) * kFloat + measuring();
+        return (geometry_values() + exception_values() + transfer_values() + weights()) * kFloat +
+               measuring();
     }
 
     // A thinned copy of the factors that steps are tried on, and their least squares.
@@ -115,10 +121,10 @@ struct Need {
         return SurfaceSmoother::bytes(vertices(), size.streamed.num_triangles) +
                PartMeter::kept_bytes(vertices(), size.streamed.num_triangles);
     }
-    // Outliers are held in both orders, and by the meter.
+    // Outliers are held in both orders, by the meter and in the summary.
     uint64_t held() const {
         return factors() + mesh() + neighbours() + codecs.kept_bytes +
-               3 * size.streamed.outlier_bytes;
+               4 * size.streamed.outlier_bytes;
     }
 
     uint64_t searching() const {

@@ -69,8 +69,8 @@ class IntegerExceptions {
     void append_one(double largest) {
         // Half a step of room, as check_smoothing() asks for.
         const double most = std::floor(largest_integer(Precision::i16) / scale_ - 0.5);
-        // Beyond this, sums might not be finite.
-        constexpr double kMostWeight = 1e36;
+        // Decoders add up weights times integers of 16 bits, which must be finite floats.
+        constexpr double kMostWeight = 1e33;
         const auto weight = static_cast<float>(std::clamp(largest / most, 1.0, kMostWeight));
         std::vector<int16_t> values(matrix_.num_rows(), 0);
         for (size_t j = 0; j < rest_.size(); ++j) {

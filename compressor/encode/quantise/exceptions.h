@@ -37,7 +37,7 @@ void append_weights(const std::vector<FloatException>& exceptions, LowRank& matr
 // Integers of an exception are as large as 16 bits allow, and its weight makes up for the rest. What
 // this leaves of the outliers is a second exception, where it is more than the step of the other
 // components. So an outlier errs by half a step, or by less than 1e-6 of its distance if that is
-// more.
+// more. If it is farther than about 1e37 steps, it is moved nearer.
 void append_exceptions(const PositionOutliers& outliers, LowRank& matrix);
 
 }  // namespace paim

@@ -168,7 +168,7 @@ std::optional<EncodedFile> EncodedFiles::pack(const Targets& targets,
                        refined.error,
                        targets,
                        std::move(candidates),
-                       mesh.positions.num_components,
+                       mesh.positions.num_usual_components(),
                        std::move(refined.coding)};
 }
 

@@ -110,8 +110,7 @@ EncodeProblem read_problem(const BakeReader& bake, const EncodeOptions& options,
     const std::vector<SearchedCodec> codecs =
         searched_codecs(encoders_to_try(target.codec, options.precision));
     const PositionOutliers outliers = find_outliers(BakedPart(bake, 0));
-    EncodeSize streamed = encode_size(bake, options);
-    streamed.outlier_bytes = outliers.size_bytes();
+    const EncodeSize streamed = with_outliers(encode_size(bake, options), outliers);
     uint32_t in_flight =
         choose_num_in_flight(streamed, options.memory_bytes, bake.directory().string());
     const BakeIdentity& identity = bake.identity();
@@ -125,7 +124,7 @@ EncodeProblem read_problem(const BakeReader& bake, const EncodeOptions& options,
     problem.plane_weight = plane_weights(problem.layout, problem.spectrum);
 
     problem.smoother.emplace(problem.shell.moving().topology);
-    problem.meter.emplace(problem.shell, 0, bake);
+    problem.meter.emplace(problem.shell, 0, bake, outliers);
     if (problem.shell.still() != nullptr) problem.still_meter.emplace(problem.shell, 1, bake);
     problem.num_face_vertices = static_cast<uint32_t>(face_vertices(bake.topology()).size());
     problem.outliers = outliers;

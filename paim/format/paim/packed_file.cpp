@@ -92,8 +92,14 @@ class Packer {
     }
     Task operator()(const SingularValues& row) const {
         return {spec(ScalarType::f32), SectionCodec::zstd, [matrix = row.matrix] {
-                    const std::vector<float> rounded(matrix->singular_values.begin(),
-                                                     matrix->singular_values.end());
+                    std::vector<float> rounded(matrix->singular_values.begin(),
+                                               matrix->singular_values.end());
+                    // Zero is the mark of exceptions (LowRank::num_usual_components()).
+                    for (size_t j = 0; j < rounded.size(); ++j) {
+                        if (matrix->singular_values[j] > 0.0 && rounded[j] == 0.0f) {
+                            rounded[j] = std::numeric_limits<float>::denorm_min();
+                        }
+                    }
                     if (!rounded.empty() && std::isinf(rounded[0])) {
                         throw_bad_input(
                             "a singular value is {}, expected at most {}: scale the poses down",

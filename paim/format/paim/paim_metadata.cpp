@@ -1,12 +1,12 @@
 // The JSON metadata of a .paim.
 #include "paim/format/paim/paim_metadata.h"
-#include "paim/codec/section_row.h"
 
 #include <nlohmann/json.hpp>
 
 #include "paim/base/error.h"
 #include "paim/base/json_text.h"
 #include "paim/codec/codecs.h"
+#include "paim/codec/section_row.h"
 
 namespace paim {
 

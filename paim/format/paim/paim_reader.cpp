@@ -102,6 +102,7 @@ CodedMesh start_moving(const Metadata& metadata) {
     if (metadata.root().contains("geometry_fraction_bits")) {
         mesh.positions.fraction_bits = metadata.integer("geometry_fraction_bits", 2, 4);
     }
+    // 64 MB at most, which every file may claim (kMaxFreeBytes).
     if (metadata.text("transfer_kind") == kDiffuseLocal) mesh.root_motion.resize(num_poses);
     mesh.transfer = start_transfer(metadata);
     const uint32_t num_points = mesh.transfer->start(mesh.topology.num_vertices);

@@ -23,6 +23,7 @@ TEST(RootAt, IsThePosesAndClampsTimes) {
     EXPECT_EQ(root_at(motion, 1.0), motion[1]);
     EXPECT_EQ(root_at(motion, -4.0), motion[0]);
     EXPECT_EQ(root_at(motion, 9.0), motion[1]);
+    EXPECT_EQ(root_at(motion, std::nan("")), motion[0]);
 }
 
 // A quarter of a quarter turn about Y takes +Z to sin 22.5° in +X.

@@ -8,6 +8,7 @@
 
 #include "paim/base/seed.h"
 #include "paim/base/tbb_parallel.h"
+#include "paim/format/container/root_numbers.h"
 #include "paim/mesh/pose_set.h"
 
 namespace paim {
@@ -138,6 +139,23 @@ TEST(FindRootMotion, SeesPastAnOutlier) {
         ASSERT_EQ(motion.size(), 8u) << bad;
         const double path = motion[7].translation.x() - motion[0].translation.x();
         EXPECT_NEAR(path, 14.0, 0.3) << bad;
+    }
+}
+
+// A half turn is on the edge between two rotation vectors, one for each direction of its axis.
+TEST(FindRootMotion, GivesNumbersThatFilesKeep) {
+    for (const double around : {-3e-7, -1e-7, 0.0, 1e-7, 3e-7}) {
+        for (const Vec3d& axis : {Vec3d(0.1, 1, 0), Vec3d(0, 1, 0), Vec3d(-3, 1, 2)}) {
+            const PoseSet turns = animated([&](uint32_t p, const Vec3d& point) {
+                const Eigen::AngleAxisd turn(p % 2 * (kPi + around), axis.normalized());
+                return Vec3d(turn * point);
+            });
+            const RootMotion motion = find_root_motion(turns, RootMotionChoice::rigid);
+            const std::vector<double> numbers = root_numbers(motion);
+            const RootMotion read = root_motion_of(numbers, "x");
+            EXPECT_EQ(read, motion);
+            EXPECT_EQ(root_numbers(read), numbers);
+        }
     }
 }
 

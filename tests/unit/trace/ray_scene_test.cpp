@@ -131,6 +131,23 @@ TEST(RayScene, HitsTheSameAtAnyScale) {
     }
 }
 
+// A vertex that is far beyond the others takes its own triangle along, and nothing else.
+TEST(RayScene, SeesPastAnOutlier) {
+    const Topology two{6, {{0, 1, 2}, {3, 4, 5}}};
+    for (const float far : {1e6f, 1e20f, 1e38f}) {
+        for (const float scale : {1e-20f, 1.0f, 1e20f}) {
+            if (far * scale > 3e38f) continue;
+            std::vector<Vec3f> corners = kCorners;
+            corners.insert(corners.end(), {{0, 0, 5}, {1, 0, 5}, {far, far, far}});
+            for (Vec3f& x : corners) x *= scale;
+            const RayScene scene(two, corners);
+            const auto hit = scene.intersect_first(scale * Vec3f(0.25f, 0.5f, 2.0f), {0, 0, -1});
+            ASSERT_TRUE(hit) << far << ' ' << scale;
+            EXPECT_NEAR(hit->distance / scale, 2.0f, 1e-6f);
+        }
+    }
+}
+
 TEST(RayScene, CountsTheSecondMeshAfterTheFirst) {
     // The second one lies nearer to the ray's start and is smaller.
     std::vector<Vec3f> nearer = kCorners;

@@ -100,7 +100,7 @@ TEST(Exceptions, OfIntegersErrByTheirStep) {
     const double step = 0.4;  // coarser than the grid is curved, so that smoothing helps
     const Quantiser quantiser{step, 1, {1.0, 1.0, 1.0}};
     const LowRank plain = quantise(factors, quantiser);
-    const LowRank smooth = smoothed(factors, quantiser, grid);
+    const LowRank smooth = smoothed(factors, quantiser, SurfaceSmoother(grid));
     EXPECT_GT(smooth.fraction_bits, 0u);
     for (const LowRank& without : {plain, smooth}) {
         for (const float far : {20.0f, 5000.0f, 1e30f}) {
