@@ -102,16 +102,36 @@ OnBlock append_exception_rows(PaimWriter& writer, const std::vector<FloatExcepti
     };
 }
 
+// The fewest components whose rest is an RMS distance of at most the rounding of coordinates
+// (mesh/origin.h). A rigid body has no others.
+uint32_t components_above_rounding(const PrincipalComponents& geometry, double diagonal,
+                                   double num_positions) {
+    const double rounding = 0x1p-20 * diagonal;
+    const double most = rounding * rounding * num_positions;
+    double dropped = 0.0;
+    uint32_t k = geometry.rank();
+    while (k > 0) {
+        const double s = geometry.singular_values[k - 1];
+        dropped += s * s;
+        if (dropped > most) break;
+        --k;
+    }
+    return k;
+}
+
 // How many components of the geometry to keep.
 uint32_t choose_geometry(const BakeReader& bake, const EncodeOptions& options,
                          const PositionOutliers& outliers, const RowSource& rows,
                          const PrincipalComponents& geometry) {
-    const uint32_t of_all = choose_components(options.geometry, geometry.singular_values,
-                                              geometry.rank(), options.automatic_geometry_error);
+    uint32_t of_all = choose_components(options.geometry, geometry.singular_values, geometry.rank(),
+                                        options.automatic_geometry_error);
     if (options.geometry.kind != ComponentChoice::Kind::automatic) return of_all;
     const std::vector<uint32_t> vertices = face_vertices(bake.topology());
+    const double diagonal = largest_diagonal(bake, outliers, vertices);
+    const double num_positions = static_cast<double>(vertices.size()) * bake.num_poses();
+    of_all = std::min(of_all, components_above_rounding(geometry, diagonal, num_positions));
     MotionLimits limits;
-    limits.invisible = kInvisibleMotion * largest_diagonal(bake, outliers, vertices);
+    limits.invisible = kInvisibleMotion * diagonal;
     return std::max(of_all, components_for_motion(rows.silent(), geometry, vertices, limits));
 }
 

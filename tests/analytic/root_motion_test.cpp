@@ -111,6 +111,10 @@ TEST_F(RootMotionRoad, NeedsNoComponentForARigidBody) {
     const TargetSummary summary = encode_to_target(reader, {}, target, directory_ / "t.paim");
     EXPECT_EQ(summary.geometry_components, 0u);
     EXPECT_EQ(summary.chosen().components, 0u);
+    // Neither does it by default.
+    encode_by_default(reader);
+    EXPECT_EQ(summary_.geometry_components, 0u);
+    EXPECT_EQ(summary_.transfer_components, 0u);
     // It plays where it was.
     Playback playback(std::make_shared<const Asset>(read_paim(directory_ / "t.paim")));
     for (uint32_t p = 0; p < kPoses; ++p) {
