@@ -58,11 +58,15 @@ RigidTransform fit_weighted(std::span<const Vec3d> from, std::span<const Vec3d> 
         const double size = covariance.norm();
         covariance.diagonal().array() += kTowardsIdentity * size;
         if (size > 0.0 && std::isfinite(size)) {
-            const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance / size,
-                                                        Eigen::ComputeFullU | Eigen::ComputeFullV);
+            const Eigen::JacobiSVD<Eigen::Matrix3d> decomposition(
+                covariance / size, Eigen::ComputeFullU | Eigen::ComputeFullV);
             Eigen::Matrix3d signs = Eigen::Matrix3d::Identity();
-            signs(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1 : 1;
-            const Eigen::Matrix3d rotation = svd.matrixU() * signs * svd.matrixV().transpose();
+            signs(2, 2) =
+                (decomposition.matrixU() * decomposition.matrixV().transpose()).determinant() < 0.0
+                    ? -1
+                    : 1;
+            const Eigen::Matrix3d rotation =
+                decomposition.matrixU() * signs * decomposition.matrixV().transpose();
             fit.rotation = Eigen::Quaterniond(rotation).normalized();
         }
     }

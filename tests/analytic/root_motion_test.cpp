@@ -41,10 +41,13 @@ RigidTransform walk(uint32_t p) {
 
 class RootMotionRoad : public testing::Test {
   protected:
-    BakeReader bake(const PoseSource& source, RootMotionChoice choice, const char* name) {
+    BakeReader bake(const PoseSource& source, RootMotionChoice choice, const std::string& name,
+                    const Surroundings& surroundings = {}, uint32_t bounces = 0) {
         const auto path = directory_ / name;
+        BakeOptions options{4, 64, 1};
+        options.bounces = bounces;
         bake_sequence(
-            source, {4, 64, 1}, "faces", path, 0, kPoses - 1, [](uint32_t) {}, {},
+            source, options, "faces", path, 0, kPoses - 1, [](uint32_t) {}, surroundings,
             find_root_motion(source, choice));
         return BakeReader(path);
     }

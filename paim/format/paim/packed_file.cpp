@@ -105,7 +105,7 @@ class Packer {
                             "a singular value is {}, expected at most {}: scale the poses down",
                             matrix->singular_values[0], std::numeric_limits<float>::max());
                     }
-                    return zstd_compress(as_bytes(std::span(rounded)));
+                    return zstd_compress(as_bytes(std::span<const float>(rounded)));
                 }};
     }
     Task operator()(const Weights& row) const {
