@@ -81,6 +81,7 @@ void BakeInput::add_floor(const CompressOptions& options) {
 // The floor is a part of the poses and does not move with them.
 void BakeInput::find_motion(const CompressOptions& options) {
     if (on_floor_ || options.root_motion == RootMotionChoice::none) return;
+    if (sequence_.num_poses() < 2) return;
     cli::Progress finding("finding the root motion", "poses", sequence_.num_poses(),
                           is_quiet(options));
     root_motion_ = find_root_motion(sequence_, options.root_motion, [&] { finding.advance(); });

@@ -355,6 +355,17 @@ TEST_F(BakeDirectory, RefusesHostileManifests) {
     refuse("\"poses\": [", "\"poses\": [7,", "not a JSON object");
     refuse("\"poses\": [", "\"poses\": [], \"more\": [", "expected a list of at least one pose");
     refuse("\"poses\": [", "\"poses\": 7, \"more\": [", "expected a list of at least one pose");
+    // Version 3 has a root motion for each pose.
+    refuse("\"version\": 2", "\"version\": 3", "'root' is missing");
+    const std::string named = "\"version\": 3, \"poses\": [{\"root\": [";
+    const std::string rest = "], \"name\": \"a\", \"xxh3\": \"0123456789abcdef\"}], \"more\": [";
+    for (const char* const root : {"0,0,0,0,0", "0,0,0,0,0,\"1\"", "0,0,0,1e300,0,0"}) {
+        std::string text = whole;
+        text.replace(text.find("\"poses\": ["), 10, named + root + rest);
+        text.replace(text.find("\"version\": 2,"), 13, "");
+        write_file(bake_ / "manifest.json", text);
+        expect_contains(reading_complaint(), "'root': expected");
+    }
     refuse("paim-bake", "paim-cake", "not a bake's manifest");
     refuse("{", "[[[[", "not a JSON object");
     for (const std::string& deep :
@@ -367,14 +378,14 @@ TEST_F(BakeDirectory, RefusesHostileManifests) {
     // What a later version wrote is not damaged.
     write_file(bake_ / "manifest.json", whole);
     std::string later = whole;
-    later.replace(later.find("\"version\": 2"), 12, "\"version\": 3");
+    later.replace(later.find("\"version\": 2"), 12, "\"version\": 4");
     write_file(bake_ / "manifest.json", later);
     try {
         BakeReader reader(bake_);
         ADD_FAILURE();
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ExitCode::unsupported);
-        expect_contains(error.what(), "bake version 3, expected 2");
+        expect_contains(error.what(), "bake version 4, expected 2 or 3");
     }
 }
 
