@@ -59,8 +59,10 @@ std::string surroundings_text(const BakeReport& report) {
 std::string root_motion_text(const RootMotion& motion) {
     if (motion.empty()) return {};
     const Travel travel = travel_of(motion);
-    return fmt::format("  root motion: the body travels {:.4g} and turns by {:.4g} degrees\n",
-                       travel.distance, travel.angle_deg);
+    return fmt::format(
+        "  root motion ({}): the body travels {:.4g} and turns by {:.4g} degrees from pose to pose, "
+        "added up\n",
+        travel.angle_deg > 0.0 ? "rigid" : "translation", travel.distance, travel.angle_deg);
 }
 
 // What the vertex colours of a mesh are taken as; `of` says of which.

@@ -21,6 +21,10 @@ ordered_json part_json(uint32_t components, uint32_t rank, double theory, double
 
 std::string part_text(const char* part, uint32_t components, uint32_t rank, double theory,
                       double energy) {
+    // A body that does not change but for rounding, or transfer that does not but for noise.
+    if (components == 0 && rank > 0) {
+        return fmt::format("  {}: 0 of {} components: every pose is the mean\n", part, rank);
+    }
     return fmt::format(
         "  {}: {} of {} components, energy error {:.3g} %, theoretical error {:.3g} %\n", part,
         components, rank, 100.0 * energy, 100.0 * theory);

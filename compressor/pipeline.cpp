@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "compressor/bake_input.h"
@@ -118,6 +119,15 @@ ordered_json run_bake(const CompressOptions& options) {
     return tell(options, bake(options, BakeInput(options), options.output));
 }
 
+// Nothing can be said about errors of transfer that is zero.
+void say_if_dark(const BakeReader& reader) {
+    const std::vector<double> rms = reader.total_statistics().transfer_rms;
+    if (std::any_of(rms.begin(), rms.end(), [](double value) { return value > 0.0; })) return;
+    fmt::print(stderr,
+               "note: no light reaches any vertex: errors of the transfer are 0 and mean nothing "
+               "(where faces look inwards, bake again with --orient into another .bake)\n");
+}
+
 ordered_json run_encode(const CompressOptions& options, const std::filesystem::path& directory) {
     check_paim_output(options.output);
     const BakeReader reader(directory);
@@ -126,6 +136,7 @@ ordered_json run_encode(const CompressOptions& options, const std::filesystem::p
     check_memory(reader, encode_options);
     check_band_power(options, reader.identity().layout.in_bands);
     reader.verify_all();
+    say_if_dark(reader);
     if (options.target) {
         return tell_with_outliers(options, reader.identity(),
                                   encode_target(options, encode_options, reader));

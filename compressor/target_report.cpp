@@ -80,7 +80,10 @@ std::string transfer_text(const TargetSummary& summary) {
 
 std::string geometry_text(const TargetSummary& summary) {
     const GeometryError& geometry = summary.error.geometry;
-    return fmt::format(
+    return (summary.float_positions
+                ? "  positions are floats, as no integers of 16 bits meet these targets\n"
+                : "") +
+           fmt::format(
                "  geometry: {} components, RMS distance {:.3g} measured, {:.3g} allowed ({:.2g} % of the "
                "diagonal), worst {:.3g}; KG {:.3g} %, E_RMS {:.3g}\n",
                summary.geometry_components, geometry.rms(), summary.targets.surface.distance,

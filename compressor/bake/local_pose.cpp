@@ -1,6 +1,8 @@
 // A baked pose in the local coordinates of a body that travels and turns.
 #include "compressor/bake/local_pose.h"
 
+#include <algorithm>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -19,7 +21,10 @@ void transform(const Eigen::Matrix3d& rotation, const Vec3d& shift, std::vector<
                          double{planes[2 * count + v]});
         const Vec3d to = rotation * from + shift;
         for (size_t axis = 0; axis < 3; ++axis) {
-            planes[axis * count + v] = static_cast<float>(to[static_cast<int>(axis)]);
+            // Only outliers at the end of the range of floats are beyond it.
+            constexpr double kMost = std::numeric_limits<float>::max();
+            planes[axis * count + v] =
+                static_cast<float>(std::clamp(to[static_cast<int>(axis)], -kMost, kMost));
         }
     }
 }

@@ -127,11 +127,12 @@ uint32_t choose_geometry(const BakeReader& bake, const EncodeOptions& options,
                                         options.automatic_geometry_error);
     if (options.geometry.kind != ComponentChoice::Kind::automatic) return of_all;
     const std::vector<uint32_t> vertices = face_vertices(bake.topology());
-    const double diagonal = largest_diagonal(bake, outliers, vertices);
+    const double diagonal = pose_diagonals(bake, outliers, vertices).median;
     const double num_positions = static_cast<double>(vertices.size()) * bake.num_poses();
     of_all = std::min(of_all, components_above_rounding(geometry, diagonal, num_positions));
     MotionLimits limits;
     limits.invisible = kInvisibleMotion * diagonal;
+    limits.group = motion_groups(bake.topology());
     return std::max(of_all, components_for_motion(rows.silent(), geometry, vertices, limits));
 }
 

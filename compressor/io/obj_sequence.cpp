@@ -36,6 +36,36 @@ std::string reference_name(const std::filesystem::path& first, const std::filesy
     return first.parent_path() == other.parent_path() ? first.filename().string() : first.string();
 }
 
+// The bounds of the faces, or, where single vertices are far from all others, those of the middle 90 %
+// along each axis. So an outlier does not move the origin of the coordinates.
+BoundsD usual_bounds(const ObjScan& scan, const BoundsD& bounds) {
+    constexpr size_t kFewestCorners = 40, kMostCorners = 4000;
+    constexpr double kFar = 8.0;
+    const std::vector<uint32_t>& corners = scan.faces.corners;
+    if (corners.size() < kFewestCorners) return bounds;
+    const size_t step = corners.size() / kMostCorners + 1;
+    BoundsD middle;
+    Vec3d lower, upper;
+    for (int axis = 0; axis < 3; ++axis) {
+        std::vector<double> values;
+        for (size_t j = 0; j < corners.size(); j += step) {
+            values.push_back(scan.positions[corners[j]][axis]);
+        }
+        const auto quantile = [&](size_t percent) {
+            const auto at =
+                values.begin() + static_cast<ptrdiff_t>(percent * (values.size() - 1) / 100);
+            std::nth_element(values.begin(), at, values.end());
+            return *at;
+        };
+        lower[axis] = quantile(5);
+        upper[axis] = quantile(95);
+    }
+    middle.extend(lower);
+    middle.extend(upper);
+    return bounds.diagonal() > kFar * middle.diagonal() && middle.diagonal() > 0.0 ? middle
+                                                                                   : bounds;
+}
+
 }  // namespace
 
 ObjSequence::ObjSequence(std::vector<std::filesystem::path> files, const ObjOptions& options)
@@ -50,6 +80,7 @@ Triangulation ObjSequence::check_files() {
     checksums_.resize(files_.size());
     offsets_.assign(files_.size(), Vec3d::Zero());
     std::vector<BoundsD> bounds(files_.size());  // of vertices of faces
+    std::vector<BoundsD> usual(files_.size());   // of most of them
     std::optional<Triangulator> triangulator;
     std::mutex places_mutex;
     const auto check = [&](size_t i) {
@@ -59,8 +90,9 @@ Triangulation ObjSequence::check_files() {
         ObjScan scan = scan_obj(files_[i].string(), text,
                                 {options_.normals_from_file, i > 0 ? &reference : nullptr, true});
         for (const uint32_t v : scan.faces.corners) bounds[i].extend(scan.positions[v]);
+        usual[i] = usual_bounds(scan, bounds[i]);
         find_places(i, scan.positions, places_mutex);
-        const Vec3d origin = options_.origin.value_or(choose_origin(bounds[i]));
+        const Vec3d origin = options_.origin.value_or(choose_origin(usual[i]));
         if (i > 0) {
             triangulator->review(static_cast<uint32_t>(i), scan.positions, origin);
         } else {
@@ -94,8 +126,10 @@ Triangulation ObjSequence::check_files() {
     BoundsD all;
     for (const BoundsD& of_file : bounds) all.extend(of_file);
     check_size(all);
+    all = {};
+    for (const BoundsD& of_file : usual) all.extend(of_file);
     origin_ = options_.origin.value_or(choose_origin(all));
-    if (!options_.origin) choose_offsets(bounds);
+    if (!options_.origin) choose_offsets(usual);
     for (size_t i = 0; i < files_.size(); ++i) check_local(i, bounds[i]);
     return triangulator->finish();
 }

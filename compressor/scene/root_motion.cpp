@@ -1,16 +1,14 @@
 // The root motion of a pose sequence.
-// Based on: Kabsch 1976; Huber 1964 (see the header)
 #include "compressor/scene/root_motion.h"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
-#include "paim/base/check.h"
+#include "compressor/scene/rigid_fit.h"
 #include "paim/base/parallel.h"
 #include "paim/mesh/face_vertices.h"
 
@@ -18,106 +16,12 @@ namespace paim {
 
 namespace {
 
-double median_of(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
-// Each coordinate by itself.
-Vec3d median_difference(std::span<const Vec3d> from, std::span<const Vec3d> to) {
-    Vec3d median;
-    std::vector<double> values(from.size());
-    for (int axis = 0; axis < 3; ++axis) {
-        for (size_t v = 0; v < from.size(); ++v) values[v] = to[v][axis] - from[v][axis];
-        median[axis] = median_of(values);
-    }
-    return median;
-}
-
-// The transform with the smallest weighted sum of squared distances.
-RigidTransform fit_weighted(std::span<const Vec3d> from, std::span<const Vec3d> to,
-                            std::span<const double> weights, bool with_rotation) {
-    double sum = 0.0;
-    Vec3d from_centre = Vec3d::Zero(), to_centre = Vec3d::Zero();
-    for (size_t v = 0; v < from.size(); ++v) {
-        sum += weights[v];
-        from_centre += weights[v] * from[v];
-        to_centre += weights[v] * to[v];
-    }
-    from_centre /= sum;
-    to_centre /= sum;
-    RigidTransform fit;
-    if (with_rotation) {
-        Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-        for (size_t v = 0; v < from.size(); ++v) {
-            covariance += weights[v] * (to[v] - to_centre) * (from[v] - from_centre).transpose();
-        }
-        // Decides directions that the points do not.
-        constexpr double kTowardsIdentity = 1e-12;
-        const double size = covariance.norm();
-        covariance.diagonal().array() += kTowardsIdentity * size;
-        if (size > 0.0 && std::isfinite(size)) {
-            const Eigen::JacobiSVD<Eigen::Matrix3d> decomposition(
-                covariance / size, Eigen::ComputeFullU | Eigen::ComputeFullV);
-            Eigen::Matrix3d signs = Eigen::Matrix3d::Identity();
-            signs(2, 2) =
-                (decomposition.matrixU() * decomposition.matrixV().transpose()).determinant() < 0.0
-                    ? -1
-                    : 1;
-            const Eigen::Matrix3d rotation =
-                decomposition.matrixU() * signs * decomposition.matrixV().transpose();
-            fit.rotation = Eigen::Quaterniond(rotation).normalized();
-        }
-    }
-    fit.translation = to_centre - fit.rotation * from_centre;
-    return fit;
-}
-
-// Whether rounds have come to an end.
-// near  a distance between points that counts
-bool is_same(const RigidTransform& a, const RigidTransform& b, double near) {
-    constexpr double kSame = 1e-12;
-    return (a.rotation.coeffs() - b.rotation.coeffs()).norm() <= kSame &&
-           (a.translation - b.translation).norm() <= kSame * (near + a.translation.norm());
-}
-
-// Iteratively reweighted least squares of Huber's loss.
-RigidTransform fit(std::span<const Vec3d> from, std::span<const Vec3d> to, bool with_rotation) {
-    PAIM_CHECK_EQ(from.size(), to.size());
-    RigidTransform best;
-    if (from.empty()) return best;
-    best.translation = median_difference(from, to);
-    constexpr int kRounds = 100;
-    // With this factor, a body whose points are three fifths of all decides.
-    constexpr double kQuadraticMedians = 1.5;
-    std::vector<double> distances(from.size()), weights(from.size());
-    for (int round = 0; round < kRounds; ++round) {
-        double largest = 0.0;
-        for (size_t v = 0; v < from.size(); ++v) {
-            distances[v] = (best.to_scene(from[v]) - to[v]).norm();
-            largest = std::max(largest, distances[v]);
-        }
-        if (largest == 0.0) break;
-        // Where most distances are 0, other points hardly count.
-        const double near =
-            std::max(kQuadraticMedians * median_of(distances), std::numeric_limits<double>::min());
-        for (size_t v = 0; v < from.size(); ++v) {
-            weights[v] = distances[v] <= near ? 1.0 : near / distances[v];
-        }
-        const RigidTransform next = fit_weighted(from, to, weights, with_rotation);
-        const bool same = is_same(next, best, near);
-        best = next;
-        if (same) break;
-    }
-    return best;
-}
-
 // More vertices than this are not looked at: they would not change the fit by much.
 constexpr size_t kMostPoints = 5000;
 
 // The first pose, from its centre.
 struct Reference {
+    uint32_t pose = 0;
     std::vector<uint32_t> vertices;  // of faces, evenly among all
     std::vector<Vec3d> points;       // of these vertices
     Vec3d centre = Vec3d::Zero();    // relative to the origin of the sequence
@@ -143,10 +47,11 @@ std::vector<Vec3d> points_of(const PoseSource& source, uint32_t p, const Referen
     return points;
 }
 
-Reference first_pose(const PoseSource& source) {
+Reference reference_of_pose(const PoseSource& source, uint32_t p) {
     Reference reference;
+    reference.pose = p;
     reference.vertices = some_vertices(source.topology());
-    reference.points = points_of(source, 0, reference);
+    reference.points = points_of(source, p, reference);
     if (reference.points.empty()) return reference;
     // Medians, so that an outlier in this pose changes neither.
     const std::vector<Vec3d> at_origin(reference.points.size(), Vec3d::Zero());
@@ -160,6 +65,15 @@ Reference first_pose(const PoseSource& source) {
     constexpr double kMedians = 4.0;
     reference.size = kMedians * std::sqrt(median_of(std::move(squares)));
     return reference;
+}
+
+// The first pose whose vertices are not one point; the first one if all are.
+Reference first_pose_of_size(const PoseSource& source) {
+    for (uint32_t p = 0; p < source.num_poses(); ++p) {
+        Reference reference = reference_of_pose(source, p);
+        if (reference.size > 0.0) return reference;
+    }
+    return reference_of_pose(source, 0);
 }
 
 // The poses as they are, without translations, and without translations and rotations: columns of
@@ -199,6 +113,9 @@ class Variants {
         double energy = 0.0;          // sum of all squares about the mean
 
         bool is_better_than(const Cost& other) const {
+            // Far from what it is compared with, components are lost in rounding.
+            constexpr double kFar = 1e-3;
+            if (energy < kFar * other.energy) return true;
             if (num_components != other.num_components) {
                 return num_components < other.num_components;
             }
@@ -217,7 +134,9 @@ class Variants {
         const double most = visible * visible * static_cast<double>(matrix.size()) / 3.0;
         double dropped = 0.0;
         Eigen::Index k = 0;
-        while (k < energies.size() && dropped + energies[k] <= most) dropped += energies[k++];
+        while (k < energies.size() && dropped + energies[k] <= most) {
+            dropped += std::max(0.0, energies[k++]);  // rounding may leave less than 0
+        }
         return {static_cast<uint32_t>(energies.size() - k), centred.squaredNorm()};
     }
 
@@ -236,6 +155,53 @@ class Variants {
     const size_t pose_step_, point_step_;
     Eigen::MatrixXd matrices_[3];
 };
+
+// Rotations that are smaller everywhere follow the shape rather than the body.
+constexpr double kLeastTurn_deg = 15.0;
+
+double largest_turn_deg(const RootMotion& motion) {
+    double largest = 0.0;
+    for (const RigidTransform& root : motion) {
+        largest = std::max(largest, rotation_vector(root.rotation).norm() * 180.0 / kPi);
+    }
+    return largest;
+}
+
+// A pose that lies far from the path of the others is an outlier (mesh/outliers.h), and no step of
+// the path: it gets the transform between its neighbours. Such are at most two poses, or a
+// sixteenth of all, to which a single step leads, and from which another leads back.
+void take_out_jumps(const Reference& reference, RootMotion& motion) {
+    std::vector<Vec3d> places;
+    for (const RigidTransform& root : motion) places.push_back(root.translation);
+    const std::vector<Vec3d> at_origin(places.size(), Vec3d::Zero());
+    const Vec3d median = median_difference(at_origin, places);
+    std::vector<double> distances;
+    for (const Vec3d& place : places) distances.push_back((place - median).norm());
+    std::vector<double> sorted = distances;
+    std::sort(sorted.begin(), sorted.end());
+    constexpr double kSizes = 10.0;
+    const double far = kSizes * (reference.size + sorted[3 * (sorted.size() - 1) / 4]);
+    std::vector<size_t> jumps;
+    for (size_t p = 0; p < places.size(); ++p) {
+        const auto leads_far = [&](size_t q) { return (places[p] - places[q]).norm() > far; };
+        if (distances[p] <= far) continue;
+        if (p > 0 && distances[p - 1] <= far && !leads_far(p - 1)) continue;
+        if (p + 1 < places.size() && distances[p + 1] <= far && !leads_far(p + 1)) continue;
+        jumps.push_back(p);
+    }
+    if (jumps.size() > std::max<size_t>(2, places.size() / 16) || places.size() < 3) return;
+    for (const size_t p : jumps) {
+        size_t before = p, after = p;
+        const auto is_jump = [&](size_t q) {
+            return std::find(jumps.begin(), jumps.end(), q) != jumps.end();
+        };
+        while (before > 0 && is_jump(before)) --before;
+        while (after + 1 < motion.size() && is_jump(after)) ++after;
+        if (is_jump(before)) before = after;
+        if (is_jump(after)) after = before;
+        motion[p] = root_at({motion[before], motion[after]}, 0.5);
+    }
+}
 
 // From the origin of the sequence, in few digits.
 RigidTransform rounded(const RigidTransform& root, const Reference& reference) {
@@ -258,12 +224,14 @@ RigidTransform rounded(const RigidTransform& root, const Reference& reference) {
 }
 
 // The choice among taking out nothing (0), translations (1), and rotations as well (2).
-size_t choose(RootMotionChoice choice, const Variants& variants) {
+// turns  whether the body turns far enough for its transfer to change much
+size_t choose(RootMotionChoice choice, const Variants& variants, bool turns) {
     if (choice == RootMotionChoice::translation) return 1;
     if (choice == RootMotionChoice::rigid) return 2;
     size_t best = 0;
     Variants::Cost least = variants.cost_of(best);
     for (const size_t variant : {1, 2}) {
+        if (variant == 2 && !turns) continue;
         const Variants::Cost cost = variants.cost_of(variant);
         if (!cost.is_better_than(least)) continue;
         least = cost;
@@ -274,28 +242,20 @@ size_t choose(RootMotionChoice choice, const Variants& variants) {
 
 }  // namespace
 
-RigidTransform fit_rigid(std::span<const Vec3d> from, std::span<const Vec3d> to) {
-    return fit(from, to, true);
-}
-
-RigidTransform fit_translation(std::span<const Vec3d> from, std::span<const Vec3d> to) {
-    return fit(from, to, false);
-}
-
 RootMotion find_root_motion(const PoseSource& source, RootMotionChoice choice,
                             const std::function<void()>& on_pose) {
     const uint32_t num_poses = source.num_poses();
     if (choice == RootMotionChoice::none || num_poses < 2) return {};
-    const Reference reference = first_pose(source);
+    const Reference reference = first_pose_of_size(source);
     RootMotion motions[3];
     for (RootMotion& motion : motions) motion.resize(num_poses);
     if (reference.points.empty()) return {};
-    // A first pose without size says nothing about the others.
+    // Poses without size have no motion but that of a point.
     if (reference.size == 0.0 && choice == RootMotionChoice::automatic) return {};
     Variants variants(reference, num_poses);
     parallel_for(num_poses, 1, [&](size_t task, size_t) {
         const auto p = static_cast<uint32_t>(task);
-        if (p > 0) {
+        if (p != reference.pose) {
             const std::vector<Vec3d> points = points_of(source, p, reference);
             motions[1][p] = fit_translation(reference.points, points);
             motions[2][p] = fit_rigid(reference.points, points);
@@ -303,8 +263,10 @@ RootMotion find_root_motion(const PoseSource& source, RootMotionChoice choice,
         }
         if (on_pose) on_pose();
     });
-    const size_t chosen = choose(choice, variants);
+    const bool turns = largest_turn_deg(motions[2]) >= kLeastTurn_deg;
+    const size_t chosen = choose(choice, variants, turns);
     if (chosen == 0) return {};
+    take_out_jumps(reference, motions[chosen]);
     for (RigidTransform& root : motions[chosen]) root = rounded(root, reference);
     return std::move(motions[chosen]);
 }

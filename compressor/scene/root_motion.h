@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <span>
 
 #include "paim/mesh/pose_source.h"
 #include "paim/mesh/root_motion.h"
@@ -18,24 +17,15 @@ enum class RootMotionChoice : uint32_t {
     rigid,        // positions and rotations
 };
 
-// The rigid transform that takes the points `from` closest to `to`, in squared distances where most
-// points move with the body, and in distances for points farther off than one and a half times the median:
-// limbs that swing, and outliers, hardly turn it. Where points do not decide a rotation, as on a
-// line, it is the one nearest to the identity.
-// from, to  of the same size (checked), finite
-// Based on: Kabsch, A Solution for the Best Rotation to Relate Two Sets of Vectors, 1976; Huber,
-//           Robust Estimation of a Location Parameter, 1964
-RigidTransform fit_rigid(std::span<const Vec3d> from, std::span<const Vec3d> to);
-
-// The same without rotation.
-RigidTransform fit_translation(std::span<const Vec3d> from, std::span<const Vec3d> to);
-
-// Fits vertices of faces of every pose, 5,000 at most, to those of the first one. Local coordinates
-// are those of the first pose from its centre. What is taken out is what leaves the fewest principal
-// components that matter (a thousandth of the body's size). Of two that leave as many it is the
-// simpler one, unless the other leaves less than half of the squared distances from the mean. An outlier counts as if it were only as far as the body is
-// large. Reads every pose once, on all threads. Transforms are rounded to 2⁻²² of a radian and of
-// the body's size, so that files store few digits.
+// Fits vertices of faces of every pose, 5,000 at most, to those of the first one that has a size.
+// Local coordinates are those of that pose from its centre. What is taken out is what leaves the
+// fewest principal components that matter (a thousandth of the body's size). Of two that leave as
+// many it is the simpler one, unless the other leaves less than half of the squared distances from
+// the mean. Rotations are taken out only if one of them is by 15 degrees or more: smaller ones
+// follow the shape, and hardly turn transfer. An outlier counts as if it were only as far as the
+// body is large, and a pose that jumps away from the path and back is no step of it. Reads every
+// pose once, on all threads. Transforms are rounded to 2⁻²² of a radian and of the body's size, so
+// that files store few digits.
 // returns  [P]; empty if the choice, or this rule, takes nothing out
 // on_pose  called after each pose, from several threads at once
 RootMotion find_root_motion(const PoseSource& source, RootMotionChoice choice,

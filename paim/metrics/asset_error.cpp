@@ -2,6 +2,7 @@
 #include "paim/metrics/asset_error.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -240,7 +241,10 @@ std::vector<NamedError> named_errors(const AssetError& error) {
 std::string error_statement_json(const AssetError& error, const BandPower& spectrum) {
     nlohmann::ordered_json json;
     json["light_spectrum"] = spectrum.name;
-    for (const NamedError& named : named_errors(error)) json[named.name] = named.value;
+    for (const NamedError& named : named_errors(error)) {
+        // Where nothing is as large as the error, as in a mesh that is a point, nothing is stated.
+        if (std::isfinite(named.value)) json[named.name] = named.value;
+    }
     // Names of files may have bytes that are not UTF-8, which are replaced.
     return json_text(json);
 }

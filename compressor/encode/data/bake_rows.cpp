@@ -49,9 +49,9 @@ void TransferRows::read(uint64_t first, Eigen::MatrixXf& block) const {
     }
 }
 
-double largest_diagonal(const BakeReader& bake, const PositionOutliers& outliers,
-                        const std::vector<uint32_t>& vertices) {
-    GeometryError measured;
+PoseDiagonals pose_diagonals(const BakeReader& bake, const PositionOutliers& outliers,
+                             const std::vector<uint32_t>& vertices) {
+    std::vector<double> diagonals;
     const uint32_t num_vertices = bake.identity().num_vertices;
     std::vector<float> positions;
     for (uint32_t p = 0; p < bake.num_poses(); ++p) {
@@ -59,9 +59,12 @@ double largest_diagonal(const BakeReader& bake, const PositionOutliers& outliers
         bake.read_position_rows(p, 0, positions.size(), positions.data());
         outliers.replace(p, num_vertices, 0, positions);
         keep_vertices(positions, num_vertices, vertices);
-        measured.add(positions, positions, p);
+        GeometryError pose;
+        pose.add(positions, positions, p);
+        diagonals.push_back(pose.diagonal);
     }
-    return measured.diagonal;
+    std::sort(diagonals.begin(), diagonals.end());
+    return {diagonals.back(), diagonals[diagonals.size() / 2]};
 }
 
 }  // namespace paim

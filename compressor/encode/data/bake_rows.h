@@ -45,8 +45,12 @@ class TransferRows : public RowSource {
     uint64_t num_vertices_;
 };
 
-// Largest diagonal of a pose's bounding box, of these vertices, without outliers.
-double largest_diagonal(const BakeReader& bake, const PositionOutliers& outliers,
-                        const std::vector<uint32_t>& vertices);
+// Diagonals of the bounding boxes of the poses, of these vertices, without outliers. Scene units.
+struct PoseDiagonals {
+    double largest = 0.0;
+    double median = 0.0;
+};
+PoseDiagonals pose_diagonals(const BakeReader& bake, const PositionOutliers& outliers,
+                             const std::vector<uint32_t>& vertices);
 
 }  // namespace paim

@@ -33,11 +33,12 @@ HeldPositions::HeldPositions(const BakeReader& bake, const PositionOutliers& out
       is_known_(target.transfer_error.has_value()) {
     const std::vector<uint32_t> counted = face_vertices(bake.topology());
     num_positions_ = static_cast<double>(counted.size()) * bake.num_poses();
-    const double diagonal = largest_diagonal(bake, outliers, counted);
-    target_ = targets_of(target, asked_error(target), diagonal).surface;
+    const PoseDiagonals diagonals = pose_diagonals(bake, outliers, counted);
+    target_ = targets_of(target, asked_error(target), diagonals.largest).surface;
     least_components_ = components_for_motion(
         rows_, all_, counted,
-        {kLostByTarget, std::max(target_.distance, kInvisibleMotion * diagonal)});
+        {kLostByTarget, std::max(target_.distance, kInvisibleMotion * diagonals.median),
+         motion_groups(bake.topology())});
     allow(kHeldDistance * target_.distance);
 }
 

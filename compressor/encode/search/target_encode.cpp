@@ -63,6 +63,8 @@ TargetSummary encode_to_target(const BakeReader& bake, const EncodeOptions& opti
     summary.targets = result.targets;
     summary.candidates = std::move(result.candidates);
     summary.geometry_components = result.geometry_components;
+    summary.float_positions =
+        is_integer(options.precision) && !is_integer(result.coding.positions.precision);
     summary.num_vertices = problem.geometry.num_points;
     summary.num_poses = bake.num_poses();
     summary.outliers = problem.outliers;

@@ -16,6 +16,7 @@ struct TargetSummary {
     Targets targets;               // that were met
     std::vector<Candidate> candidates;
     uint32_t geometry_components = 0;
+    bool float_positions = false;  // where integers were asked for
     uint32_t num_vertices = 0, num_poses = 0;
     uint64_t size_bytes = 0;
     PositionOutliers outliers;  // of the bake, coded as exceptions

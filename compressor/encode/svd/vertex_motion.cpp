@@ -8,6 +8,7 @@
 #include "compressor/encode/svd/tsqr.h"
 #include "paim/base/check.h"
 #include "paim/base/parallel.h"
+#include "paim/mesh/pieces.h"
 
 namespace paim {
 
@@ -25,17 +26,13 @@ class MotionMeter {
           num_vertices_(rows.num_rows() / 3),
           vertices_(vertices),
           v_(components.v.leftCols(components.rank())),
+          group_(limits.group),
+          num_groups_(group_.empty() ? 1 : 1 + *std::max_element(group_.begin(), group_.end())),
           lost_energy_(limits.lost_share * limits.lost_share),
           invisible_energy_(limits.invisible * limits.invisible * rows.num_columns()) {}
 
     uint32_t run() {
-        MatrixXd sum = MatrixXd::Zero(3, v_.rows());
-        for_each_block([&](uint64_t first, uint64_t count) { add_up(first, count, sum); });
-        MatrixXd centred;
-        Eigen::VectorXd mean;
-        const MatrixXf of_mesh = (sum / static_cast<double>(vertices_.size())).cast<float>();
-        centre_rows(of_mesh, centred, mean);
-        of_mesh_ = centred * v_;
+        find_means();
         uint32_t most = 0;
         for_each_block(
             [&](uint64_t first, uint64_t count) { most = std::max(most, of_block(first, count)); });
@@ -64,14 +61,53 @@ class MotionMeter {
         return {from, std::lower_bound(from, vertices_.end(), end)};
     }
 
-    // Adds positions of the vertices of each pose, [3][P].
-    void add_up(uint64_t first, uint64_t count, MatrixXd& sum) const {
-        for (const uint32_t v : counted(first, first + count)) {
-            const auto row = static_cast<Index>(v - first);
-            for (Index axis = 0; axis < 3; ++axis) {
-                sum.row(axis) += planes_[static_cast<size_t>(axis)].row(row).cast<double>();
-            }
+    uint32_t group_of(uint32_t v) const { return group_.empty() ? 0 : group_[v]; }
+
+    // The motion of a vertex of the block: squared distances from its mean over the poses.
+    double motion_energy(uint64_t first, uint32_t v) const {
+        double energy = 0.0;
+        for (const MatrixXf& plane : planes_) {
+            const Eigen::RowVectorXd x = plane.row(static_cast<Index>(v - first)).cast<double>();
+            energy += (x.array() - x.mean()).matrix().squaredNorm();
         }
+        return energy;
+    }
+
+    // Of the vertices of each group that do not move much farther than the median vertex.
+    void find_means() {
+        std::vector<double> energies;
+        energies.reserve(vertices_.size());
+        for_each_block([&](uint64_t first, uint64_t count) {
+            for (const uint32_t v : counted(first, first + count)) {
+                energies.push_back(motion_energy(first, v));
+            }
+        });
+        std::vector<double> sorted = energies;
+        const auto middle = sorted.begin() + static_cast<ptrdiff_t>(sorted.size() / 2);
+        std::nth_element(sorted.begin(), middle, sorted.end());
+        constexpr double kFar = 100.0;
+        const double most = kFar * kFar * std::max(*middle, invisible_energy_);
+        MatrixXd sums = MatrixXd::Zero(3 * num_groups_, v_.rows());
+        std::vector<double> counts(num_groups_, 0.0);
+        size_t j = 0;
+        for_each_block([&](uint64_t first, uint64_t count) {
+            for (const uint32_t v : counted(first, first + count)) {
+                if (energies[j++] > most) continue;
+                ++counts[group_of(v)];
+                for (Index axis = 0; axis < 3; ++axis) {
+                    sums.row(3 * group_of(v) + axis) += planes_[static_cast<size_t>(axis)]
+                                                            .row(static_cast<Index>(v - first))
+                                                            .cast<double>();
+                }
+            }
+        });
+        for (uint32_t g = 0; g < num_groups_; ++g) {
+            sums.middleRows(3 * g, 3) /= std::max(1.0, counts[g]);
+        }
+        MatrixXd centred;
+        Eigen::VectorXd mean;
+        centre_rows(sums.cast<float>(), centred, mean);
+        of_group_ = centred * v_;
     }
 
     uint32_t of_block(uint64_t first, uint64_t count) const {
@@ -87,21 +123,26 @@ class MotionMeter {
         MatrixXd centred, factors;
         Eigen::VectorXd mean;
         MatrixXd energy = MatrixXd::Zero(static_cast<Index>(count), v_.cols());
-        Eigen::VectorXd within_mesh = Eigen::VectorXd::Zero(energy.rows());
+        Eigen::VectorXd within_group = Eigen::VectorXd::Zero(energy.rows());
         for (size_t axis = 0; axis < 3; ++axis) {
             centre_rows(planes_[axis].middleRows(static_cast<Index>(row), energy.rows()), centred,
                         mean);
             factors.noalias() = centred * v_;
             energy += factors.cwiseAbs2();
             // V is orthonormal.
-            factors.rowwise() -= of_mesh_.row(static_cast<Index>(axis));
-            within_mesh += factors.rowwise().squaredNorm();
+            for (Index v = 0; v < factors.rows(); ++v) {
+                const uint32_t group =
+                    group_of(static_cast<uint32_t>(first + row) + static_cast<uint32_t>(v));
+                within_group[v] +=
+                    (factors.row(v) - of_group_.row(3 * group + static_cast<Index>(axis)))
+                        .squaredNorm();
+            }
         }
         const uint64_t begin = first + row;
         uint32_t most = 0;
         for (const uint32_t v : counted(begin, begin + count)) {
             const auto at = static_cast<Index>(v - begin);
-            const double allowed = std::max(lost_energy_ * within_mesh[at], invisible_energy_);
+            const double allowed = std::max(lost_energy_ * within_group[at], invisible_energy_);
             Index k = energy.cols();
             double dropped = 0.0;
             while (k > 0 && dropped + energy(at, k - 1) <= allowed) dropped += energy(at, --k);
@@ -114,12 +155,28 @@ class MotionMeter {
     const uint64_t num_vertices_;
     const std::span<const uint32_t> vertices_;
     const MatrixXd v_;  // [P][K]
+    const std::vector<uint32_t>& group_;
+    const uint32_t num_groups_;
     const double lost_energy_, invisible_energy_;
-    MatrixXd of_mesh_;                // [3][K] factors of the mean of all vertices
+    MatrixXd of_group_;               // [groups][3][K] factors of the mean of each group
     std::array<MatrixXf, 3> planes_;  // of the vertices at work
 };
 
 }  // namespace
+
+std::vector<uint32_t> motion_groups(const Topology& topology) {
+    constexpr uint64_t kShare = 20;
+    const Pieces pieces = connected_pieces(topology);
+    std::vector<uint32_t> number(pieces.count, 0);
+    uint32_t next = 1;
+    for (size_t j = 0; j < number.size(); ++j) {
+        if (kShare * pieces.num_vertices[j] >= topology.num_vertices) number[j] = next++;
+    }
+    std::vector<uint32_t> group(pieces.of_vertex.size());
+    std::transform(pieces.of_vertex.begin(), pieces.of_vertex.end(), group.begin(),
+                   [&](uint32_t piece) { return number[piece]; });
+    return group;
+}
 
 uint32_t components_for_motion(const RowSource& rows, const PrincipalComponents& components,
                                std::span<const uint32_t> vertices, const MotionLimits& limits) {

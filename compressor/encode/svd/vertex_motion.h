@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "compressor/encode/svd/principal_components.h"
+#include "paim/mesh/topology.h"
 
 namespace paim {
 
@@ -13,16 +15,24 @@ namespace paim {
 // sees them move. So the motion that dropped components take from a vertex is limited, too: an RMS
 // distance over the poses.
 struct MotionLimits {
-    // Dropped motion may be this share of the vertex's motion within the mesh, which is the RMS over
-    // the poses of its distance from its mean, both relative to the mean of all vertices of a pose.
+    // Dropped motion may be this share of the vertex's motion within its group, which is the RMS
+    // over the poses of its distance from its mean, both relative to the mean of the group in a pose.
     // So walking does not make limbs stand still. A vertex loses no larger share of its motion.
+    // Vertices that move more than a hundred times as far as the median vertex, and as can be seen,
+    // are in no mean.
     double lost_share = 0.1;
     // Scene units; dropped motion up to this is too small to be seen.
     double invisible = 0.0;
+    // [V] numbers of groups, from 0 without gaps; empty: the whole mesh is one.
+    std::vector<uint32_t> group = {};
 };
 
+// A group for each connected piece that has a twentieth of all vertices or more, such as a floor,
+// and one for all other vertices.
+std::vector<uint32_t> motion_groups(const Topology& topology);
+
 // The fewest components with which every vertex is within one of the two limits.
-// rows      planes x, y and z of V rows each; read twice
+// rows      planes x, y and z of V rows each; read three times
 // vertices  that count, ascending
 uint32_t components_for_motion(const RowSource& rows, const PrincipalComponents& components,
                                std::span<const uint32_t> vertices, const MotionLimits& limits);

@@ -155,7 +155,7 @@ BakeIdentity read_manifest(const std::filesystem::path& path) {
     for (const nlohmann::json& entry : *poses) {
         identity.poses.push_back(source_of(entry));
         if (version != kRootMotionVersion) continue;
-        constexpr double kMax = std::numeric_limits<double>::max();
+        constexpr double kMax = 4e38;  // the range of floats, and rounding
         const Metadata pose = Metadata::part(entry, file);
         const std::vector<double> numbers = pose.numbers("root", kRootNumbers, -kMax, kMax);
         root.insert(root.end(), numbers.begin(), numbers.end());

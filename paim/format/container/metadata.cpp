@@ -84,7 +84,7 @@ std::vector<double> Metadata::numbers(const char* key, size_t count, double lowe
     }
     std::vector<double> numbers;
     for (const json& entry : value) {
-        const double number = entry.is_number() ? entry.get<double>() : lowest - 1.0;
+        const double number = entry.is_number() ? entry.get<double>() : std::nan("");
         if (!(number >= lowest && number <= highest)) {
             throw_bad_input("{}: metadata: '{}': expected {} to {}, got {}", file_, key, lowest,
                             highest, shown(entry));

@@ -81,5 +81,14 @@ TEST(MoveToLocal, MovesPositionsAndTurnsNormals) {
     }
 }
 
+// An outlier at the end of the range of floats may be beyond it when it is turned.
+TEST(MoveToLocal, StaysFinite) {
+    const TransferLayout layout{TransferKind::diffuse, 2, 1};
+    BakedPose pose = random_pose(layout);
+    for (size_t axis = 0; axis < 3; ++axis) pose.positions[axis * kVertices] = 3e38f;
+    move_to_local(some_root(), Vec3d::Zero(), layout, pose);
+    for (const float x : pose.positions) EXPECT_TRUE(std::isfinite(x));
+}
+
 }  // namespace
 }  // namespace paim

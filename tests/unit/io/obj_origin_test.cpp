@@ -58,6 +58,21 @@ TEST(ObjOrigin, GivesPosesOfATravellerOriginsOfTheirOwn) {
     EXPECT_EQ(ObjSequence(files.files(), options).pose_offset(2), Vec3d::Zero());
 }
 
+// One vertex of a sheet at x = 1e6 is elsewhere in one pose.
+TEST(ObjOrigin, IsNotMovedByAnOutlier) {
+    const auto sheet = [](const std::string& last) {
+        std::string text;
+        for (int j = 0; j < 49; ++j) text += fmt::format("v {} {} 0\n", 1000000 + j % 7, j / 7);
+        text += last;
+        for (int j = 1; j + 8 <= 50; ++j) text += fmt::format("f {} {} {}\n", j, j + 1, j + 7);
+        return text;
+    };
+    const ObjTestFiles good({sheet("v 1000006 7 0\n"), sheet("v 1000006 7 0\n")});
+    const ObjTestFiles bad({sheet("v 1000006 7 0\n"), sheet("v 1e30 0 0\n")});
+    EXPECT_EQ(ObjSequence(bad.files()).origin(), ObjSequence(good.files()).origin());
+    EXPECT_EQ(ObjSequence(bad.files()).pose_offset(1), Vec3d::Zero());
+}
+
 TEST(ObjOrigin, IsZeroWhereFloatsAreEnough) {
     const ObjTestFiles files({"v 10 0 0\nv 11 0 0\nv 10 1 0\nf 1 2 3\n"});
     EXPECT_EQ(ObjSequence(files.files()).origin(), Vec3d::Zero());

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "compressor/scene/rigid_fit.h"
 #include "paim/base/seed.h"
 #include "paim/base/tbb_parallel.h"
 #include "paim/format/container/root_numbers.h"
@@ -159,9 +160,54 @@ TEST(FindRootMotion, GivesNumbersThatFilesKeep) {
     }
 }
 
+// A path beyond which doubles hold little of the shape.
+TEST(FindRootMotion, TakesOutAPathOfAnyLength) {
+    for (const double step : {1e3, 1e7, 1e12}) {
+        const PoseSet far = animated([&](uint32_t p, const Vec3d& point) {
+            return Vec3d(swing(p, point) + step * p * Vec3d(1, 0, 0.5));
+        });
+        EXPECT_EQ(find_root_motion(far, RootMotionChoice::automatic).size(), 8u) << step;
+    }
+}
+
+// The pose is an outlier then, and is coded as one.
+TEST(FindRootMotion, PutsAJumpBackOnThePath) {
+    for (const uint32_t bad : {0u, 4u, 7u}) {
+        const PoseSet walk = animated([&](uint32_t p, const Vec3d& point) {
+            const Vec3d jump = p == bad ? Vec3d(1e6, 2e5, 0) : Vec3d::Zero();
+            return Vec3d(swing(p, point) + p * Vec3d(2, 0, 0) + jump);
+        });
+        const RootMotion motion = find_root_motion(walk, RootMotionChoice::automatic);
+        ASSERT_EQ(motion.size(), 8u) << bad;
+        for (uint32_t p = 0; p < 8; ++p) {
+            EXPECT_NEAR(motion[p].translation.x(), 2.0 * p, 3.0) << bad << ' ' << p;
+        }
+    }
+}
+
+TEST(FindRootMotion, LooksAtTheFirstPoseThatHasASize) {
+    const PoseSet walk = animated([](uint32_t p, const Vec3d& point) {
+        return Vec3d((p == 0 ? 0.0 : 1.0) * swing(p, point) + p * Vec3d(20, 0, 0));
+    });
+    const RootMotion motion = find_root_motion(walk, RootMotionChoice::automatic);
+    ASSERT_EQ(motion.size(), 8u);
+    EXPECT_NEAR(motion[7].translation.x() - motion[1].translation.x(), 120.0, 0.5);
+}
+
+TEST(FindRootMotion, FollowsNoSmallTurns) {
+    const auto rocking = [](double angle_deg) {
+        return animated([=](uint32_t p, const Vec3d& point) {
+            return Vec3d(turned(angle_deg * kPi / 180.0 * (p % 2), point) + p * Vec3d(2, 0, 0));
+        });
+    };
+    EXPECT_FALSE(find_root_motion(rocking(10.0), RootMotionChoice::automatic)[1].turns());
+    EXPECT_TRUE(find_root_motion(rocking(30.0), RootMotionChoice::automatic)[1].turns());
+}
+
 TEST(FindRootMotion, NeedsNoSizeInAnyPose) {
-    const PoseSet grows =
-        animated([](uint32_t p, const Vec3d& point) { return Vec3d(0.1 * p * point); });
+    const PoseSet grows = animated([](uint32_t p, const Vec3d& point) {
+        return Vec3d(0.1 * p * (point - Vec3d(0.5, 1.0, 1.5)));
+    });
     EXPECT_TRUE(find_root_motion(grows, RootMotionChoice::automatic).empty());
     const PoseSet point = animated([](uint32_t, const Vec3d&) { return Vec3d(1, 2, 3); });
     EXPECT_TRUE(find_root_motion(point, RootMotionChoice::automatic).empty());

@@ -1,0 +1,29 @@
+// The rigid transform between two sets of points, some of which do not move with the others.
+// Based on: Kabsch, A Solution for the Best Rotation to Relate Two Sets of Vectors, 1976; Huber,
+//           Robust Estimation of a Location Parameter, 1964
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "paim/mesh/root_motion.h"
+
+namespace paim {
+
+// At least one value.
+double median_of(std::vector<double> values);
+
+// Of to − from, each coordinate by itself. At least one point.
+Vec3d median_difference(std::span<const Vec3d> from, std::span<const Vec3d> to);
+
+// The rigid transform that takes the points `from` closest to `to`, in squared distances where most
+// points move with the body, and in distances for points farther off than one and a half times the median:
+// limbs that swing, and outliers, hardly turn it. Where points do not decide a rotation, as on a
+// line, it is the one nearest to the identity.
+// from, to  of the same size (checked), finite
+RigidTransform fit_rigid(std::span<const Vec3d> from, std::span<const Vec3d> to);
+
+// The same without rotation.
+RigidTransform fit_translation(std::span<const Vec3d> from, std::span<const Vec3d> to);
+
+}  // namespace paim
