@@ -29,11 +29,21 @@ Vec3d median_difference(std::span<const Vec3d> from, std::span<const Vec3d> to) 
     return median;
 }
 
+double size_of(std::span<const Vec3d> points) {
+    const std::vector<Vec3d> at_origin(points.size(), Vec3d::Zero());
+    const Vec3d centre = median_difference(at_origin, points);
+    std::vector<double> distances;
+    for (const Vec3d& point : points) distances.push_back((point - centre).stableNorm());
+    // Of points that are spread evenly in a box, the median lies at a quarter of its diagonal.
+    constexpr double kMedians = 4.0;
+    return kMedians * median_of(std::move(distances));
+}
+
 namespace {
 
 // The transform with the smallest weighted sum of squared distances.
 RigidTransform fit_weighted(std::span<const Vec3d> from, std::span<const Vec3d> to,
-                            std::span<const double> weights, bool with_rotation) {
+                            std::span<const double> weights) {
     double sum = 0.0;
     Vec3d from_centre = Vec3d::Zero(), to_centre = Vec3d::Zero();
     for (size_t v = 0; v < from.size(); ++v) {
@@ -44,28 +54,26 @@ RigidTransform fit_weighted(std::span<const Vec3d> from, std::span<const Vec3d> 
     from_centre /= sum;
     to_centre /= sum;
     RigidTransform fit;
-    if (with_rotation) {
-        Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-        for (size_t v = 0; v < from.size(); ++v) {
-            covariance += weights[v] * (to[v] - to_centre) * (from[v] - from_centre).transpose();
-        }
-        // Decides directions that the points do not.
-        constexpr double kTowardsIdentity = 1e-12;
-        const double size = covariance.norm();
-        covariance.diagonal().array() += kTowardsIdentity * size;
-        if (size > 0.0 && std::isfinite(size)) {
-            const Eigen::JacobiSVD<Eigen::Matrix3d> decomposition(
-                covariance / size, Eigen::ComputeFullU | Eigen::ComputeFullV);
-            Eigen::Matrix3d signs = Eigen::Matrix3d::Identity();
-            signs(2, 2) =
-                (decomposition.matrixU() * decomposition.matrixV().transpose()).determinant() < 0.0
-                    ? -1
-                    : 1;
-            const Eigen::Matrix3d rotation =
-                decomposition.matrixU() * signs * decomposition.matrixV().transpose();
-            fit.rotation = Eigen::Quaterniond(rotation).normalized();
-        }
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+    for (size_t v = 0; v < from.size(); ++v) {
+        covariance += weights[v] * (to[v] - to_centre) * (from[v] - from_centre).transpose();
     }
+    // Decides directions that the points do not.
+    constexpr double kTowardsIdentity = 1e-12;
+    const double size = covariance.norm();
+    covariance.diagonal().array() += kTowardsIdentity * size;
+    if (size > 0.0 && std::isfinite(size)) {
+        const Eigen::JacobiSVD<Eigen::Matrix3d> decomposition(
+            covariance / size, Eigen::ComputeFullU | Eigen::ComputeFullV);
+        Eigen::Matrix3d signs = Eigen::Matrix3d::Identity();
+        signs(2, 2) =
+            (decomposition.matrixU() * decomposition.matrixV().transpose()).determinant() < 0.0 ? -1
+                                                                                                : 1;
+        const Eigen::Matrix3d rotation =
+            decomposition.matrixU() * signs * decomposition.matrixV().transpose();
+        fit.rotation = Eigen::Quaterniond(rotation).normalized();
+    }
+
     fit.translation = to_centre - fit.rotation * from_centre;
     return fit;
 }
@@ -78,8 +86,10 @@ bool is_same(const RigidTransform& a, const RigidTransform& b, double near) {
            (a.translation - b.translation).norm() <= kSame * (near + a.translation.norm());
 }
 
+}  // namespace
+
 // Iteratively reweighted least squares of Huber's loss.
-RigidTransform fit(std::span<const Vec3d> from, std::span<const Vec3d> to, bool with_rotation) {
+RigidTransform fit_rigid(std::span<const Vec3d> from, std::span<const Vec3d> to) {
     PAIM_CHECK_EQ(from.size(), to.size());
     RigidTransform best;
     if (from.empty()) return best;
@@ -101,7 +111,7 @@ RigidTransform fit(std::span<const Vec3d> from, std::span<const Vec3d> to, bool 
         for (size_t v = 0; v < from.size(); ++v) {
             weights[v] = distances[v] <= near ? 1.0 : near / distances[v];
         }
-        const RigidTransform next = fit_weighted(from, to, weights, with_rotation);
+        const RigidTransform next = fit_weighted(from, to, weights);
         const bool same = is_same(next, best, near);
         best = next;
         if (same) break;
@@ -109,14 +119,22 @@ RigidTransform fit(std::span<const Vec3d> from, std::span<const Vec3d> to, bool 
     return best;
 }
 
-}  // namespace
-
-RigidTransform fit_rigid(std::span<const Vec3d> from, std::span<const Vec3d> to) {
-    return fit(from, to, true);
-}
-
 RigidTransform fit_translation(std::span<const Vec3d> from, std::span<const Vec3d> to) {
-    return fit(from, to, false);
+    PAIM_CHECK_EQ(from.size(), to.size());
+    RigidTransform fit;
+    if (from.empty()) return fit;
+    const Vec3d median = median_difference(from, to);
+    const double size = size_of(from);
+    Vec3d sum = Vec3d::Zero();
+    double count = 0.0;
+    for (size_t v = 0; v < from.size(); ++v) {
+        const Vec3d difference = to[v] - from[v];
+        if ((difference - median).stableNorm() > size) continue;
+        sum += difference - median;
+        count += 1.0;
+    }
+    fit.translation = count > 0.0 ? Vec3d(median + sum / count) : median;
+    return fit;
 }
 
 }  // namespace paim

@@ -16,6 +16,10 @@ double median_of(std::vector<double> values);
 // Of to − from, each coordinate by itself. At least one point.
 Vec3d median_difference(std::span<const Vec3d> from, std::span<const Vec3d> to);
 
+// About the diagonal of a body: four times the median distance from the median point. At least one
+// point.
+double size_of(std::span<const Vec3d> points);
+
 // The rigid transform that takes the points `from` closest to `to`, in squared distances where most
 // points move with the body, and in distances for points farther off than one and a half times the median:
 // limbs that swing, and outliers, hardly turn it. Where points do not decide a rotation, as on a
@@ -23,7 +27,8 @@ Vec3d median_difference(std::span<const Vec3d> from, std::span<const Vec3d> to);
 // from, to  of the same size (checked), finite
 RigidTransform fit_rigid(std::span<const Vec3d> from, std::span<const Vec3d> to);
 
-// The same without rotation.
+// The mean translation of the points that are within size_of(from) of the median translation. All
+// that moves with the body, limbs too, counts alike, so that translations add no components.
 RigidTransform fit_translation(std::span<const Vec3d> from, std::span<const Vec3d> to);
 
 }  // namespace paim

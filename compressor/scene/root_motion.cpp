@@ -56,14 +56,8 @@ Reference reference_of_pose(const PoseSource& source, uint32_t p) {
     // Medians, so that an outlier in this pose changes neither.
     const std::vector<Vec3d> at_origin(reference.points.size(), Vec3d::Zero());
     reference.centre = median_difference(at_origin, reference.points);
-    std::vector<double> squares;
-    for (Vec3d& point : reference.points) {
-        point -= reference.centre;
-        squares.push_back(point.squaredNorm());
-    }
-    // Of points that are spread evenly in a box, the median lies at a quarter of its diagonal.
-    constexpr double kMedians = 4.0;
-    reference.size = kMedians * std::sqrt(median_of(std::move(squares)));
+    reference.size = size_of(reference.points);
+    for (Vec3d& point : reference.points) point -= reference.centre;
     return reference;
 }
 
