@@ -65,6 +65,7 @@ TEST(ObjOrigin, IsNotMovedByAnOutlier) {
         for (int j = 0; j < 49; ++j) text += fmt::format("v {} {} 0\n", 1000000 + j % 7, j / 7);
         text += last;
         for (int j = 1; j + 8 <= 50; ++j) text += fmt::format("f {} {} {}\n", j, j + 1, j + 7);
+        text += "f 48 49 50\n";
         return text;
     };
     const ObjTestFiles good({sheet("v 1000006 7 0\n"), sheet("v 1000006 7 0\n")});
