@@ -7,8 +7,8 @@
 #include <chrono>
 #include <span>
 
+#include "paim/base/median.h"
 #include "paim/codec/mesh_decoder.h"
-#include "paim/format/bake/baked_part.h"
 #include "paim/mesh/face_vertices.h"
 #include "paim/metrics/image_error.h"
 
@@ -39,12 +39,6 @@ void add_transfer(ArrayError& error, const DecodedPose& decoded, const DecodedPo
     }
 }
 
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
 }  // namespace
 
 std::vector<Image> measure_curves(const BakeReader& bake, const Asset& asset, const Stage& stage,
@@ -53,7 +47,7 @@ std::vector<Image> measure_curves(const BakeReader& bake, const Asset& asset, co
     using Clock = std::chrono::steady_clock;
     MeshDecoder decoder(asset.moving());
     const std::vector<uint32_t> counted = face_vertices(bake.topology());
-    const PositionOutliers outliers = find_outliers(BakedPart(bake, 0));
+    const PositionOutliers& outliers = stage.outliers();
     const auto positions_of = [&](const DecodedPose& pose, uint32_t p) {
         std::vector<float> planes = pose.positions;
         outliers.replace(p, bake.identity().num_vertices, 0, planes);

@@ -49,10 +49,9 @@ std::string why_nothing_is_seen(const NamedLight& light) {
 
 namespace {
 
-Bounds bounds_of_poses(const BakeReader& bake) {
+Bounds bounds_of_poses(const BakeReader& bake, const PositionOutliers& outliers) {
     Bounds bounds;
     const std::vector<uint32_t> vertices = face_vertices(bake.topology());
-    const PositionOutliers outliers = find_outliers(BakedPart(bake, 0));
     std::vector<float> planes(size_t{3} * bake.identity().num_vertices);
     for (uint32_t p = 0; p < bake.num_poses(); ++p) {
         bake.read_position_rows(p, 0, planes.size(), planes.data());
@@ -96,7 +95,8 @@ Stage::Stage(const BakeReader& bake, std::vector<NamedLight> lights, double azim
     : bake_(bake),
       lights_(std::move(lights)),
       size_pixels_(size_pixels),
-      pose_bounds_(bounds_of_poses(bake)),
+      outliers_(find_outliers(BakedPart(bake, 0))),
+      pose_bounds_(bounds_of_poses(bake, outliers_)),
       scale_(scale_of(pose_bounds_)),
       camera_(camera(azimuth_rad, elevation_rad)),
       topology_(bake.topology()) {

@@ -12,6 +12,7 @@
 #include "paim/light/env_mapping.h"
 #include "paim/light/light.h"
 #include "paim/mesh/bounds.h"
+#include "paim/mesh/outliers.h"
 #include "paim/shade/camera.h"
 
 namespace paim {
@@ -41,6 +42,8 @@ class Stage {
 
     const std::vector<NamedLight>& lights() const { return lights_; }
     const std::vector<uint32_t>& poses() const { return poses_; }
+    // Of the bake, by its vertices.
+    const PositionOutliers& outliers() const { return outliers_; }
 
     // Image of a pose under each light, with the bake's colours. [lights]
     std::vector<Image> render_pose(const DecodedPose& pose) const;
@@ -51,6 +54,7 @@ class Stage {
     const BakeReader& bake_;
     std::vector<NamedLight> lights_;
     int size_pixels_;
+    PositionOutliers outliers_;
     Bounds pose_bounds_;  // of all poses, scene units
     // Scale of the rendered scene. The camera of a huge scene would otherwise be beyond the range
     // of floats.

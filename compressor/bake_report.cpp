@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "compressor/mesh_warnings.h"
+#include "paim/cli/root_motion_json.h"
 
 namespace paim {
 
@@ -108,10 +109,7 @@ ordered_json report_json(const BakeReport& report) {
         json["scenery_vertices"] = report.still_vertices;
         json["scenery_triangles"] = report.still_triangles;
     }
-    if (!report.root_motion.empty()) {
-        const Travel travel = travel_of(report.root_motion);
-        json["root_motion"] = {{"distance", travel.distance}, {"angle_deg", travel.angle_deg}};
-    }
+    cli::add_root_motion(json, report.root_motion);
     json["poses_baked"] = report.summary.baked;
     json["poses_resumed"] = report.summary.resumed;
     json["bands"] = report.options.bands;

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "paim/base/json_text.h"
+#include "paim/cli/root_motion_json.h"
 #include "paim/codec/section_row.h"
 #include "paim/format/bake/bake_directory.h"
 #include "paim/format/paim/paim_read.h"
@@ -32,13 +33,6 @@ ordered_json describe_matrix(const LowRank& matrix) {
     return json;
 }
 
-// What the body does apart from its shape.
-void add_root_motion(ordered_json& json, const RootMotion& motion) {
-    if (motion.empty()) return;
-    const Travel travel = travel_of(motion);
-    json["root_motion"] = {{"distance", travel.distance}, {"angle_deg", travel.angle_deg}};
-}
-
 ordered_json describe_paim(const std::filesystem::path& path) {
     const Asset asset = read_paim(path);
     const CodedMesh& mesh = asset.moving();
@@ -54,7 +48,7 @@ ordered_json describe_paim(const std::filesystem::path& path) {
     json["bands"] = mesh.layout.in_bands;
     json["channels"] = mesh.layout.channels;
     json["origin"] = {asset.origin.x(), asset.origin.y(), asset.origin.z()};
-    add_root_motion(json, mesh.root_motion);
+    cli::add_root_motion(json, mesh.root_motion);
     json["albedo"] = mesh.albedo.values.size() == 1 ? "uniform" : "per vertex";
     json["bits_per_vertex_per_pose"] = bits_per_vertex_per_pose(
         json["size_bytes"].get<uint64_t>(), mesh.topology.num_vertices, asset.num_poses());
@@ -99,7 +93,7 @@ ordered_json describe_bake(const std::filesystem::path& path) {
         json["scenery_triangles"] = bake.still_mesh()->topology.triangles.size();
     }
     json["origin"] = {identity.origin.x(), identity.origin.y(), identity.origin.z()};
-    add_root_motion(json, identity.root_motion);
+    cli::add_root_motion(json, identity.root_motion);
     const PoseStatistics total = bake.total_statistics();
     json["size_bytes"] = bake.size_bytes();
     json["rays_traced"] = total.rays;

@@ -1,33 +1,15 @@
 // A baked pose in the local coordinates of a body that travels and turns.
 #include "compressor/bake/local_pose.h"
 
-#include <algorithm>
-#include <limits>
-#include <span>
 #include <vector>
 
 #include "paim/base/parallel.h"
+#include "paim/mesh/planes.h"
 #include "paim/sh/rotate.h"
 
 namespace paim {
 
 namespace {
-
-// Turns vectors [3][V] and adds `shift` to them.
-void transform(const Eigen::Matrix3d& rotation, const Vec3d& shift, std::vector<float>& planes) {
-    const size_t count = planes.size() / 3;
-    for (size_t v = 0; v < count; ++v) {
-        const Vec3d from(double{planes[v]}, double{planes[count + v]},
-                         double{planes[2 * count + v]});
-        const Vec3d to = rotation * from + shift;
-        for (size_t axis = 0; axis < 3; ++axis) {
-            // Only outliers at the end of the range of floats are beyond it.
-            constexpr double kMost = std::numeric_limits<float>::max();
-            planes[axis * count + v] =
-                static_cast<float>(std::clamp(to[static_cast<int>(axis)], -kMost, kMost));
-        }
-    }
-}
 
 // Turns the coefficients of every vertex and channel.
 void turn(const sh::Rotation& rotation, const TransferLayout& layout, std::vector<float>& planes) {
@@ -51,9 +33,9 @@ void turn(const sh::Rotation& rotation, const TransferLayout& layout, std::vecto
 void move_to_local(const RigidTransform& root, const Vec3d& offset, const TransferLayout& layout,
                    BakedPose& pose) {
     const Eigen::Matrix3d to_local = root.rotation.conjugate().toRotationMatrix();
-    transform(to_local, to_local * (offset - root.translation), pose.positions);
+    transform_planes(to_local, to_local * (offset - root.translation), pose.positions);
     if (!root.turns()) return;
-    transform(to_local, Vec3d::Zero(), pose.normals);
+    transform_planes(to_local, Vec3d::Zero(), pose.normals);
     const sh::Rotation rotation(static_cast<int>(layout.in_bands), to_local);
     turn(rotation, layout, pose.transfer);
     turn(rotation, layout, pose.noise);

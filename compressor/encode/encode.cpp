@@ -26,6 +26,7 @@
 #include "paim/format/bake/baked_part.h"
 #include "paim/format/paim/paim_write.h"
 #include "paim/mesh/face_vertices.h"
+#include "paim/mesh/origin.h"
 #include "paim/metrics/singular_value_error.h"
 
 namespace paim {
@@ -106,17 +107,11 @@ OnBlock append_exception_rows(PaimWriter& writer, const std::vector<FloatExcepti
 // (mesh/origin.h). A rigid body has no others.
 uint32_t components_above_rounding(const PrincipalComponents& geometry, double diagonal,
                                    double num_positions) {
-    const double rounding = 0x1p-20 * diagonal;
+    const double rounding = kCoordinateRounding * diagonal;
     const double most = rounding * rounding * num_positions;
-    double dropped = 0.0;
-    uint32_t k = geometry.rank();
-    while (k > 0) {
-        const double s = geometry.singular_values[k - 1];
-        dropped += s * s;
-        if (dropped > most) break;
-        --k;
-    }
-    return k;
+    return components_for(geometry.rank(), most, [&](uint32_t k) {
+        return geometry.singular_values[k] * geometry.singular_values[k];
+    });
 }
 
 // How many components of the geometry to keep.

@@ -9,24 +9,19 @@
 #include <limits>
 
 #include "paim/base/check.h"
+#include "paim/base/median.h"
 
 namespace paim {
 
-double median_of(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
 // Each coordinate by itself.
 Vec3d median_difference(std::span<const Vec3d> from, std::span<const Vec3d> to) {
-    Vec3d median;
+    Vec3d result;
     std::vector<double> values(from.size());
     for (int axis = 0; axis < 3; ++axis) {
         for (size_t v = 0; v < from.size(); ++v) values[v] = to[v][axis] - from[v][axis];
-        median[axis] = median_of(values);
+        result[axis] = median(values);
     }
-    return median;
+    return result;
 }
 
 double size_of(std::span<const Vec3d> points) {
@@ -36,7 +31,7 @@ double size_of(std::span<const Vec3d> points) {
     for (const Vec3d& point : points) distances.push_back((point - centre).stableNorm());
     // Of points that are spread evenly in a box, the median lies at a quarter of its diagonal.
     constexpr double kMedians = 4.0;
-    return kMedians * median_of(std::move(distances));
+    return kMedians * median(std::move(distances));
 }
 
 namespace {
@@ -107,7 +102,7 @@ RigidTransform fit_rigid(std::span<const Vec3d> from, std::span<const Vec3d> to)
         if (largest == 0.0) break;
         // Where most distances are 0, other points hardly count.
         const double near =
-            std::max(kQuadraticMedians * median_of(distances), std::numeric_limits<double>::min());
+            std::max(kQuadraticMedians * median(distances), std::numeric_limits<double>::min());
         for (size_t v = 0; v < from.size(); ++v) {
             weights[v] = distances[v] <= near ? 1.0 : near / distances[v];
         }
@@ -123,17 +118,17 @@ RigidTransform fit_translation(std::span<const Vec3d> from, std::span<const Vec3
     PAIM_CHECK_EQ(from.size(), to.size());
     RigidTransform fit;
     if (from.empty()) return fit;
-    const Vec3d median = median_difference(from, to);
+    const Vec3d middle = median_difference(from, to);
     const double size = size_of(from);
     Vec3d sum = Vec3d::Zero();
     double count = 0.0;
     for (size_t v = 0; v < from.size(); ++v) {
         const Vec3d difference = to[v] - from[v];
-        if ((difference - median).stableNorm() > size) continue;
-        sum += difference - median;
+        if ((difference - middle).stableNorm() > size) continue;
+        sum += difference - middle;
         count += 1.0;
     }
-    fit.translation = count > 0.0 ? Vec3d(median + sum / count) : median;
+    fit.translation = count > 0.0 ? Vec3d(middle + sum / count) : middle;
     return fit;
 }
 

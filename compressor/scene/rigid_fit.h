@@ -10,9 +10,6 @@
 
 namespace paim {
 
-// At least one value.
-double median_of(std::vector<double> values);
-
 // Of to − from, each coordinate by itself. At least one point.
 Vec3d median_difference(std::span<const Vec3d> from, std::span<const Vec3d> to);
 

@@ -5,6 +5,9 @@
 
 namespace paim {
 
+// The most that rounding moves a coordinate of a mesh, relative to its diagonal (below).
+constexpr double kCoordinateRounding = 0x1p-20;
+
 // A float has 24 significant bits. Every doubling of a mesh's distance from the origin takes one of
 // them from its shape. A mesh within 16 diagonals of the world's origin keeps at least 19 bits (a
 // rounding of at most 2⁻²⁰ of its diagonal), so its coordinates stay as they are. Coordinates of a

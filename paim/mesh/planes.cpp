@@ -1,6 +1,9 @@
 // Points as planes.
 #include "paim/mesh/planes.h"
 
+#include <algorithm>
+#include <limits>
+
 #include "paim/base/check.h"
 
 namespace paim {
@@ -24,6 +27,22 @@ std::vector<Vec3f> from_planes(std::span<const float> planes) {
         points[v] = Vec3f(planes[v], planes[count + v], planes[2 * count + v]);
     }
     return points;
+}
+
+void transform_planes(const Eigen::Matrix3d& rotation, const Vec3d& shift,
+                      std::span<float> planes) {
+    PAIM_CHECK_EQ(planes.size() % 3, 0u);
+    constexpr double kMost = std::numeric_limits<float>::max();
+    const size_t count = planes.size() / 3;
+    for (size_t v = 0; v < count; ++v) {
+        const Vec3d from(double{planes[v]}, double{planes[count + v]},
+                         double{planes[2 * count + v]});
+        const Vec3d to = rotation * from + shift;
+        for (size_t axis = 0; axis < 3; ++axis) {
+            planes[axis * count + v] =
+                static_cast<float>(std::clamp(to[static_cast<int>(axis)], -kMost, kMost));
+        }
+    }
 }
 
 }  // namespace paim

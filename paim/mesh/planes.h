@@ -14,4 +14,8 @@ std::vector<float> to_planes(std::span<const Vec3f> points);
 // [3][V] to [V]; the size is a multiple of three (checked).
 std::vector<Vec3f> from_planes(std::span<const float> planes);
 
+// Turns points [3][V] in place, in double, and adds `shift` to them. Coordinates beyond the range of
+// floats, as outliers may have, become its ends.
+void transform_planes(const Eigen::Matrix3d& rotation, const Vec3d& shift, std::span<float> planes);
+
 }  // namespace paim

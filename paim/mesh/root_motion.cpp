@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "paim/base/check.h"
+#include "paim/mesh/planes.h"
 
 namespace paim {
 
@@ -41,17 +41,7 @@ RigidTransform root_at(const RootMotion& motion, double time) {
 
 void move_to_scene(const RigidTransform& root, std::span<float> planes) {
     if (root.is_identity()) return;
-    PAIM_CHECK_EQ(planes.size() % 3, 0u);
-    const size_t count = planes.size() / 3;
-    const Eigen::Matrix3d rotation = root.rotation.toRotationMatrix();
-    for (size_t v = 0; v < count; ++v) {
-        const Vec3d local(double{planes[v]}, double{planes[count + v]},
-                          double{planes[2 * count + v]});
-        const Vec3d scene = rotation * local + root.translation;
-        for (size_t axis = 0; axis < 3; ++axis) {
-            planes[axis * count + v] = static_cast<float>(scene[static_cast<int>(axis)]);
-        }
-    }
+    transform_planes(root.rotation.toRotationMatrix(), root.translation, planes);
 }
 
 Travel travel_of(const RootMotion& motion) {

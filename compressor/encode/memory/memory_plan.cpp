@@ -87,7 +87,7 @@ uint64_t encode_memory_bytes(const EncodeSize& size, uint32_t num_in_flight) {
     const uint64_t streamed = std::max(
         {triangular_factor_bytes(poses, num_in_flight) + rows_at_work(num_in_flight),
          jacobi_svd_bytes(poses), outliers_bytes(size.num_vertices, poses, size.num_threads),
-         components_for_motion_bytes(poses, size.num_threads),
+         components_for_motion_bytes(size.num_vertices, poses, size.num_threads),
          component_noise_scratch_bytes(poses, size.bands, num_in_flight) +
              rows_at_work(measured_at_once),
          encoded_blocks_bytes(poses, components, num_in_flight) + rows_at_work(num_in_flight)});

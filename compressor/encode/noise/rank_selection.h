@@ -23,4 +23,13 @@ double signal_error(const ComponentNoise& noise, uint32_t num_components);
 uint32_t choose_components(const ComponentChoice& choice, const ComponentNoise& noise,
                            double automatic_energy_error);
 
+// The fewest of `all` components whose rest is at most `most`, in what energy_of(k) is of component k.
+template <typename EnergyOf>
+uint32_t components_for(uint32_t all, double most, const EnergyOf& energy_of) {
+    double dropped = 0.0;
+    uint32_t k = all;
+    while (k > 0 && dropped + energy_of(k - 1) <= most) dropped += energy_of(--k);
+    return k;
+}
+
 }  // namespace paim

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "compressor/encode/data/bake_rows.h"
+#include "compressor/encode/noise/rank_selection.h"
 #include "compressor/encode/search/problem.h"
 #include "compressor/encode/search/targets.h"
 #include "compressor/encode/svd/principal_components.h"
@@ -18,15 +19,6 @@ constexpr double kDroppedShare = 0.15;
 // known yet: then that of very good files.
 inline double asked_error(const EncodeTarget& target) {
     return target.transfer_error.value_or(0.001);
-}
-
-// The fewest components whose rest is at most `most`, in squares of singular values.
-template <typename EnergyOf>
-uint32_t components_for(uint32_t all, double most, const EnergyOf& energy_of) {
-    double dropped = 0.0;
-    uint32_t k = all;
-    while (k > 0 && dropped + energy_of(k - 1) <= most) dropped += energy_of(--k);
-    return k;
 }
 
 class HeldPositions {

@@ -5,8 +5,10 @@
 #include <array>
 #include <vector>
 
+#include "compressor/encode/noise/rank_selection.h"
 #include "compressor/encode/svd/tsqr.h"
 #include "paim/base/check.h"
+#include "paim/base/median.h"
 #include "paim/base/parallel.h"
 #include "paim/mesh/pieces.h"
 
@@ -82,11 +84,8 @@ class MotionMeter {
                 energies.push_back(motion_energy(first, v));
             }
         });
-        std::vector<double> sorted = energies;
-        const auto middle = sorted.begin() + static_cast<ptrdiff_t>(sorted.size() / 2);
-        std::nth_element(sorted.begin(), middle, sorted.end());
         constexpr double kFar = 100.0;
-        const double most = kFar * kFar * std::max(*middle, invisible_energy_);
+        const double most = kFar * kFar * std::max(median(energies), invisible_energy_);
         MatrixXd sums = MatrixXd::Zero(3 * num_groups_, v_.rows());
         std::vector<double> counts(num_groups_, 0.0);
         size_t j = 0;
@@ -143,10 +142,9 @@ class MotionMeter {
         for (const uint32_t v : counted(begin, begin + count)) {
             const auto at = static_cast<Index>(v - begin);
             const double allowed = std::max(lost_energy_ * within_group[at], invisible_energy_);
-            Index k = energy.cols();
-            double dropped = 0.0;
-            while (k > 0 && dropped + energy(at, k - 1) <= allowed) dropped += energy(at, --k);
-            most = std::max(most, static_cast<uint32_t>(k));
+            const auto energy_of = [&](uint32_t k) { return energy(at, static_cast<Index>(k)); };
+            most = std::max(
+                most, components_for(static_cast<uint32_t>(energy.cols()), allowed, energy_of));
         }
         return most;
     }
@@ -185,11 +183,15 @@ uint32_t components_for_motion(const RowSource& rows, const PrincipalComponents&
     return MotionMeter(rows, components, vertices, limits).run();
 }
 
-uint64_t components_for_motion_bytes(uint64_t num_poses, uint64_t num_threads) {
+uint64_t components_for_motion_bytes(uint64_t num_vertices, uint64_t num_poses,
+                                     uint64_t num_threads) {
     // V, and three planes of vertices as floats. On each thread centred rows, their factors, the sum
     // of their squares, and as much again for products.
     const uint64_t rows = rows_per_block(static_cast<uint32_t>(num_poses)) + 3;
-    return num_poses * (num_poses * sizeof(double) + rows * sizeof(float) +
+    // Of each vertex its energy, twice, its group, and its piece while groups are found.
+    const uint64_t of_vertices = num_vertices * (2 * sizeof(double) + 4 * sizeof(uint32_t));
+    return of_vertices +
+           num_poses * (num_poses * sizeof(double) + rows * sizeof(float) +
                         num_threads * 5 * static_cast<uint64_t>(kRowsAtOnce) * sizeof(double));
 }
 

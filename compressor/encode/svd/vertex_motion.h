@@ -37,7 +37,8 @@ std::vector<uint32_t> motion_groups(const Topology& topology);
 uint32_t components_for_motion(const RowSource& rows, const PrincipalComponents& components,
                                std::span<const uint32_t> vertices, const MotionLimits& limits);
 
-// Memory of components_for_motion() for P poses.
-uint64_t components_for_motion_bytes(uint64_t num_poses, uint64_t num_threads);
+// Memory of motion_groups() and components_for_motion() for V vertices and P poses.
+uint64_t components_for_motion_bytes(uint64_t num_vertices, uint64_t num_poses,
+                                     uint64_t num_threads);
 
 }  // namespace paim

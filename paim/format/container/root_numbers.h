@@ -16,7 +16,7 @@ constexpr uint32_t kRootNumbers = 6;
 // which compress well.
 std::vector<double> root_numbers(const RootMotion& motion);
 
-// file  and what of it, for messages
+// file  how messages begin: the name of the file, and of the section if it has some
 // Errors (bad input): a rotation of more than half a turn, a translation beyond the range of floats,
 // numbers that are not finite.
 RootMotion root_motion_of(const std::vector<double>& numbers, const std::string& file);
