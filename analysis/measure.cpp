@@ -64,7 +64,8 @@ std::vector<Image> measure_curves(const BakeReader& bake, const Asset& asset, co
     for (const uint32_t p : stage.poses()) {
         BakedPose file = bake.read_pose(p);
         const DecodedPose baked{bake.identity().layout, std::move(file.positions),
-                                std::move(file.transfer), root_at(bake.identity().root_motion, p)};
+                                std::move(file.transfer), root_at(bake.identity().root_motion, p),
+                                bake.identity().num_following};
         std::vector<Image> reference = stage.render_pose(baked);
         for (size_t j = 0; j < points.size(); ++j) {
             CurvePoint& point = *points[j];

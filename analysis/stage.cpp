@@ -9,6 +9,7 @@
 #include "paim/cli/light_options.h"
 #include "paim/codec/sequence_bounds.h"
 #include "paim/format/bake/baked_part.h"
+#include "paim/light/light_in_place.h"
 #include "paim/light/load_light.h"
 #include "paim/light/sky.h"
 #include "paim/mesh/face_vertices.h"
@@ -56,7 +57,8 @@ Bounds bounds_of_poses(const BakeReader& bake, const PositionOutliers& outliers)
     for (uint32_t p = 0; p < bake.num_poses(); ++p) {
         bake.read_position_rows(p, 0, planes.size(), planes.data());
         outliers.replace(p, bake.identity().num_vertices, 0, planes);
-        move_to_scene(root_at(bake.identity().root_motion, p), planes);
+        move_to_scene(root_at(bake.identity().root_motion, p), planes,
+                      bake.identity().num_following);
         bounds.extend(bounds_of_vertices(planes, vertices));
     }
     return bounds;
@@ -112,13 +114,17 @@ Stage::Stage(const BakeReader& bake, std::vector<NamedLight> lights, double azim
 
 std::vector<Image> Stage::render_pose(const DecodedPose& pose) const {
     std::vector<float> planes = pose.positions;
-    move_to_scene(pose.root, planes);
+    move_to_scene(pose.root, planes, pose.num_following);
     std::vector<Vec3f> positions = from_planes(scaled(std::move(planes), scale_));
     positions.insert(positions.end(), still_positions_.begin(), still_positions_.end());
     std::vector<std::vector<Vec3f>> radiance(lights_.size());
+    std::vector<Vec3f> scratch;
     for (size_t j = 0; j < lights_.size(); ++j) {
         const LightCoefficients& light = lights_[j].coefficients;
-        shade(pose.layout, pose.transfer, bake_.albedo(), to_local(light, pose.root), radiance[j]);
+        light_in_place(pose.root, pose.num_following, light, radiance[j], scratch,
+                       [&](const LightCoefficients& local, std::vector<Vec3f>& lit) {
+                           shade(pose.layout, pose.transfer, bake_.albedo(), local, lit);
+                       });
         if (!bake_.still_mesh()) continue;
         // Light in as many bands as the pose has.
         LightCoefficients kept = light;

@@ -60,7 +60,7 @@ void add_input_options(CLI::App& app, CompressOptions& options, BakeArguments& a
          {"rigid", RootMotionChoice::rigid}},
         "What is taken out of the poses and played back as one transform a pose: the path of the "
         "body ('translation'), its path and turns ('rigid'), or nothing. 'auto' takes what makes "
-        "the poses much more alike. Poses on a --floor keep their place")
+        "the poses much more alike. A --floor keeps its place")
         ->group(kGroup);
 }
 

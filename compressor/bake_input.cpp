@@ -78,14 +78,8 @@ void BakeInput::add_floor(const CompressOptions& options) {
     surroundings_.floor = on_floor_->description();
 }
 
-// The floor is a part of the poses and does not move with them.
 void BakeInput::find_motion(const CompressOptions& options) {
-    const bool is_asked_for = options.root_motion == RootMotionChoice::translation ||
-                              options.root_motion == RootMotionChoice::rigid;
-    if (on_floor_ && is_asked_for) {
-        throw_usage("--root-motion: poses on a --floor keep their place; leave out one of them");
-    }
-    if (on_floor_ || options.root_motion == RootMotionChoice::none) return;
+    if (options.root_motion == RootMotionChoice::none) return;
     if (sequence_.num_poses() < 2) return;
     cli::Progress finding("finding the root motion", "poses", sequence_.num_poses(),
                           is_quiet(options));

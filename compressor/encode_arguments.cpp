@@ -78,15 +78,15 @@ void add_target_options(CLI::App& app, CompressOptions& options, EncodeArguments
                    fmt::format("Largest STED of the positions: by how much edges differ in length "
                                "where their neighbours do not, and steps from pose to pose. It "
                                "holds for each piece of the mesh. Default: the geometry error "
-                               "times {:g}",
-                               kStedPerGeometryError))
+                               "times {:g}, at most {:g} %",
+                               kStedPerGeometryError, 100.0 * kLargestSted))
         ->type_name("ERROR")
         ->group(kGroup);
     app.add_option("--max-normal-angle", arguments.max_normal_angle,
                    fmt::format("Largest mean angle by which face normals turn, degrees, above 0. "
                                "It holds for each piece of the mesh. Default: the geometry error "
-                               "in percent times {:g}",
-                               0.01 * kNormalDegreesPerGeometryError))
+                               "in percent times {:g}, at most {:g}",
+                               0.01 * kNormalDegreesPerGeometryError, kLargestNormalAngle_deg))
         ->check(cli::in_range(1e-6, 180.0))
         ->type_name("DEGREES")
         ->group(kGroup);

@@ -18,10 +18,13 @@ const PositionOutlier& farthest(std::span<const PositionOutlier> outliers) {
     });
 }
 
+// Vertices count from 1, as in OBJ files and in messages about these.
 std::string note(const BakeIdentity& bake, std::span<const PositionOutlier> outliers) {
     const PositionOutlier& worst = farthest(outliers);
     const Vec3d local = worst.position.cast<double>();
-    const Vec3d position = root_at(bake.root_motion, worst.pose).to_scene(local) + bake.origin;
+    const bool follows = worst.vertex < bake.num_following;
+    const RigidTransform root = follows ? root_at(bake.root_motion, worst.pose) : RigidTransform();
+    const Vec3d position = root.to_scene(local) + bake.origin;
     const std::string others =
         outliers.size() > 1
             ? fmt::format(" and {} more of {} vertices", outliers.size() - 1, bake.num_vertices)
@@ -29,7 +32,7 @@ std::string note(const BakeIdentity& bake, std::span<const PositionOutlier> outl
     return fmt::format(
         "{} (pose {}): vertex {}{} {} far beyond the rest of {} motion: at ({:.6g}, {:.6g}, "
         "{:.6g}), {:.4g} from where it is in the poses around; coded apart from the others",
-        bake.poses[worst.pose].name, worst.pose, worst.vertex, others,
+        bake.poses[worst.pose].name, worst.pose, worst.vertex + 1, others,
         outliers.size() > 1 ? "are" : "is", outliers.size() > 1 ? "their" : "its", position.x(),
         position.y(), position.z(), worst.distance());
 }

@@ -128,6 +128,13 @@ void say_if_dark(const BakeReader& reader) {
                "(where faces look inwards, bake again with --orient into another .bake)\n");
 }
 
+void say_if_fewer_bands(const EncodeOptions& asked, const BakeReader& reader) {
+    const uint32_t bands = reader.identity().layout.in_bands;
+    if (asked.bands <= bands || asked.bands == EncodeOptions().bands) return;
+    fmt::print(stderr, "note: --bands {}: the bake has {}, all of them are kept\n", asked.bands,
+               bands);
+}
+
 ordered_json run_encode(const CompressOptions& options, const std::filesystem::path& directory) {
     check_paim_output(options.output);
     const BakeReader reader(directory);
@@ -137,6 +144,7 @@ ordered_json run_encode(const CompressOptions& options, const std::filesystem::p
     check_band_power(options, reader.identity().layout.in_bands);
     reader.verify_all();
     say_if_dark(reader);
+    say_if_fewer_bands(encode_options, reader);
     if (options.target) {
         return tell_with_outliers(options, reader.identity(),
                                   encode_target(options, encode_options, reader));

@@ -241,7 +241,10 @@ paim_status paim_player_get_root(const paim_player* player, uint32_t part, paim_
     const paim::RigidTransform of_part = player->playback.root(part);
     const Eigen::Quaterniond& q = of_part.rotation;
     const paim::Vec3d& t = of_part.translation;
-    *root = {{q.w(), q.x(), q.y(), q.z()}, {t.x(), t.y(), t.z()}};
+    const paim::CodedMesh& mesh = player->playback.asset().parts[part];
+    *root = {{q.w(), q.x(), q.y(), q.z()},
+             {t.x(), t.y(), t.z()},
+             std::min(mesh.num_following, mesh.topology.num_vertices)};
     return PAIM_OK;
 }
 

@@ -55,6 +55,9 @@ typedef struct paim_part_info {
 typedef struct paim_root {
     double rotation[4];    /* unit quaternion w, x, y, z */
     double translation[3]; /* scene units */
+    uint32_t
+        num_following; /* vertices, from the first, that stand there; the others are a floor, whose
+                             * local coordinates are those of the scene */
 } paim_root;
 
 /* How much of the file to use; larger numbers than it has mean all. paim_no_limits() sets every member

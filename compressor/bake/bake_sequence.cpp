@@ -47,7 +47,7 @@ class ReadAhead {
 // first pose.
 void move_to_local(const IsolatedAtRest& source, const RootMotion& root_motion, uint32_t p,
                    const Vec3d& offset, const TransferLayout& layout, BakedPose& baked) {
-    move_to_local(root_motion[p], offset, layout, baked);
+    move_to_local(root_motion[p], offset, layout, baked, source.num_moving_vertices());
     const Vec3d at_rest = source.place().cast<double>() + source.pose_offset(0);
     const Vec3f place = root_motion[0].to_local(at_rest).cast<float>();
     const size_t num_vertices = source.topology().num_vertices;
@@ -80,6 +80,10 @@ BakeIdentity bake_identity(const PoseSource& source, const BakeOptions& options,
     identity.mesh_xxh3 = mesh_checksum(source.topology(), source.albedo());
     identity.origin = source.origin();
     identity.root_motion = root_motion;
+    const uint32_t num_moving = source.num_moving_vertices();
+    if (!root_motion.empty() && num_moving < identity.num_vertices) {
+        identity.num_following = num_moving;
+    }
     for (uint32_t p = 0; p < source.num_poses(); ++p) {
         // The name without its folder, so that a bake does not depend on the place of the files.
         const std::string name = std::filesystem::path(source.pose_name(p)).filename().string();
@@ -112,8 +116,9 @@ BakeSummary bake_sequence(const PoseSource& given, const BakeOptions& options,
             if (!found) writer.write_still_mesh({still_mesh.topology, still_mesh.albedo, baked});
         }
     }
-    // Rays are traced in the coordinates of the still meshes, or else near the body.
-    const bool near_body = !root_motion.empty() && surroundings.still_mesh.empty();
+    // Rays are traced in the coordinates of the floor and the still meshes, or else near the body.
+    const bool near_body = !root_motion.empty() && surroundings.still_mesh.empty() &&
+                           identity.num_following == kAllVertices;
     ReadAhead ahead(source, near_body);
     BakeSummary summary;
     std::vector<PoseStatistics> poses;

@@ -7,8 +7,10 @@ namespace paim {
 
 // Moves positions, normals, transfer and noise of a pose to local coordinates and axes, in double.
 // Norms of transfer and noise stay the same in every band.
-// offset  what is added to the positions to make them relative to the origin of `root`
+// offset         what is added to the positions to make them relative to the origin of `root`
+// num_following  how many vertices, from the first, follow the root motion; the others stay as they are,
+//                so that `offset` must be zero if there are any
 void move_to_local(const RigidTransform& root, const Vec3d& offset, const TransferLayout& layout,
-                   BakedPose& pose);
+                   BakedPose& pose, uint32_t num_following = kAllVertices);
 
 }  // namespace paim

@@ -18,6 +18,7 @@
 #include "compressor/encode/noise/shrinkage.h"
 #include "compressor/encode/quantise/exceptions.h"
 #include "compressor/encode/state_errors.h"
+#include "compressor/encode/svd/motion_groups.h"
 #include "compressor/encode/svd/projected_blocks.h"
 #include "compressor/encode/svd/vertex_motion.h"
 #include "paim/base/file.h"
@@ -44,6 +45,7 @@ Asset asset_shell(const BakeReader& bake, const EncodeOptions& options) {
     mesh.albedo = bake.albedo();
     mesh.layout = bake.identity().layout.with_bands(options.bands);
     mesh.root_motion = bake.identity().root_motion;
+    mesh.num_following = bake.identity().num_following;
     auto still = still_part(bake, mesh.layout.in_bands);
     asset.moving() = std::move(mesh);
     if (still) asset.parts.push_back(std::move(*still));
@@ -127,7 +129,7 @@ uint32_t choose_geometry(const BakeReader& bake, const EncodeOptions& options,
     of_all = std::min(of_all, components_above_rounding(geometry, diagonal, num_positions));
     MotionLimits limits;
     limits.invisible = kInvisibleMotion * diagonal;
-    limits.group = motion_groups(bake.topology());
+    limits.group = motion_groups(bake.topology(), rows.silent());
     return std::max(of_all, components_for_motion(rows.silent(), geometry, vertices, limits));
 }
 

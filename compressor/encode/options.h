@@ -81,6 +81,9 @@ constexpr double kGeometryPerTransferError = 1.0 / 50.0;
 // by 5 % from their neighbours and faces may turn by 5 degrees.
 constexpr double kStedPerGeometryError = 50.0;
 constexpr double kNormalDegreesPerGeometryError = 5000.0;
+// At most: of surfaces whose edges, or faces, have nothing to do with what they were.
+constexpr double kLargestSted = 1.0;
+constexpr double kLargestNormalAngle_deg = 90.0;
 
 // A number that one codec chooses, by the name that it has in the metadata of files.
 struct CodecNumber {

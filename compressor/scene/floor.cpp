@@ -8,10 +8,14 @@
 #include <limits>
 #include <mutex>
 
+#include "compressor/scene/rigid_fit.h"
 #include "paim/base/check.h"
 #include "paim/base/error.h"
 #include "paim/base/hash.h"
 #include "paim/base/parallel.h"
+#include "paim/mesh/face_vertices.h"
+#include "paim/mesh/outliers.h"
+#include "paim/mesh/planes.h"
 
 namespace paim {
 
@@ -108,23 +112,56 @@ Floor::Floor(const Bounds& bounds, uint32_t max_vertices) {
     }
 }
 
-Bounds bounds_of(const PoseSource& source, const std::function<void()>& on_pose) {
+namespace {
+
+// Whether some vertices are so far from most of the others that they may be outliers.
+bool reaches_far(const Pose& pose, const Bounds& bounds, std::span<const uint32_t> vertices) {
+    constexpr double kSizes = 4.0;
+    std::vector<Vec3d> points;
+    for (const uint32_t v : vertices) points.push_back(pose.positions[v].cast<double>());
+    return !points.empty() && double{bounds.diagonal()} > kSizes * size_of(points);
+}
+
+// Holds the positions of all poses.
+Bounds bounds_without_outliers(const PoseSource& source, std::span<const uint32_t> vertices) {
+    const uint32_t num_vertices = source.topology().num_vertices;
+    std::vector<std::vector<float>> planes(source.num_poses());
+    parallel_for(planes.size(), 1, [&](size_t p, size_t) {
+        planes[p] = to_planes(load_from_origin(source, static_cast<uint32_t>(p)).positions);
+    });
+    const auto read = [&](uint32_t p, uint64_t first, uint64_t count, float* rows) {
+        std::copy_n(planes[p].begin() + static_cast<ptrdiff_t>(first), count, rows);
+    };
+    const PositionOutliers outliers =
+        find_outliers(num_vertices, source.num_poses(), vertices, read);
     Bounds all;
+    for (uint32_t p = 0; p < source.num_poses(); ++p) {
+        outliers.replace(p, num_vertices, 0, planes[p]);
+        all.extend(bounds_of_vertices(planes[p], vertices));
+    }
+    return all;
+}
+
+}  // namespace
+
+Bounds bounds_of(const PoseSource& source, const std::function<void()>& on_pose) {
+    const std::vector<uint32_t> vertices = face_vertices(source.topology());
+    Bounds all;
+    bool far = false;
     std::mutex mutex;
     parallel_for(source.num_poses(), 1, [&](size_t p, size_t) {
         const Pose pose = load_from_origin(source, static_cast<uint32_t>(p));
         Bounds bounds;
-        for (const Triangle& triangle : source.topology().triangles) {
-            for (const uint32_t v : triangle) bounds.extend(pose.positions[v]);
-        }
+        for (const uint32_t v : vertices) bounds.extend(pose.positions[v]);
+        const bool may_have_outliers = reaches_far(pose, bounds, vertices);
         {
             const std::lock_guard lock(mutex);  // a minimum does not depend on the order
-            all.extend(bounds.lower);
-            all.extend(bounds.upper);
+            all.extend(bounds);
+            far = far || may_have_outliers;
         }
         if (on_pose) on_pose();
     });
-    return all;
+    return far ? bounds_without_outliers(source, vertices) : all;
 }
 
 PosesOnFloor::PosesOnFloor(const PoseSource& source, const Bounds& bounds,

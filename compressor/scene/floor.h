@@ -32,7 +32,8 @@ struct Floor {
 };
 
 // Bounds over all poses of the vertices of triangles. Vertices without triangles do not count,
-// because they cannot be seen. Each pose is read once.
+// because they cannot be seen, and neither do outliers (mesh/outliers.h). Each pose is read once, or
+// twice if there may be outliers.
 // on_pose  called after each pose, from several threads at once
 Bounds bounds_of(const PoseSource& source, const std::function<void()>& on_pose = {});
 
@@ -49,6 +50,7 @@ class PosesOnFloor : public PoseSource {
     const Albedo& albedo() const override { return albedo_; }
     uint32_t num_poses() const override { return source_.num_poses(); }
     Vec3d origin() const override { return source_.origin(); }
+    uint32_t num_moving_vertices() const override { return source_.topology().num_vertices; }
     std::string pose_name(uint32_t p) const override { return source_.pose_name(p); }
     uint64_t pose_checksum(uint32_t p) const override;  // of the positions of source and floor
     Pose load_pose(uint32_t p) const override;

@@ -25,6 +25,7 @@ class IsolatedAtRest : public PoseSource {
     uint32_t num_poses() const override { return source_.num_poses(); }
     Vec3d origin() const override { return source_.origin(); }
     Vec3d pose_offset(uint32_t p) const override { return source_.pose_offset(p); }
+    uint32_t num_moving_vertices() const override { return source_.num_moving_vertices(); }
     std::string pose_name(uint32_t p) const override { return source_.pose_name(p); }
     // Of the source's pose and of the place, so that poses with another place are other poses.
     uint64_t pose_checksum(uint32_t p) const override;

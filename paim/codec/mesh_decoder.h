@@ -13,10 +13,11 @@ namespace paim {
 
 // One rebuilt pose.
 struct DecodedPose {
-    TransferLayout layout;         // with the bands within the limits
-    std::vector<float> positions;  // [3][V] local coordinates, scene units
-    std::vector<float> transfer;   // [layout.num_planes()][V] in local axes
-    RigidTransform root;           // from local coordinates to the scene
+    TransferLayout layout;                  // with the bands within the limits
+    std::vector<float> positions;           // [3][V] local coordinates, scene units
+    std::vector<float> transfer;            // [layout.num_planes()][V] in local axes
+    RigidTransform root;                    // from local coordinates to the scene
+    uint32_t num_following = kAllVertices;  // of the vertices, from the first, that stand there
 };
 
 // Keeps scratch memory; each thread needs its own decoder.

@@ -8,6 +8,7 @@
 #include "paim/base/check.h"
 #include "paim/codec/rebuild_planes.h"
 #include "paim/codec/transfer_player.h"
+#include "paim/light/light_in_place.h"
 #include "paim/mesh/face_vertices.h"
 
 namespace paim {
@@ -37,7 +38,10 @@ struct Playback::Part {
             place();
         }
         if (light.bands > 0 && (moved || !is_lit || limits != new_limits)) {
-            player->light(new_time, new_limits, to_local(light, root), mesh.albedo, radiance);
+            light_in_place(root, mesh.num_following, light, radiance, radiance_in_scene,
+                           [&](const LightCoefficients& local, std::vector<Vec3f>& lit) {
+                               player->light(new_time, new_limits, local, mesh.albedo, lit);
+                           });
             is_lit = true;
         }
         time = new_time;
@@ -47,7 +51,7 @@ struct Playback::Part {
     void place() {
         if (mesh.root_motion.empty()) return;
         scene_positions = positions;
-        move_to_scene(root, scene_positions);
+        move_to_scene(root, scene_positions, mesh.num_following);
     }
 
     Vec3f centre_in_scene() const { return root.to_scene(centre.cast<double>()).cast<float>(); }
@@ -64,6 +68,7 @@ struct Playback::Part {
     std::vector<float> positions;        // local
     std::vector<float> scene_positions;  // only where there is a root motion
     std::vector<Vec3f> radiance;
+    std::vector<Vec3f> radiance_in_scene;  // scratch: of a floor under a body that turns
 };
 
 struct Playback::State {

@@ -45,7 +45,7 @@ class MovingBounds {
 
     Bounds at(double time, uint32_t num_components) {
         decoder_.decode(mesh_.positions, time, std::min(num_components, num_usual_), planes_);
-        move_to_scene(root_at(mesh_.root_motion, time), planes_);
+        move_to_scene(root_at(mesh_.root_motion, time), planes_, mesh_.num_following);
         return bounds_of_vertices(planes_, vertices_);
     }
 

@@ -3,6 +3,7 @@
 
 #include <meshoptimizer.h>
 
+#include <algorithm>
 #include <limits>
 #include <numeric>
 
@@ -37,6 +38,13 @@ CacheOrder cache_order(const Topology& topology) {
     for (size_t i = 0; i < num_indices; ++i) ordered[i] = number(ordered[i]);
     for (uint32_t v = 0; v < topology.num_vertices; ++v) number(v);
     return order;
+}
+
+uint32_t new_number_of_first(uint32_t first, const std::vector<uint32_t>& old_vertex) {
+    const auto found = std::find_if(old_vertex.begin(), old_vertex.end(),
+                                    [&](uint32_t old) { return old >= first; });
+    if (found == old_vertex.end()) return kAllVertices;
+    return static_cast<uint32_t>(found - old_vertex.begin());
 }
 
 }  // namespace paim

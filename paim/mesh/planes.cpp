@@ -29,12 +29,12 @@ std::vector<Vec3f> from_planes(std::span<const float> planes) {
     return points;
 }
 
-void transform_planes(const Eigen::Matrix3d& rotation, const Vec3d& shift,
-                      std::span<float> planes) {
+void transform_planes(const Eigen::Matrix3d& rotation, const Vec3d& shift, std::span<float> planes,
+                      size_t num_points) {
     PAIM_CHECK_EQ(planes.size() % 3, 0u);
     constexpr double kMost = std::numeric_limits<float>::max();
     const size_t count = planes.size() / 3;
-    for (size_t v = 0; v < count; ++v) {
+    for (size_t v = 0; v < std::min(num_points, count); ++v) {
         const Vec3d from(double{planes[v]}, double{planes[count + v]},
                          double{planes[2 * count + v]});
         const Vec3d to = rotation * from + shift;

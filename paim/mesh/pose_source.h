@@ -33,6 +33,10 @@ class PoseSource {
     // unless the mesh travels so far that its poses need origins of their own (mesh/origin.h).
     virtual Vec3d pose_offset(uint32_t /*p*/) const { return Vec3d::Zero(); }
 
+    // How many vertices, from the first, belong to what moves. The others are a floor, which is at
+    // the same place in every pose.
+    virtual uint32_t num_moving_vertices() const { return topology().num_vertices; }
+
     // A name for messages and manifests: a file name, or what made the pose.
     virtual std::string pose_name(uint32_t p) const = 0;
 

@@ -39,9 +39,9 @@ RigidTransform root_at(const RootMotion& motion, double time) {
     return root;
 }
 
-void move_to_scene(const RigidTransform& root, std::span<float> planes) {
+void move_to_scene(const RigidTransform& root, std::span<float> planes, uint32_t num_following) {
     if (root.is_identity()) return;
-    transform_planes(root.rotation.toRotationMatrix(), root.translation, planes);
+    transform_planes(root.rotation.toRotationMatrix(), root.translation, planes, num_following);
 }
 
 Travel travel_of(const RootMotion& motion) {

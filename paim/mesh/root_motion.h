@@ -1,6 +1,8 @@
 // Where each pose of a moving mesh stands in the scene, apart from its shape.
 #pragma once
 
+#include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -36,14 +38,19 @@ constexpr double kRotationUnit_rad = 0x1p-22;
 // [P] one transform a pose; or empty: local coordinates are scene coordinates in every pose.
 using RootMotion = std::vector<RigidTransform>;
 
+// A number of vertices: however many there are.
+constexpr uint32_t kAllVertices = std::numeric_limits<uint32_t>::max();
+
 // The transform at `time` in poses, clamped to 0 … P−1 (0 if it is not a number). Between two poses translations are
 // interpolated linearly, rotations along the shorter arc at constant speed (slerp). The identity if
 // the motion is empty.
 PAIM_EXPORT RigidTransform root_at(const RootMotion& motion, double time);
 
 // Moves points of a pose from local coordinates to the scene, in double, in place.
-// planes  [3][V]: all x, then all y, then all z
-PAIM_EXPORT void move_to_scene(const RigidTransform& root, std::span<float> planes);
+// planes         [3][V]: all x, then all y, then all z
+// num_following  how many points, from the first, move; the others, a floor, keep their place
+PAIM_EXPORT void move_to_scene(const RigidTransform& root, std::span<float> planes,
+                               uint32_t num_following = kAllVertices);
 
 // How far a body goes: the length of its path and the sum of the angles between poses.
 struct Travel {

@@ -1,6 +1,7 @@
 // The triangles and the albedo, which all poses of a sequence share.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -25,6 +26,15 @@ struct Topology {
             triangles.push_back({t[0] + num_vertices, t[1] + num_vertices, t[2] + num_vertices});
         }
         num_vertices += other.num_vertices;
+    }
+
+    // How many triangles, from the first, have no vertex of number `end` or above.
+    size_t num_triangles_before(uint32_t end) const {
+        const auto is_before = [&](const Triangle& t) {
+            return std::max({t[0], t[1], t[2]}) < end;
+        };
+        const auto last = std::find_if_not(triangles.begin(), triangles.end(), is_before);
+        return static_cast<size_t>(last - triangles.begin());
     }
 };
 

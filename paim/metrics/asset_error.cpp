@@ -41,7 +41,8 @@ std::vector<uint32_t> check_same_part(const Asset& asset, size_t number, const B
         mesh.topology, asset.vertex_order, baked.topology(), bake.directory().string(),
         still ? "triangles of the still meshes" : "triangles");
     // Positions and transfer are compared in local coordinates.
-    if (mesh.root_motion != baked.root_motion()) {
+    if (mesh.root_motion != baked.root_motion() ||
+        mesh.num_following != new_number_of_first(baked.num_following(), old_vertex)) {
         throw_bad_input("{}: expected a file made from this bake, got one of another root motion",
                         bake.directory().string());
     }
@@ -121,7 +122,25 @@ PartMeter::PartMeter(const Asset& asset, size_t number, const BakeReader& bake,
       baked_(bake, number),
       old_vertex_(check_same_part(asset, number, bake, baked_)),
       outliers_((outliers ? *outliers : find_outliers(baked_)).reordered(old_vertex_)),
-      shape_(asset.parts[number].topology) {}
+      shape_(asset.parts[number].topology, sample_poses()) {}
+
+// Evenly among all.
+std::vector<std::vector<float>> PartMeter::sample_poses() const {
+    const uint32_t num_poses = baked_.num_poses();
+    std::vector<std::vector<float>> samples(std::min(num_poses, kPosesMeasured));
+    parallel_for(samples.size(), 1, [&](size_t j, size_t) {
+        const auto p = static_cast<uint32_t>(uint64_t{j} * num_poses / samples.size());
+        read_baked(p, samples[j]);
+        outliers_.replace(p, baked_.num_vertices(), 0, samples[j]);
+    });
+    return samples;
+}
+
+void PartMeter::read_baked(uint32_t p, std::vector<float>& planes) const {
+    planes.resize(size_t{3} * baked_.num_vertices());
+    baked_.read_position_rows(p, 0, planes.size(), planes.data());
+    reorder_planes(planes, old_vertex_);
+}
 
 SurfaceError PartMeter::surface(const LowRank& positions) const {
     SurfaceError error;
@@ -132,10 +151,7 @@ SurfaceError PartMeter::surface(const LowRank& positions) const {
         poses.resize(std::min(num_poses - first, kPosesMeasured));
         parallel_for(poses.size(), 1, [&](size_t j, size_t) {
             const auto p = static_cast<uint32_t>(first + j);
-            std::vector<float>& baked = poses[j].reference;
-            baked.resize(size_t{3} * baked_.num_vertices());
-            baked_.read_position_rows(p, 0, baked.size(), baked.data());
-            reorder_planes(baked, old_vertex_);
+            read_baked(p, poses[j].reference);
             PositionDecoder().decode(positions, p, positions.num_components, poses[j].positions);
         });
         for (size_t j = 0; j < poses.size(); ++j) {

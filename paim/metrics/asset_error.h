@@ -58,6 +58,10 @@ class PartMeter {
     static uint64_t kept_bytes(uint64_t num_vertices, uint64_t num_triangles);
 
   private:
+    std::vector<std::vector<float>> sample_poses() const;
+    // Positions of pose p in the order of the file.
+    void read_baked(uint32_t p, std::vector<float>& planes) const;
+
     const BakeReader& bake_;
     BakedPart baked_;
     std::vector<uint32_t> old_vertex_;  // [V] the vertex of the bake for each vertex of the file

@@ -11,7 +11,6 @@
 #include "paim/base/parallel.h"
 #include "paim/base/vector.h"
 #include "paim/mesh/face_vertices.h"
-#include "paim/mesh/pieces.h"
 
 namespace paim {
 
@@ -74,29 +73,19 @@ ShapeError ShapeErrorMeter::Sums::mean() const {
     return {mean_of(space, num_space), mean_of(time, num_time), mean_of(angle, num_angles)};
 }
 
-ShapeNeighbours::ShapeNeighbours(const Topology& topology)
+ShapeNeighbours::ShapeNeighbours(const Topology& topology,
+                                 std::span<const std::vector<float>> poses)
     : num_vertices(topology.num_vertices),
       triangles(topology.triangles),
       edges(edges_of(topology)),
-      face_vertices(paim::face_vertices(topology)) {
-    const Pieces pieces = connected_pieces(topology);
-    std::vector<uint32_t> number(pieces.count);
-    for (uint32_t j = 0; j < pieces.count; ++j) {
-        const uint32_t size = pieces.num_vertices[j];
-        const bool has_faces = size > 1;
-        if (has_faces && (size >= kSmallestPiece || 20 * uint64_t{size} >= num_vertices)) {
-            number[j] = ++num_judged;
-        }
-    }
-    piece.resize(num_vertices);
-    std::transform(pieces.of_vertex.begin(), pieces.of_vertex.end(), piece.begin(),
-                   [&](uint32_t j) { return number[j]; });
-}
+      face_vertices(paim::face_vertices(topology)),
+      judged(
+          judged_pieces(topology, face_vertices, mean_edge_lengths(num_vertices, edges, poses))) {}
 
 uint64_t ShapeNeighbours::bytes(uint64_t num_vertices, uint64_t num_triangles) {
     // Edges are found among all sides of the triangles.
     return num_triangles * (sizeof(Triangle) + 3 * sizeof(std::array<uint32_t, 2>)) +
-           num_vertices * 4 * sizeof(uint32_t);
+           num_vertices * (4 * sizeof(uint32_t) + 3 * sizeof(double));
 }
 
 void ShapeErrorMeter::add(std::span<const Pose> poses) {
@@ -136,7 +125,7 @@ void ShapeErrorMeter::add_edges(const Pose& pose, PieceSums& sums) const {
     }
     for (size_t v = 0; v < around.size(); ++v) {
         if (!(around[v].weight > 0.0)) continue;
-        Sums& sum = sums[mesh_.piece[v]];
+        Sums& sum = sums_of(static_cast<uint32_t>(v), sums);
         sum.space += around[v].deviation();
         ++sum.num_space;
     }
@@ -169,7 +158,7 @@ void ShapeErrorMeter::add_steps(const std::vector<Step>& before, const std::vect
         Neighbourhood around;
         around.add(double{before[v].length}, double{before[v].difference});
         around.add(double{steps[v].length}, double{steps[v].difference});
-        Sums& sum = sums[mesh_.piece[v]];
+        Sums& sum = sums_of(static_cast<uint32_t>(v), sums);
         sum.time += around.deviation();
         ++sum.num_time;
     }
@@ -184,7 +173,7 @@ void ShapeErrorMeter::add_normals(const Pose& pose, PieceSums& sums) const {
         const Vec3d baked = normal(pose.reference, t);
         const Vec3d decoded = normal(pose.positions, t);
         if (baked.isZero(0.0)) continue;
-        Sums& sum = sums[mesh_.piece[t[0]]];
+        Sums& sum = sums_of(t[0], sums);
         // A face that has lost its area has turned by as much as a face can without a direction.
         sum.angle +=
             decoded.isZero(0.0)
@@ -200,7 +189,7 @@ PieceShapeError ShapeErrorMeter::result() const {
     PieceShapeError error;
     error.whole = all.mean();
     error.worst = error.whole;
-    for (size_t j = 1; j < sums_.size(); ++j) {
+    for (size_t j = 0; j < mesh_.judged.count; ++j) {
         const ShapeError piece = sums_[j].mean();
         if (piece.sted() > error.worst.sted()) {
             error.worst.sted_space = piece.sted_space;

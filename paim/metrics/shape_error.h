@@ -2,12 +2,14 @@
 // Based on: Vasa and Skala, A Perception Correlated Comparison Method for Dynamic Meshes, 2011
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "paim/mesh/topology.h"
+#include "paim/metrics/judged_pieces.h"
 
 namespace paim {
 
@@ -26,12 +28,12 @@ struct PieceShapeError {
     ShapeError worst;
 };
 
-// Pieces of fewer vertices than this, and than a twentieth of all, are not judged by themselves.
-constexpr uint32_t kSmallestPiece = 100;
-
 // What the shape of a mesh is judged by. It is made once for a mesh.
 struct ShapeNeighbours {
-    explicit ShapeNeighbours(const Topology& topology);
+    // poses  [3][V] each: planes x, y and z of some, which say how long edges are; none: pieces are
+    //        not told apart by that (judged_pieces.h)
+    explicit ShapeNeighbours(const Topology& topology,
+                             std::span<const std::vector<float>> poses = {});
 
     static uint64_t bytes(uint64_t num_vertices, uint64_t num_triangles);
 
@@ -39,13 +41,11 @@ struct ShapeNeighbours {
     std::vector<Triangle> triangles;
     std::vector<std::array<uint32_t, 2>> edges;  // each once
     std::vector<uint32_t> face_vertices;         // ascending
-    // [V] 0, or the number of the piece if it is judged by itself.
-    std::vector<uint32_t> piece;
-    uint32_t num_judged = 0;  // pieces that are judged by themselves: 1 to num_judged
+    JudgedPieces judged;
 };
 
-// Errors of surfaces, pose by pose. A mesh is judged as a whole, and each connected piece of it by
-// itself, so that a large piece does not hide what happens to a small one.
+// Errors of surfaces, pose by pose. A mesh is judged as a whole, and each of its pieces by itself
+// (judged_pieces.h).
 //
 // Space. An edge of baked length l and decoded length l' has the relative difference |l − l'| / l.
 // The deviation of a vertex is the standard deviation of this difference over its edges, each
@@ -57,7 +57,7 @@ class ShapeErrorMeter {
   public:
     // Keeps a reference.
     explicit ShapeErrorMeter(const ShapeNeighbours& mesh) : mesh_(mesh) {
-        sums_.resize(size_t{mesh.num_judged} + 1);
+        sums_.resize(size_t{mesh.judged.count} + 1);
     }
 
     // A pose, decoded and baked: planes x, y, z. [3][V]
@@ -86,9 +86,12 @@ class ShapeErrorMeter {
     struct Step {
         float length = 0.0f, difference = 0.0f;
     };
-    // Sums by the piece that they are judged with. [1 + num_judged]
+    // Sums by the piece that they are judged with; last those of vertices in no such piece.
     using PieceSums = std::vector<Sums>;
 
+    Sums& sums_of(uint32_t vertex, PieceSums& sums) const {
+        return sums[std::min(mesh_.judged.of_vertex[vertex], mesh_.judged.count)];
+    }
     void add_edges(const Pose& pose, PieceSums& sums) const;
     void add_normals(const Pose& pose, PieceSums& sums) const;
     std::vector<Step> steps(const Pose& before, const Pose& pose) const;

@@ -16,6 +16,7 @@ namespace paim::player {
 
 MeshRenderer::MeshRenderer(const CodedMesh& mesh, const DecodeLimits& limits)
     : mesh_(mesh),
+      num_following_triangles_(mesh.topology.num_triangles_before(mesh.num_following)),
       plan_(plan_upload(mesh, limits, gl::max_texture_size())),
       geometry_("geometry", mesh.positions, {mesh.topology.num_vertices, 1, 3, 3, 1},
                 plan_.geometry_components, plan_.width_log2),
@@ -57,6 +58,19 @@ void MeshRenderer::upload_triangles() {
 
 void MeshRenderer::draw(const Frame& frame, const LightCoefficients& light, float aspect) {
     const RigidTransform root = root_at(mesh_.root_motion, frame.time);
+    const size_t num_triangles = mesh_.topology.triangles.size();
+    if (root.is_identity()) {
+        draw_triangles(0, num_triangles, root, frame, light, aspect);
+        return;
+    }
+    draw_triangles(0, num_following_triangles_, root, frame, light, aspect);
+    draw_triangles(num_following_triangles_, num_triangles, {}, frame, light, aspect);
+}
+
+void MeshRenderer::draw_triangles(size_t first, size_t last, const RigidTransform& root,
+                                  const Frame& frame, const LightCoefficients& light,
+                                  float aspect) {
+    if (first == last) return;
     program_.use();
     int unit = geometry_.bind(program_, 0, frame.time, frame.limits.geometry_components);
     unit = transfer_->bind(program_, unit, frame, to_local(light, root));
@@ -74,8 +88,8 @@ void MeshRenderer::draw(const Frame& frame, const LightCoefficients& light, floa
     glDepthFunc(GL_LESS);
     glDisable(GL_CULL_FACE);
     glBindVertexArray(vertex_array_.id());
-    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(mesh_.topology.triangles.size() * 3),
-                   GL_UNSIGNED_INT, nullptr);
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * (last - first)), GL_UNSIGNED_INT,
+                   reinterpret_cast<const void*>(first * sizeof(Triangle)));
 }
 
 }  // namespace paim::player

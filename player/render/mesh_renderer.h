@@ -34,8 +34,12 @@ class MeshRenderer {
   private:
     void upload_albedo() const;
     void upload_triangles();
+    // Draws triangles [first, last), which stand in the scene like `root`.
+    void draw_triangles(size_t first, size_t last, const RigidTransform& root, const Frame& frame,
+                        const LightCoefficients& light, float aspect);
 
     const CodedMesh& mesh_;
+    size_t num_following_triangles_;  // those of a floor come after them
     UploadPlan plan_;
     LowRankTextures geometry_;
     std::unique_ptr<TransferTextures> transfer_;

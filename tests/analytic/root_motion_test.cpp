@@ -9,6 +9,7 @@
 #include "compressor/bake/bake_sequence.h"
 #include "compressor/encode/encode.h"
 #include "compressor/encode/search/target_encode.h"
+#include "compressor/scene/floor.h"
 #include "compressor/scene/root_motion.h"
 #include "compressor/scene/still_mesh.h"
 #include "paim/codec/playback.h"
@@ -42,13 +43,14 @@ RigidTransform walk(uint32_t p) {
 class RootMotionRoad : public testing::Test {
   protected:
     BakeReader bake(const PoseSource& source, RootMotionChoice choice, const std::string& name,
-                    const Surroundings& surroundings = {}, uint32_t bounces = 0) {
+                    const Surroundings& surroundings = {}, uint32_t bounces = 0,
+                    const PoseSource* body = nullptr) {
         const auto path = directory_ / name;
         BakeOptions options{4, 64, 1};
         options.bounces = bounces;
         bake_sequence(
             source, options, "faces", path, 0, kPoses - 1, [](uint32_t) {}, surroundings,
-            find_root_motion(source, choice));
+            find_root_motion(body ? *body : source, choice));
         return BakeReader(path);
     }
 
@@ -59,10 +61,10 @@ class RootMotionRoad : public testing::Test {
         return read_paim(directory_ / "x.paim");
     }
 
-    // Of the same body under the same light, coded in local coordinates and in the scene's.
+    // Of the same poses under the same light, coded in local coordinates and in the scene's.
     // among_still_meshes  with a wall next to the path, off which light bounces
-    void expect_same_picture(bool among_still_meshes) {
-        const PoseSet body = moved(&walk);
+    void expect_same_picture(const PoseSource& poses, const PoseSource& body,
+                             bool among_still_meshes) {
         Surroundings surroundings;
         if (among_still_meshes) {
             surroundings.still_mesh.add(
@@ -76,7 +78,8 @@ class RootMotionRoad : public testing::Test {
         for (const RootMotionChoice choice : {RootMotionChoice::none, RootMotionChoice::rigid}) {
             const std::string name = std::string(among_still_meshes ? "still" : "alone") +
                                      (choice == RootMotionChoice::none ? "_n.bake" : "_r.bake");
-            encode(bake(body, choice, name, surroundings, bounces), all, directory_ / "x.paim");
+            encode(bake(poses, choice, name, surroundings, bounces, &body), all,
+                   directory_ / "x.paim");
             assets.push_back(std::make_shared<const Asset>(read_paim(directory_ / "x.paim")));
         }
         EXPECT_TRUE(assets[0]->moving().root_motion.empty());
@@ -207,10 +210,40 @@ TEST_F(RootMotionRoad, LeavesIsolatedVerticesAtRest) {
 
 // The same body under the same light, coded in local coordinates and in the scene's.
 TEST_F(RootMotionRoad, ShowsTheSamePicture) {
+    const PoseSet body = moved(&walk);
     for (const bool among_still_meshes : {false, true}) {
         SCOPED_TRACE(among_still_meshes);
-        expect_same_picture(among_still_meshes);
+        expect_same_picture(body, body, among_still_meshes);
     }
+}
+
+TEST_F(RootMotionRoad, ShowsTheSamePictureOnAFloor) {
+    const PoseSet body = moved(&walk);
+    const PosesOnFloor on_floor(body, bounds_of(body), {500, Vec3f::Constant(0.8f)});
+    expect_same_picture(on_floor, body, false);
+}
+
+// Files for a target have vertices in another order, isolated ones last.
+TEST_F(RootMotionRoad, KeepsTheFloorBehindTheBodyInFiles) {
+    const PoseSet walking = moved(&walk);
+    Topology topology = walking.topology();
+    ++topology.num_vertices;
+    std::vector<std::vector<Vec3f>> positions;
+    for (uint32_t p = 0; p < kPoses; ++p) {
+        positions.push_back(walking.load_pose(p).positions);
+        positions.back().push_back(Vec3f(70, -30, 5));
+    }
+    const PoseSet body(topology, positions);
+    const PosesOnFloor on_floor(body, bounds_of(body), {300, Vec3f::Constant(0.8f)});
+    const BakeReader reader = bake(on_floor, RootMotionChoice::automatic, "f.bake", {}, 0, &body);
+    ASSERT_EQ(reader.identity().num_following, topology.num_vertices);
+    EncodeTarget target;
+    target.transfer_error = 0.25;
+    encode_to_target(reader, {}, target, directory_ / "t.paim");
+    const Asset asset = read_paim(directory_ / "t.paim");
+    EXPECT_EQ(asset.moving().num_following, walking.topology().num_vertices);
+    EXPECT_EQ(asset.moving().topology.num_triangles_before(asset.moving().num_following),
+              walking.topology().triangles.size());
 }
 
 }  // namespace

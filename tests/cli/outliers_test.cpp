@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "paim/codec/sequence_bounds.h"
+#include "paim/format/bake/bake_directory.h"
 #include "paim/format/paim/paim_read.h"
 #include "tests/cli/tool_test.h"
 
@@ -38,10 +39,13 @@ class OutlierTool : public ToolTest {
     }
 
     std::string bake_bad_tube(const std::string& folder,
-                              const std::map<std::pair<int, int>, std::string>& bad) const {
+                              const std::map<std::pair<int, int>, std::string>& bad,
+                              const Arguments& options = {}) const {
         const std::string bake = path(folder + ".bake");
-        expect_success(compress(
-            {"bake", write_bad_tube(folder, bad), "-o", bake, "--rays", "64", "--bands", "2"}));
+        Arguments arguments{
+            "bake", write_bad_tube(folder, bad), "-o", bake, "--rays", "64", "--bands", "2"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        expect_success(compress(arguments));
         return bake;
     }
 };
@@ -58,7 +62,7 @@ TEST_F(OutlierTool, NamesOutliers) {
         arguments.insert(arguments.end(), options.begin(), options.end());
         const ToolResult told = compress(arguments);
         expect_success(told);
-        EXPECT_TRUE(contains(told.err, "t_0004.obj (pose 4): vertex 33 and 1 more of 88 vertices "))
+        EXPECT_TRUE(contains(told.err, "t_0004.obj (pose 4): vertex 34 and 1 more of 88 vertices "))
             << told.err;
         EXPECT_TRUE(contains(told.err, "at (5000, 4000, 0), 6402 from where")) << told.err;
         arguments.push_back("--json");
@@ -95,6 +99,16 @@ TEST_F(OutlierTool, MakesTheSameBytesOnAnyNumberOfThreads) {
         }
         EXPECT_TRUE(files[0] == files[1]);
     }
+}
+
+// The floor lies where it lies without them, and the camera shows the same.
+TEST_F(OutlierTool, LeavesTheFloorAlone) {
+    const Arguments floor{"--floor", "--floor-vertices", "100"};
+    const std::string clean = bake_bad_tube("clean", {}, floor);
+    const std::string bad = bake_bad_tube("bad", {{{4, 33}, "v 5000 -4000 0\n"}}, floor);
+    EXPECT_EQ(BakeReader(bad).identity().floor, BakeReader(clean).identity().floor);
+    expect_success(compress({"encode", bad, "-o", path("x.paim")}));
+    EXPECT_LT(sequence_bounds(read_paim(path("x.paim"))).diagonal(), 10.0f);
 }
 
 }  // namespace

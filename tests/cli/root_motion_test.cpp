@@ -6,6 +6,7 @@
 
 #include "paim/codec/playback.h"
 #include "paim/format/paim/paim_read.h"
+#include "paim/mesh/bounds.h"
 #include "tests/cli/tool_test.h"
 
 namespace paim {
@@ -101,16 +102,90 @@ TEST_F(RootMotionTool, SeesPastAnOutlier) {
     expect_success(analyze({path("bad.bake"), "--verify", path("bad5.paim")}));
 }
 
+// The body travels, and the floor does not: all that has a face is where it was.
+TEST_F(RootMotionTool, LeavesAFloorInItsPlace) {
+    const Arguments floor{"--floor", "--floor-vertices", "300"};
+    const json report = make("x", floor);
+    EXPECT_NEAR(report["bake"]["root_motion"]["distance"].get<double>(), 40.0, 0.5);
+    expect_success(
+        compress({"encode", path("x.bake"), "-o", path("t.paim"), "--max-error", "20%"}));
+    for (const char* const file : {"x.paim", "t.paim"}) {
+        SCOPED_TRACE(file);
+        expect_success(analyze({path("x.bake"), "--verify", path(file)}));
+        const auto asset = std::make_shared<const Asset>(read_paim(path(file)));
+        const uint32_t num_following = asset->moving().num_following;
+        EXPECT_EQ(num_following, uint32_t{kRings * kSegments});
+        Playback playback(asset);
+        for (int p = 0; p < kPoses; ++p) {
+            playback.update(p);
+            const auto planes = playback.positions();
+            const size_t num_vertices = planes.size() / 3;
+            Bounds body, ground;
+            for (size_t v = 0; v < num_vertices; ++v) {
+                (v < num_following ? body : ground)
+                    .extend(
+                        Vec3f(planes[v], planes[num_vertices + v], planes[2 * num_vertices + v]));
+            }
+            EXPECT_NEAR(body.center().x(), 5.0 * p, 0.05) << p;
+            EXPECT_NEAR(ground.lower.y(), ground.upper.y(), 1e-6) << p;
+            EXPECT_NEAR(ground.upper.y(), 0.0, 0.1) << p;
+            // 40 units of path, and 0.3 of this beyond each end.
+            EXPECT_NEAR(ground.lower.x(), -12.4, 0.5) << p;
+            EXPECT_NEAR(ground.upper.x(), 52.4, 0.5) << p;
+        }
+    }
+}
+
 TEST_F(RootMotionTool, LeavesPosesAsTheyAreIfAsked) {
     const json none = make("none", {"--root-motion", "none"});
     EXPECT_FALSE(none["bake"].contains("root_motion"));
-    // A floor stays in its place.
-    EXPECT_FALSE(make("floor", {"--floor"})["bake"].contains("root_motion"));
     EXPECT_TRUE(make("rigid", {"--root-motion", "rigid"})["bake"].contains("root_motion"));
     // Files of one are not those of the other.
     const ToolResult other = analyze({path("none.bake"), "--verify", path("rigid.paim")});
     EXPECT_EQ(other.exit_code, 2);
     EXPECT_TRUE(contains(other.err, "another root motion")) << other.err;
+}
+
+// Each of a crowd walks its own way; no root motion goes with all of them.
+TEST_F(RootMotionTool, KeepsTheSwingOfACrowd) {
+    constexpr int kWalkers = 24;
+    std::filesystem::create_directory(directory_ / "crowd");
+    const auto place = [](int walker, int ring, int segment, int p) {
+        const double way = 2.0 * kPi * walker / kWalkers, angle = 2.0 * kPi * segment / kSegments;
+        const double y = 0.25 * ring, walked = 10.0 + 5.0 * p;
+        return Vec3d(walked * std::sin(way) + 0.2 * std::sin(angle), y,
+                     walked * std::cos(way) + 0.2 * std::cos(angle) + swing(p, y));
+    };
+    for (int p = 0; p < kPoses; ++p) {
+        std::string vertices, faces;
+        for (int walker = 0; walker < kWalkers; ++walker) {
+            const int first = 1 + walker * kRings * kSegments;
+            for (int ring = 0; ring < kRings; ++ring) {
+                for (int segment = 0; segment < kSegments; ++segment) {
+                    const Vec3d x = place(walker, ring, segment, p);
+                    vertices += fmt::format("v {:.6f} {:.6f} {:.6f}\n", x.x(), x.y(), x.z());
+                    if (ring + 1 == kRings) continue;
+                    const int a = first + ring * kSegments + segment;
+                    const int b = first + ring * kSegments + (segment + 1) % kSegments;
+                    faces += fmt::format("f {} {} {} {}\n", a, b, b + kSegments, a + kSegments);
+                }
+            }
+        }
+        write(fmt::format("crowd/{}.obj", p), vertices + faces);
+    }
+    make("crowd", {}, "crowd");
+    Playback playback(std::make_shared<const Asset>(read_paim(path("crowd.paim"))));
+    for (int p = 0; p < kPoses; ++p) {
+        playback.update(p);
+        const auto planes = playback.positions();
+        const size_t num_vertices = planes.size() / 3;
+        for (int walker = 0; walker < kWalkers; ++walker) {
+            const auto top = static_cast<size_t>(((walker + 1) * kRings - 1) * kSegments);
+            const Vec3d x = place(walker, kRings - 1, 0, p);
+            // A tenth of the swing of 0.3 may be lost.
+            EXPECT_NEAR(planes[2 * num_vertices + top], x.z(), 0.06) << p << ' ' << walker;
+        }
+    }
 }
 
 // A bake of another motion is another bake.

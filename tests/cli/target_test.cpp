@@ -1,8 +1,18 @@
 // From an error to a file: every file is within the error that was asked for, measured again by
 // another tool. An error that cannot be met is refused with a message that names the best possible
 // one.
-#include <cmath>
+#include <fmt/format.h>
 
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "paim/codec/rebuild_planes.h"
+#include "paim/format/bake/bake_directory.h"
+#include "paim/format/paim/paim_read.h"
+#include "paim/metrics/vertex_match.h"
 #include "tests/cli/tool_test.h"
 
 namespace paim {
@@ -181,6 +191,153 @@ TEST_F(Target, FilesOfCountsStateTheirErrorsWhereAsked) {
     EXPECT_EQ(verify("x.paim"), 0);
     encode("x.paim", {"--precision", "f16", "--measure"});
     EXPECT_EQ(verify("x.paim"), 0);
+}
+
+// A small thing keeps its shape however large the things next to it are.
+class SmallThing : public ToolTest {
+  protected:
+    static constexpr int kPoses = 4;
+
+    // A sheet of quads, connected to nothing else. One that is closed to a tube has its first column
+    // twice.
+    struct Part {
+        int num_rows, num_columns;
+        std::function<Vec3d(int row, int column, double time)> place;  // time in radians
+    };
+
+    static Part stage(int num_rows, double size) {
+        return {num_rows, num_rows, [=](int row, int column, double) {
+                    const double step = size / (num_rows - 1);
+                    return Vec3d(step * column - 0.5 * size, 0.0, 0.5 * size - step * row);
+                }};
+    }
+    // A tube that stands at this place, 2 units tall, and sways.
+    static Part character(int num_rows, const Vec3d& foot) {
+        return {
+            num_rows, 9, [=](int row, int column, double time) {
+                const double y = 2.0 * row / (num_rows - 1), angle = 2.0 * kPi * column / 8.0;
+                const double sway = 0.1 * y * y * std::sin(time);
+                return Vec3d(foot + Vec3d(0.3 * std::sin(angle) + sway, y, 0.3 * std::cos(angle)));
+            }};
+    }
+
+    // Meets 10 % with a file of these parts.
+    // more_faces  lines of an OBJ
+    // returns     the mean angle by which faces of each part turn, degrees
+    std::vector<double> angles_deg(const std::string& name, const std::vector<Part>& parts,
+                                   const std::string& more_faces = "") const {
+        std::filesystem::create_directory(directory_ / name);
+        std::vector<uint32_t> ends;  // of the vertices of each part
+        for (int p = 0; p < kPoses; ++p) {
+            std::string vertices, faces;
+            uint32_t first = 1;
+            ends.clear();
+            for (const Part& part : parts) {
+                const auto columns = static_cast<uint32_t>(part.num_columns);
+                for (int row = 0; row < part.num_rows; ++row) {
+                    for (int column = 0; column < part.num_columns; ++column) {
+                        const Vec3d x = part.place(row, column, 2.0 * kPi * p / kPoses);
+                        vertices += fmt::format("v {:.6f} {:.6f} {:.6f}\n", x.x(), x.y(), x.z());
+                        const uint32_t v = first++;
+                        if (row + 1 == part.num_rows || column + 1 == part.num_columns) continue;
+                        faces +=
+                            fmt::format("f {} {} {} {}\n", v, v + 1, v + 1 + columns, v + columns);
+                    }
+                }
+                ends.push_back(first - 1);
+            }
+            write(fmt::format("{}/{}.obj", name, p), vertices + faces + more_faces);
+        }
+        const std::string bake = path(name + ".bake"), file = path(name + ".paim");
+        expect_success(compress({"bake", path(name), "-o", bake, "--rays", "64", "--bands", "2"}));
+        expect_success(compress({"encode", bake, "-o", file, "--max-error", "10%"}));
+        EXPECT_EQ(analyze({bake, "--verify", file}).exit_code, 0);
+        return measure(read_paim(file), BakeReader(bake), ends);
+    }
+
+  private:
+    static std::vector<double> measure(const Asset& asset, const BakeReader& bake,
+                                       const std::vector<uint32_t>& ends) {
+        const CodedMesh& mesh = asset.moving();
+        const std::vector<uint32_t> old_vertex =
+            match_vertices(mesh.topology, asset.vertex_order, bake.topology(), "x", "triangles");
+        const size_t num_vertices = old_vertex.size();
+        std::vector<double> sums(ends.size(), 0.0), counts(ends.size(), 0.0);
+        std::vector<float> decoded, baked(3 * num_vertices);
+        PositionDecoder decoder;
+        for (uint32_t p = 0; p < bake.num_poses(); ++p) {
+            decoder.decode(mesh.positions, p, mesh.positions.num_components, decoded);
+            bake.read_position_rows(p, 0, baked.size(), baked.data());
+            reorder_planes(baked, old_vertex);
+            const auto normal = [&](const std::vector<float>& planes, const Triangle& t) {
+                const auto corner = [&](uint32_t v) {
+                    return Vec3d(double{planes[v]}, double{planes[num_vertices + v]},
+                                 double{planes[2 * num_vertices + v]});
+                };
+                return Vec3d((corner(t[1]) - corner(t[0])).cross(corner(t[2]) - corner(t[0])));
+            };
+            for (const Triangle& t : mesh.topology.triangles) {
+                const auto part = static_cast<size_t>(
+                    std::upper_bound(ends.begin(), ends.end(), old_vertex[t[0]]) - ends.begin());
+                const Vec3d a = normal(baked, t), b = normal(decoded, t);
+                sums[part] += std::atan2(a.cross(b).norm(), a.dot(b)) * 180.0 / kPi;
+                ++counts[part];
+            }
+        }
+        for (size_t j = 0; j < sums.size(); ++j) sums[j] /= counts[j];
+        return sums;
+    }
+};
+
+// 10 % allow 10 degrees in each piece, and an RMS distance of 0.2 % of the diagonal. That is half of
+// the small thing's radius or more here, and would leave a staircase by itself.
+constexpr double kAllowed_deg = 10.0;
+
+TEST_F(SmallThing, OnALargeStageKeepsItsShape) {
+    const auto angles = angles_deg("stage", {stage(13, 60.0), character(15, {3, 0, -7})});
+    EXPECT_LE(angles[1], kAllowed_deg);
+}
+
+TEST_F(SmallThing, FarFromALargeOneKeepsItsShape) {
+    const Part hill{30, 30, [](int row, int column, double time) {
+                        return Vec3d(
+                            2.0 * column,
+                            5.0 * std::sin(0.3 * row) * std::cos(0.2 * column) + std::sin(time),
+                            -2.0 * row);
+                    }};
+    const auto angles = angles_deg("far", {hill, character(20, {400, 30, 0})});
+    EXPECT_LE(angles[0], kAllowed_deg);
+    EXPECT_LE(angles[1], kAllowed_deg);
+}
+
+// A hook of 0.1 on a cable of 80.
+TEST_F(SmallThing, AtTheEndOfALongCableKeepsItsShape) {
+    const Part cable{81, 9, [](int row, int column, double) {
+                         const double angle = 2.0 * kPi * column / 8.0;
+                         return Vec3d(0.2 * std::cos(angle), -double(row), 0.2 * std::sin(angle));
+                     }};
+    const Part hook{13, 9, [](int row, int column, double time) {
+                        const double along = kPi * row / 12.0, angle = 2.0 * kPi * column / 8.0;
+                        const double radius = 0.5 + 0.1 * std::cos(angle);
+                        return Vec3d(radius * std::cos(along) + 0.3 * std::sin(time),
+                                     -80.5 - radius * std::sin(along), 0.1 * std::sin(angle));
+                    }};
+    const auto angles = angles_deg("cable", {cable, hook});
+    EXPECT_LE(angles[0], kAllowed_deg);
+    EXPECT_LE(angles[1], kAllowed_deg);
+}
+
+// Of fewer vertices than are judged by themselves: 63 of 1744.
+TEST_F(SmallThing, OfFewVerticesKeepsItsShape) {
+    const auto angles = angles_deg("few", {stage(41, 60.0), character(7, {3, 0, -7})});
+    EXPECT_LE(angles[1], 2.0 * kAllowed_deg);
+}
+
+// A triangle from the stage to the foot makes one piece of both.
+TEST_F(SmallThing, ThatIsConnectedToALargeOneKeepsItsShape) {
+    const auto angles =
+        angles_deg("one", {stage(41, 60.0), character(15, {3, 0.5, -7})}, "f 840 841 1682\n");
+    EXPECT_LE(angles[1], 2.0 * kAllowed_deg);
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ Image reference(const Asset& asset, const Frame& frame, const LightCoefficients&
     DecodedPose pose;
     const CodedMesh& mesh = asset.moving();
     MeshDecoder(mesh).decode(frame.time, frame.limits, pose);
-    move_to_scene(pose.root, pose.positions);
+    move_to_scene(pose.root, pose.positions, pose.num_following);
     return ray_cast(mesh.topology, from_planes(pose.positions),
                     vertex_radiance(mesh, frame.time, frame.limits, light), frame.camera, kWidth,
                     kHeight, kBackground);
@@ -239,6 +239,34 @@ TEST_P(MeshRendererTest, MovesAndTurnsBodies) {
         motion.resize(asset.num_poses());
         for (uint32_t p = 0; p < asset.num_poses(); ++p) {
             motion[p] = {rotation_of(p * Vec3d(0.3, 0.8, -0.2)), p * Vec3d(0.2, -0.1, 0.4)};
+        }
+        const LightCoefficients light = make_test_light(5);
+        MeshRenderer renderer(asset.moving(), {});
+        for (const double time : {0.0, 1.0, 2.5, 5.0}) {
+            SCOPED_TRACE(time);
+            const Frame frame = make_frame(asset, time);
+            expect_equal(reference(asset, frame, light), draw(renderer, frame, light));
+        }
+    }
+}
+
+// The upper rings of the sphere move, the lower ones are a floor.
+TEST_P(MeshRendererTest, LeavesAFloorInItsPlace) {
+    for (const uint32_t num_clusters : {0u, 3u}) {
+        TestAssetOptions options;
+        options.num_clusters = num_clusters;
+        options.cluster_components = 2;
+        Asset asset = make_test_asset(options);
+        CodedMesh& mesh = asset.moving();
+        mesh.num_following = 5 * 2 * options.num_rings;
+        std::erase_if(mesh.topology.triangles, [&](const Triangle& t) {
+            const auto follows = [&](uint32_t v) { return v < mesh.num_following; };
+            return follows(std::ranges::min(t)) != follows(std::ranges::max(t));
+        });
+        mesh.root_motion.resize(asset.num_poses());
+        for (uint32_t p = 1; p < asset.num_poses(); ++p) {
+            mesh.root_motion[p] = {rotation_of(p * Vec3d(0.3, 0.8, -0.2)),
+                                   p * Vec3d(0.2, 0.1, 0.1)};
         }
         const LightCoefficients light = make_test_light(5);
         MeshRenderer renderer(asset.moving(), {});

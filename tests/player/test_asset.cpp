@@ -294,6 +294,9 @@ std::vector<Vec3f> vertex_radiance(const CodedMesh& mesh, double time, const Dec
     MeshDecoder(mesh).decode(time, limits, pose);
     std::vector<Vec3f> radiance;
     shade(pose.layout, pose.transfer, mesh.albedo, to_local(light, pose.root), radiance);
+    std::vector<Vec3f> in_scene;
+    shade(pose.layout, pose.transfer, mesh.albedo, light, in_scene);
+    for (size_t v = pose.num_following; v < radiance.size(); ++v) radiance[v] = in_scene[v];
     return radiance;
 }
 

@@ -7,6 +7,7 @@
 
 #include "compressor/encode/memory_slack.h"
 #include "compressor/encode/noise/shrinkage.h"
+#include "compressor/encode/svd/motion_groups.h"
 #include "compressor/encode/svd/projected_blocks.h"
 #include "compressor/encode/svd/tsqr.h"
 #include "compressor/encode/svd/vertex_motion.h"
@@ -87,7 +88,8 @@ uint64_t encode_memory_bytes(const EncodeSize& size, uint32_t num_in_flight) {
     const uint64_t streamed = std::max(
         {triangular_factor_bytes(poses, num_in_flight) + rows_at_work(num_in_flight),
          jacobi_svd_bytes(poses), outliers_bytes(size.num_vertices, poses, size.num_threads),
-         components_for_motion_bytes(size.num_vertices, poses, size.num_threads),
+         motion_groups_bytes(size.num_vertices, poses) +
+             components_for_motion_bytes(size.num_vertices, poses, size.num_threads),
          component_noise_scratch_bytes(poses, size.bands, num_in_flight) +
              rows_at_work(measured_at_once),
          encoded_blocks_bytes(poses, components, num_in_flight) + rows_at_work(num_in_flight)});

@@ -6,6 +6,7 @@
 
 #include "compressor/encode/quantise/exceptions.h"
 #include "compressor/encode/quantise/float_matrix.h"
+#include "compressor/encode/svd/motion_groups.h"
 #include "compressor/encode/svd/vertex_motion.h"
 #include "paim/mesh/face_vertices.h"
 
@@ -38,7 +39,7 @@ HeldPositions::HeldPositions(const BakeReader& bake, const PositionOutliers& out
     least_components_ = components_for_motion(
         rows_, all_, counted,
         {kLostByTarget, std::max(target_.distance, kInvisibleMotion * diagonals.median),
-         motion_groups(bake.topology())});
+         motion_groups(bake.topology(), rows_)});
     allow(kHeldDistance * target_.distance);
 }
 

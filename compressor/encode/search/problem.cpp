@@ -62,6 +62,7 @@ Asset make_shell(const BakeReader& bake, const EncodeOptions& options, const Tra
     mesh.layout = layout;
     mesh.positions.num_poses = bake.num_poses();
     mesh.root_motion = bake.identity().root_motion;
+    mesh.num_following = new_number_of_first(bake.identity().num_following, order.old_vertex);
     if (auto still = still_part(bake, layout.in_bands)) {
         shell.parts.push_back(in_cache_order(std::move(*still)));
     }

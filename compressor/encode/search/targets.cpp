@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -43,10 +44,13 @@ std::string missed_distance(const GeometryError& best, double target) {
 Targets targets_of(const EncodeTarget& target, double transfer_error, double diagonal) {
     const double relative =
         target.geometry_error.value_or(kGeometryPerTransferError * transfer_error);
+    const double sted = std::min(kLargestSted, kStedPerGeometryError * relative);
+    const double angle_deg =
+        std::min(kLargestNormalAngle_deg, kNormalDegreesPerGeometryError * relative);
     return {transfer_error,
             target.vertex_error.value_or(std::numeric_limits<double>::infinity()),
-            {relative * diagonal, target.sted.value_or(kStedPerGeometryError * relative),
-             target.normal_angle_deg.value_or(kNormalDegreesPerGeometryError * relative)}};
+            {relative * diagonal, target.sted.value_or(sted),
+             target.normal_angle_deg.value_or(angle_deg)}};
 }
 
 double excess(const SurfaceError& measured, const SurfaceTarget& target) {
@@ -68,15 +72,14 @@ std::string missed_surface(const SurfaceError& best, const SurfaceTarget& target
         const double least = best.shape.worst.sted();
         return fmt::format(
             "a STED of {:.3g} % is asked for, but positions as floats have {:.3g} % at best in the "
-            "worst piece of the mesh: allow a --max-sted of {:.3g}% or more, or a larger "
-            "--geometry-error",
+            "worst piece of the mesh: allow a --max-sted of {:.3g}% or more",
             100.0 * target.sted, 100.0 * least, 100.0 * kABitMore * least);
     }
     const double least = best.shape.worst.normal_angle_deg;
     return fmt::format(
         "a mean angle of face normals of {:.3g} degrees is asked for, but positions as floats have "
         "{:.3g} at best in the worst piece of the mesh: allow a --max-normal-angle of {:.3g} or "
-        "more, or a larger --geometry-error",
+        "more",
         target.normal_angle_deg, least, kABitMore * least);
 }
 

@@ -2,15 +2,14 @@
 #include "compressor/encode/svd/vertex_motion.h"
 
 #include <algorithm>
-#include <array>
 #include <vector>
 
 #include "compressor/encode/noise/rank_selection.h"
+#include "compressor/encode/svd/position_blocks.h"
 #include "compressor/encode/svd/tsqr.h"
 #include "paim/base/check.h"
 #include "paim/base/median.h"
 #include "paim/base/parallel.h"
-#include "paim/mesh/pieces.h"
 
 namespace paim {
 
@@ -25,7 +24,6 @@ class MotionMeter {
     MotionMeter(const RowSource& rows, const PrincipalComponents& components,
                 std::span<const uint32_t> vertices, const MotionLimits& limits)
         : rows_(rows),
-          num_vertices_(rows.num_rows() / 3),
           vertices_(vertices),
           v_(components.v.leftCols(components.rank())),
           group_(limits.group),
@@ -45,16 +43,7 @@ class MotionMeter {
     // Calls use(first, count) for vertices whose positions are in planes_.
     template <typename Use>
     void for_each_block(const Use& use) {
-        // Three planes of so many rows are as large as a block of any other pass.
-        const uint64_t at_once = std::max<uint64_t>(1, rows_per_block(rows_.num_columns()) / 3);
-        for (uint64_t first = 0; first < num_vertices_; first += at_once) {
-            const uint64_t count = std::min(at_once, num_vertices_ - first);
-            for (uint64_t axis = 0; axis < 3; ++axis) {
-                planes_[axis].resize(static_cast<Index>(count), v_.rows());
-                rows_.read(axis * num_vertices_ + first, planes_[axis]);
-            }
-            use(first, count);
-        }
+        for_each_position_block(rows_, planes_, use);
     }
 
     // Those of vertices [begin, end) that count.
@@ -150,31 +139,16 @@ class MotionMeter {
     }
 
     const RowSource& rows_;
-    const uint64_t num_vertices_;
     const std::span<const uint32_t> vertices_;
     const MatrixXd v_;  // [P][K]
     const std::vector<uint32_t>& group_;
     const uint32_t num_groups_;
     const double lost_energy_, invisible_energy_;
-    MatrixXd of_group_;               // [groups][3][K] factors of the mean of each group
-    std::array<MatrixXf, 3> planes_;  // of the vertices at work
+    MatrixXd of_group_;     // [groups][3][K] factors of the mean of each group
+    PositionBlock planes_;  // of the vertices at work
 };
 
 }  // namespace
-
-std::vector<uint32_t> motion_groups(const Topology& topology) {
-    constexpr uint64_t kShare = 20;
-    const Pieces pieces = connected_pieces(topology);
-    std::vector<uint32_t> number(pieces.count, 0);
-    uint32_t next = 1;
-    for (size_t j = 0; j < number.size(); ++j) {
-        if (kShare * pieces.num_vertices[j] >= topology.num_vertices) number[j] = next++;
-    }
-    std::vector<uint32_t> group(pieces.of_vertex.size());
-    std::transform(pieces.of_vertex.begin(), pieces.of_vertex.end(), group.begin(),
-                   [&](uint32_t piece) { return number[piece]; });
-    return group;
-}
 
 uint32_t components_for_motion(const RowSource& rows, const PrincipalComponents& components,
                                std::span<const uint32_t> vertices, const MotionLimits& limits) {
@@ -188,8 +162,8 @@ uint64_t components_for_motion_bytes(uint64_t num_vertices, uint64_t num_poses,
     // V, and three planes of vertices as floats. On each thread centred rows, their factors, the sum
     // of their squares, and as much again for products.
     const uint64_t rows = rows_per_block(static_cast<uint32_t>(num_poses)) + 3;
-    // Of each vertex its energy, twice, its group, and its piece while groups are found.
-    const uint64_t of_vertices = num_vertices * (2 * sizeof(double) + 4 * sizeof(uint32_t));
+    // Of each vertex its energy, twice, and its group.
+    const uint64_t of_vertices = num_vertices * (2 * sizeof(double) + sizeof(uint32_t));
     return of_vertices +
            num_poses * (num_poses * sizeof(double) + rows * sizeof(float) +
                         num_threads * 5 * static_cast<uint64_t>(kRowsAtOnce) * sizeof(double));

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "compressor/encode/svd/principal_components.h"
-#include "paim/mesh/topology.h"
 
 namespace paim {
 
@@ -23,13 +22,9 @@ struct MotionLimits {
     double lost_share = 0.1;
     // Scene units; dropped motion up to this is too small to be seen.
     double invisible = 0.0;
-    // [V] numbers of groups, from 0 without gaps; empty: the whole mesh is one.
+    // [V] numbers of groups (motion_groups()); empty: the whole mesh is one.
     std::vector<uint32_t> group = {};
 };
-
-// A group for each connected piece that has a twentieth of all vertices or more, such as a floor,
-// and one for all other vertices.
-std::vector<uint32_t> motion_groups(const Topology& topology);
 
 // The fewest components with which every vertex is within one of the two limits.
 // rows      planes x, y and z of V rows each; read three times
@@ -37,7 +32,7 @@ std::vector<uint32_t> motion_groups(const Topology& topology);
 uint32_t components_for_motion(const RowSource& rows, const PrincipalComponents& components,
                                std::span<const uint32_t> vertices, const MotionLimits& limits);
 
-// Memory of motion_groups() and components_for_motion() for V vertices and P poses.
+// Memory of components_for_motion() for V vertices and P poses.
 uint64_t components_for_motion_bytes(uint64_t num_vertices, uint64_t num_poses,
                                      uint64_t num_threads);
 

@@ -34,6 +34,8 @@ struct BakeIdentity {
     uint64_t mesh_xxh3 = 0;        // of triangles and albedo
     Vec3d origin = Vec3d::Zero();  // origin of the scene's coordinates, scene units
     RootMotion root_motion;        // [P] or empty: poses are in local coordinates
+    // How many vertices, from the first, follow the root motion. The others are a floor.
+    uint32_t num_following = kAllVertices;
     struct Source {
         std::string name;
         uint64_t xxh3 = 0;

@@ -21,8 +21,10 @@ using nlohmann::ordered_json;
 namespace {
 
 constexpr uint32_t kManifestVersion = 2;
-// With a root motion, so that readers which know nothing of it refuse the bake.
+// With a root motion, and with one that not all vertices follow, so that readers which know nothing
+// of it refuse the bake.
 constexpr uint32_t kRootMotionVersion = 3;
+constexpr uint32_t kFollowingVersion = 4;
 constexpr uint32_t kMaxCount = std::numeric_limits<int32_t>::max();
 constexpr uint64_t kMaxSizeBytes = 64 << 20;
 
@@ -62,6 +64,11 @@ std::string first_difference(const char* what, const std::vector<BakeIdentity::S
     return {};
 }
 
+uint32_t manifest_version(const BakeIdentity& identity) {
+    if (identity.root_motion.empty()) return kManifestVersion;
+    return identity.num_following == kAllVertices ? kRootMotionVersion : kFollowingVersion;
+}
+
 }  // namespace
 
 std::string as_manifest_text(const std::string& text) {
@@ -72,7 +79,7 @@ std::string as_manifest_text(const std::string& text) {
 std::string manifest_text(const BakeIdentity& identity) {
     ordered_json json;
     json["format"] = "paim-bake";
-    json["version"] = identity.root_motion.empty() ? kManifestVersion : kRootMotionVersion;
+    json["version"] = manifest_version(identity);
     json["baker"] = identity.baker;
     json["transfer_kind"] = "diffuse";
     json["bands"] = identity.layout.in_bands;
@@ -86,6 +93,9 @@ std::string manifest_text(const BakeIdentity& identity) {
     if (identity.bounces > 0) json["bounces"] = identity.bounces;
     if (!identity.floor.empty()) json["floor"] = identity.floor;
     json["num_vertices"] = identity.num_vertices;
+    if (manifest_version(identity) == kFollowingVersion) {
+        json["num_following"] = identity.num_following;
+    }
     json["num_triangles"] = identity.num_triangles;
     json["mesh_xxh3"] = hex(identity.mesh_xxh3);
     // JSON numbers are written with enough digits to read the same double.
@@ -112,9 +122,9 @@ BakeIdentity read_manifest(const std::filesystem::path& path) {
     const Metadata metadata({bytes.data(), bytes.size()}, file);
     if (metadata.text("format") != "paim-bake") throw_bad_input("{}: not a bake's manifest", file);
     const uint32_t version = metadata.integer("version", 1, kMaxCount);
-    if (version != kManifestVersion && version != kRootMotionVersion) {
-        throw_unsupported("{}: bake version {}, expected {} or {}", file, version, kManifestVersion,
-                          kRootMotionVersion);
+    if (version < kManifestVersion || version > kFollowingVersion) {
+        throw_unsupported("{}: bake version {}, expected {} to {}", file, version, kManifestVersion,
+                          kFollowingVersion);
     }
     if (metadata.text("transfer_kind") != "diffuse") {
         throw_unsupported("{}: transfer of kind '{}'", file, metadata.text("transfer_kind"));
@@ -136,6 +146,9 @@ BakeIdentity read_manifest(const std::filesystem::path& path) {
     }
     if (metadata.root().contains("floor")) identity.floor = metadata.text("floor");
     identity.num_vertices = metadata.integer("num_vertices", 1, kMaxCount);
+    if (version == kFollowingVersion) {
+        identity.num_following = metadata.integer("num_following", 0, identity.num_vertices - 1);
+    }
     identity.num_triangles = metadata.integer("num_triangles", 1, kMaxCount);
     identity.mesh_xxh3 = parse_hex(metadata.text("mesh_xxh3"), file, "mesh_xxh3");
     identity.origin = metadata.point("origin");
@@ -154,7 +167,7 @@ BakeIdentity read_manifest(const std::filesystem::path& path) {
     std::vector<double> root;
     for (const nlohmann::json& entry : *poses) {
         identity.poses.push_back(source_of(entry));
-        if (version != kRootMotionVersion) continue;
+        if (version == kManifestVersion) continue;
         constexpr double kMax = 4e38;  // the range of floats, and rounding
         const Metadata pose = Metadata::part(entry, file);
         const std::vector<double> numbers = pose.numbers("root", kRootNumbers, -kMax, kMax);
@@ -192,6 +205,7 @@ std::string first_difference(const BakeIdentity& there, const BakeIdentity& want
           differ("poses", there.num_poses(), wanted.num_poses()),
           differ("origin", shown(there.origin), shown(wanted.origin)),
           differ("root motion", shown(there.root_motion), shown(wanted.root_motion)),
+          differ("vertices that follow the root motion", there.num_following, wanted.num_following),
           differ("static files", there.still_meshes.size(), wanted.still_meshes.size()),
           differ("checksum of faces and albedo", hex(there.mesh_xxh3), hex(wanted.mesh_xxh3))}) {
         if (!difference.empty()) return difference;

@@ -36,6 +36,10 @@ const RootMotion& BakedPart::root_motion() const {
     return still_ == nullptr ? bake_.identity().root_motion : none;
 }
 
+uint32_t BakedPart::num_following() const {
+    return still_ == nullptr ? bake_.identity().num_following : kAllVertices;
+}
+
 void BakedPart::read_position_rows(uint32_t p, uint64_t first, uint64_t count, float* out) const {
     if (still_ == nullptr) return bake_.read_position_rows(p, first, count, out);
     copy_rows(still_->pose.positions, first, count, out);

@@ -18,6 +18,7 @@ class BakedPart {
     const Topology& topology() const;
     const Albedo& albedo() const;
     const RootMotion& root_motion() const;  // empty: none
+    uint32_t num_following() const;         // of the vertices, from the first; kAllVertices: all
     uint32_t num_vertices() const { return topology().num_vertices; }
     uint32_t num_poses() const { return still_ == nullptr ? bake_.num_poses() : 1; }
 

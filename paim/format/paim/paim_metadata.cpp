@@ -15,6 +15,15 @@ namespace {
 constexpr const char* kSingularIndices[2] = {"geometry_singular_indices",
                                              "transfer_singular_indices"};
 
+bool has_floor(const CodedMesh& mesh) {
+    return !mesh.root_motion.empty() && mesh.num_following < mesh.topology.num_vertices;
+}
+
+const char* transfer_kind(const CodedMesh& mesh) {
+    if (mesh.root_motion.empty()) return kDiffuse;
+    return has_floor(mesh) ? kDiffuseLocalOnFloor : kDiffuseLocal;
+}
+
 }  // namespace
 
 std::string paim_metadata(const Asset& asset) {
@@ -25,7 +34,8 @@ std::string paim_metadata(const Asset& asset) {
     root["num_poses"] = asset.num_poses();
     root["frames_per_second"] = asset.frames_per_second;
     if (const Vec3d& o = asset.origin; !o.isZero(0.0)) root["origin"] = {o.x(), o.y(), o.z()};
-    root["transfer_kind"] = mesh.root_motion.empty() ? kDiffuse : kDiffuseLocal;
+    root["transfer_kind"] = transfer_kind(mesh);
+    if (has_floor(mesh)) root["num_following"] = mesh.num_following;
     root["bands"] = mesh.layout.in_bands;
     root["channels"] = mesh.layout.channels;
     if (asset.vertex_order == VertexOrder::cache) root["vertex_order"] = "local";

@@ -9,10 +9,11 @@
 
 namespace paim {
 
-// Kinds of transfer: in the axes of the scene, or in those of a part that has a root motion. Readers
-// that know nothing of root motion refuse the second.
+// Kinds of transfer: in the axes of the scene, in those of a root motion, and in those of a root motion
+// that not all vertices follow. Readers that know nothing of it refuse the second and the third.
 constexpr const char* kDiffuse = "diffuse";
 constexpr const char* kDiffuseLocal = "diffuse-local";
+constexpr const char* kDiffuseLocalOnFloor = "diffuse-local-on-floor";
 
 std::string paim_metadata(const Asset& asset);
 

@@ -41,7 +41,7 @@ TransferLayout read_layout(const Metadata& metadata) {
     layout.channels = metadata.integer("channels", 1, 3);
     if (layout.channels == 2) throw_unsupported("{}: 2 transfer channels", metadata.file());
     if (const std::string kind = metadata.text("transfer_kind");
-        kind != kDiffuse && kind != kDiffuseLocal) {
+        kind != kDiffuse && kind != kDiffuseLocal && kind != kDiffuseLocalOnFloor) {
         throw_unsupported("{}: transfer of kind '{}'", metadata.file(), kind);
     }
     return layout;
@@ -103,7 +103,11 @@ CodedMesh start_moving(const Metadata& metadata) {
         mesh.positions.fraction_bits = metadata.integer("geometry_fraction_bits", 2, 4);
     }
     // 64 MB at most, which every file may claim (kMaxFreeBytes).
-    if (metadata.text("transfer_kind") == kDiffuseLocal) mesh.root_motion.resize(num_poses);
+    const std::string kind = metadata.text("transfer_kind");
+    if (kind != kDiffuse) mesh.root_motion.resize(num_poses);
+    if (kind == kDiffuseLocalOnFloor) {
+        mesh.num_following = metadata.integer("num_following", 0, mesh.topology.num_vertices);
+    }
     mesh.transfer = start_transfer(metadata);
     const uint32_t num_points = mesh.transfer->start(mesh.topology.num_vertices);
     mesh.transfer->matrix = start_matrix(metadata, "transfer_components", num_points,
@@ -142,6 +146,18 @@ void read_indices(const Metadata& metadata, Attribute attribute, uint32_t num_co
     if (!matrix.singular_indices.empty()) matrix.singular_indices.resize(matrix.num_components);
 }
 
+// Players draw the triangles of the floor after all others.
+void check_floor(const ContainerReader& reader, const CodedMesh& mesh) {
+    const std::vector<Triangle>& triangles = mesh.topology.triangles;
+    const size_t first = mesh.topology.num_triangles_before(mesh.num_following);
+    for (size_t j = first; j < triangles.size(); ++j) {
+        if (std::ranges::min(triangles[j]) >= mesh.num_following) continue;
+        throw_bad_input(
+            "{}: triangle {} follows the root motion, expected it before those of the floor",
+            reader.name(), j);
+    }
+}
+
 Extent extent_of(const ReadOptions& options) {
     return options.prefix ? Extent::prefix : Extent::whole;
 }
@@ -166,6 +182,7 @@ Asset read_asset(const ContainerReader& reader) {
     const uint32_t geometry_components = positions.num_components;
     const uint32_t transfer_components = transfer.num_components;
     read_sections(reader, {prefix.geometry_components, prefix.transfer_components}, asset);
+    check_floor(reader, asset.moving());
     read_indices(metadata, Attribute::geometry, geometry_components, positions);
     read_indices(metadata, Attribute::transfer, transfer_components, transfer);
     asset.complete = positions.num_components == geometry_components &&

@@ -81,6 +81,25 @@ TEST(MoveToLocal, MovesPositionsAndTurnsNormals) {
     }
 }
 
+// A floor keeps its place, its axes and its transfer; the body is moved as without a floor.
+TEST(MoveToLocal, LeavesAFloorAsItIs) {
+    const TransferLayout layout{TransferKind::diffuse, 3, 3};
+    constexpr uint32_t kFollowing = 3;
+    const BakedPose before = random_pose(layout);
+    BakedPose whole = before, after = before;
+    move_to_local(some_root(), Vec3d::Zero(), layout, whole);
+    move_to_local(some_root(), Vec3d::Zero(), layout, after, kFollowing);
+    for (const auto member :
+         {&BakedPose::positions, &BakedPose::normals, &BakedPose::transfer, &BakedPose::noise}) {
+        const std::vector<float>& values = after.*member;
+        for (size_t j = 0; j < values.size(); ++j) {
+            const bool follows = j % kVertices < kFollowing;
+            EXPECT_EQ(values[j], (follows ? whole.*member : before.*member)[j]) << j;
+        }
+    }
+    EXPECT_NE(whole.noise, before.noise);
+}
+
 // An outlier at the end of the range of floats may be beyond it when it is turned.
 TEST(MoveToLocal, StaysFinite) {
     const TransferLayout layout{TransferKind::diffuse, 2, 1};

@@ -97,6 +97,18 @@ TEST(Locality, OfNoTrianglesIsNoChange) {
     }
 }
 
+// A floor is such a piece. Vertices of no triangle go behind it.
+TEST(Locality, KeepsALastPieceLast) {
+    Topology mesh = scattered_sheet(7);
+    const uint32_t first = mesh.num_vertices;
+    const size_t num_triangles = mesh.triangles.size();
+    mesh.append(scattered_sheet(20));
+    const CacheOrder order = cache_order(mesh);
+    EXPECT_EQ(order.topology.num_triangles_before(7 * 7), num_triangles);
+    EXPECT_EQ(new_number_of_first(first, order.old_vertex), 7u * 7u);
+    EXPECT_EQ(new_number_of_first(mesh.num_vertices, order.old_vertex), kAllVertices);
+}
+
 // Triangles that name a vertex twice are kept: the model has as many as the bake.
 TEST(Locality, KeepsDegenerateTriangles) {
     const Topology mesh{4, {{1, 1, 2}, {3, 3, 3}, {0, 1, 2}}};

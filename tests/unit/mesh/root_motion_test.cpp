@@ -56,6 +56,13 @@ TEST(MoveToScene, RotatesThenTranslates) {
     EXPECT_LT((root.to_local(root.to_scene({1, 2, 3})) - Vec3d(1, 2, 3)).norm(), 1e-13);
 }
 
+TEST(MoveToScene, LeavesPointsThatDoNotFollow) {
+    std::vector<float> planes{0, 1, 0, 2, 1, 3};
+    move_to_scene(turned(90, Vec3d::UnitY(), {10, 20, 30}), planes, 1);
+    const std::vector<float> expected{11, 1, 20, 2, 30, 3};
+    for (size_t j = 0; j < planes.size(); ++j) EXPECT_NEAR(planes[j], expected[j], 1e-5f) << j;
+}
+
 TEST(RotationVector, GoesThereAndBack) {
     for (const double angle : {0.0, 1e-9, 0.5, 2.0, kPi - 1e-9}) {
         const Vec3d vector = angle * Vec3d(2, -1, 2) / 3.0;

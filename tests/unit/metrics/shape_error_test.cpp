@@ -116,6 +116,17 @@ TEST(ShapeError, OfASmallPieceIsNotHidden) {
     EXPECT_NEAR(error.whole.normal_angle_deg, 90.0 / 11.0, 1e-9);
 }
 
+// Nor do vertices of no face hide it.
+TEST(ShapeError, JudgesTheSamePiecesWithVerticesOfNoFace) {
+    // Strips of 60 and 1000 vertices.
+    Topology topology{1060, {}};
+    for (uint32_t v = 0; v + 2 < 60; ++v) topology.triangles.push_back({v, v + 1, v + 2});
+    for (uint32_t v = 60; v + 2 < 1060; ++v) topology.triangles.push_back({v, v + 1, v + 2});
+    EXPECT_EQ(ShapeNeighbours(topology).judged.count, 2u);
+    topology.num_vertices += 1000;
+    EXPECT_EQ(ShapeNeighbours(topology).judged.count, 2u);
+}
+
 // Poses are added in pieces of every length, on any number of threads.
 TEST(ShapeError, DoesNotDependOnHowPosesAreAdded) {
     const PoseSet octopus = poses::make_octopus(1000, 7);

@@ -170,6 +170,25 @@ TEST(FindRootMotion, TakesOutAPathOfAnyLength) {
     }
 }
 
+TEST(FindRootMotion, TakesOutPathsOfManyKinds) {
+    using Path = std::function<Vec3d(uint32_t)>;
+    const std::vector<std::pair<const char*, Path>> paths{
+        {"climbs stairs", [](uint32_t p) { return Vec3d(2.0 * p, 1.5 * (p / 2), 0); }},
+        {"walks to and fro", [](uint32_t p) { return Vec3d(0, 0, 5.0 * std::min(p, 8 - p)); }},
+        {"begins again", [](uint32_t p) { return Vec3d(5.0 * (p % 4), 0, 0); }}};
+    for (const auto& [name, path] : paths) {
+        const PoseSet walk = animated([&path = path](uint32_t p, const Vec3d& point) {
+            return Vec3d(swing(p, point) + path(p));
+        });
+        const RootMotion motion = find_root_motion(walk, RootMotionChoice::automatic);
+        ASSERT_EQ(motion.size(), 8u) << name;
+        for (uint32_t p = 0; p < 8; ++p) {
+            const Vec3d moved = motion[p].translation - motion[0].translation;
+            EXPECT_LT((moved - path(p) + path(0)).norm(), 0.3) << name << ' ' << p;  // the swing
+        }
+    }
+}
+
 // The pose is an outlier then, and is coded as one.
 TEST(FindRootMotion, PutsAJumpBackOnThePath) {
     for (const uint32_t bad : {0u, 4u, 7u}) {

@@ -42,6 +42,14 @@ TEST(Targets, OfTheShapeFollowFromTheGeometryErrorThatIsAskedFor) {
     EXPECT_EQ(targets.surface.normal_angle_deg, 7.0);
 }
 
+TEST(Targets, OfTheShapeAreAtMostThoseOfAnyShape) {
+    EncodeTarget asked;
+    asked.geometry_error = 0.1;
+    const Targets targets = targets_of(asked, 0.05, 1.0);
+    EXPECT_EQ(targets.surface.sted, kLargestSted);
+    EXPECT_EQ(targets.surface.normal_angle_deg, kLargestNormalAngle_deg);
+}
+
 TEST(Excess, IsTheLargestOfThreeShares) {
     const SurfaceTarget target{2.0, 0.1, 4.0};
     EXPECT_DOUBLE_EQ(excess(surface_error(1.0, 0.01, 1.0), target), 0.5);
@@ -67,12 +75,12 @@ TEST(MissedSurface, NamesTheWorstErrorAndItsOption) {
               "--geometry-error of 0.42 or more");
     EXPECT_EQ(missed_surface(surface_error(1.0, 0.2, 4.1), target),
               "a STED of 10 % is asked for, but positions as floats have 20 % at best in the worst "
-              "piece of the mesh: allow a --max-sted of 21% or more, or a larger --geometry-error");
+              "piece of the mesh: allow a --max-sted of 21% or more");
     EXPECT_EQ(
         missed_surface(surface_error(1.0, 0.2, 10.0), target),
         "a mean angle of face normals of 4 degrees is asked for, but positions as floats have "
         "10 at best in the worst piece of the mesh: allow a --max-normal-angle of 10.5 or "
-        "more, or a larger --geometry-error");
+        "more");
 }
 
 }  // namespace

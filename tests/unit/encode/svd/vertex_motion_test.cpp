@@ -69,20 +69,6 @@ TEST(VertexMotion, IsNotHiddenByOneVertex) {
     EXPECT_EQ(needed(matrix, {0.1, 1e-3}), 2u);
 }
 
-TEST(VertexMotion, GroupsAreLargePieces) {
-    // Two pieces of 40 and 30 vertices, and ten of three.
-    Topology topology{100, {}};
-    for (uint32_t v = 0; v + 2 < 40; ++v) topology.triangles.push_back({v, v + 1, v + 2});
-    for (uint32_t v = 40; v + 2 < 70; ++v) topology.triangles.push_back({v, v + 1, v + 2});
-    for (uint32_t v = 70; v < 100; v += 3) topology.triangles.push_back({v, v + 1, v + 2});
-    const std::vector<uint32_t> group = motion_groups(topology);
-    EXPECT_EQ(group[0], 1u);
-    EXPECT_EQ(group[39], 1u);
-    EXPECT_EQ(group[40], 2u);
-    EXPECT_EQ(group[70], 0u);
-    EXPECT_EQ(group[99], 0u);
-}
-
 TEST(VertexMotion, MayLoseWhatCannotBeSeen) {
     const Eigen::MatrixXf matrix = walk(30.0, 0.3, 0.3);
     // The RMS of a sine is its amplitude by √2. The hand sways by 0.3 |cos 9h|, and so do others by

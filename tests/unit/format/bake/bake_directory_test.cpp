@@ -378,14 +378,14 @@ TEST_F(BakeDirectory, RefusesHostileManifests) {
     // What a later version wrote is not damaged.
     write_file(bake_ / "manifest.json", whole);
     std::string later = whole;
-    later.replace(later.find("\"version\": 2"), 12, "\"version\": 4");
+    later.replace(later.find("\"version\": 2"), 12, "\"version\": 5");
     write_file(bake_ / "manifest.json", later);
     try {
         BakeReader reader(bake_);
         ADD_FAILURE();
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ExitCode::unsupported);
-        expect_contains(error.what(), "bake version 4, expected 2 or 3");
+        expect_contains(error.what(), "bake version 5, expected 2 to 4");
     }
 }
 

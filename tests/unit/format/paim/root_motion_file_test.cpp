@@ -89,6 +89,48 @@ TEST(RootMotionInFiles, RefusesNumbersThatAreNoMotion) {
     EXPECT_THROW(root_motion_of({0, 0, 4, 0, 0, 0}, "x"), Error);
 }
 
+// Two triangles, of which the second does not follow.
+Asset example_on_floor() {
+    Asset asset = make_example_asset();
+    CodedMesh& mesh = asset.moving();
+    mesh.topology.triangles = {{0, 1, 0}, {2, 3, 2}};
+    mesh.root_motion = some_motion(asset.num_poses());
+    mesh.num_following = 2;
+    return asset;
+}
+
+TEST(RootMotionInFiles, MayLeaveAFloorInItsPlace) {
+    const TemporaryDirectory directory;
+    Asset asset = example_on_floor();
+    write_paim(directory / "x.paim", asset);
+    EXPECT_EQ(read_paim(directory / "x.paim").moving().num_following, 2u);
+    // Readers of earlier versions refuse this kind.
+    const std::vector<char> bytes = read_file(directory / "x.paim", 1 << 20);
+    const std::string text(bytes.begin(), bytes.end());
+    EXPECT_NE(text.find("\"transfer_kind\": \"diffuse-local-on-floor\""), std::string::npos);
+    // All follow: no floor.
+    asset.moving().num_following = 4;
+    write_paim(directory / "x.paim", asset);
+    EXPECT_EQ(read_paim(directory / "x.paim").moving().num_following, kAllVertices);
+}
+
+TEST(RootMotionInFiles, RefusesAFloorAmongTheTrianglesOfTheBody) {
+    for (const Triangle& odd : {Triangle{0, 2, 1}, Triangle{1, 0, 1}}) {
+        const TemporaryDirectory directory;
+        Asset asset = example_on_floor();
+        asset.moving().topology.triangles.push_back(odd);
+        write_paim(directory / "x.paim", asset);
+        try {
+            read_paim(directory / "x.paim");
+            FAIL() << "expected an error";
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ExitCode::bad_input);
+            EXPECT_NE(std::string(error.what()).find("triangle 2"), std::string::npos)
+                << error.what();
+        }
+    }
+}
+
 TEST(RootMotionInManifests, RoundTrips) {
     const TemporaryDirectory directory;
     BakeIdentity identity;
@@ -111,6 +153,12 @@ TEST(RootMotionInManifests, RoundTrips) {
     other.root_motion[1].translation.x() += 1e-9;
     EXPECT_NE(first_difference(found, other).find("root motion"), std::string::npos);
     EXPECT_NE(identity_checksum(found), identity_checksum(other));
+    // A floor that does not follow.
+    identity.num_following = 2;
+    const BakeIdentity on_floor = read();
+    EXPECT_EQ(on_floor, identity);
+    EXPECT_NE(first_difference(found, on_floor).find("vertices that follow"), std::string::npos);
+    EXPECT_NE(identity_checksum(found), identity_checksum(on_floor));
 }
 
 }  // namespace
