@@ -245,6 +245,11 @@ void ObjSequence::build(Triangulation cut) {
                   ? Albedo{{*options_.albedo}}
                   : obj_albedo(name, first_.faces, parsed, vertex_colours_.srgb, warnings_);
 
+    if (!options_.albedo && first_.num_uncolored > 0) {
+        warnings_.push_back(fmt::format(
+            "{}: vertex colours ignored: {} vertices of faces have none, e.g. vertex {}", name,
+            first_.num_uncolored, uint64_t{first_.first_uncolored} + 1));
+    }
     const auto warn = [&](uint64_t count, const char* what) {
         if (count > 0) warnings_.push_back(fmt::format("{}: {} {}", name, count, what));
     };
