@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "compressor/io/digit.h"
+#include "compressor/io/digit_signs.h"
 
 namespace paim {
 
@@ -29,11 +30,6 @@ std::string shape_of(std::string_view text) {
     return shape;
 }
 
-// What names that are alike have in common: the shape of the text before and after a number.
-std::string place_of(std::string_view before, std::string_view after) {
-    return shape_of(before) + '\0' + shape_of(after);
-}
-
 std::string_view without_hyphen(std::string_view text) {
     if (text.ends_with('-')) text.remove_suffix(1);
     return text;
@@ -42,18 +38,6 @@ std::string_view without_hyphen(std::string_view text) {
 std::string_view without_leading_zeros(std::string_view digits) {
     digits.remove_prefix(std::min(digits.find_first_not_of('0'), digits.size()));
     return digits;
-}
-
-NameNumber number_of(std::string_view name, size_t begin, size_t end) {
-    NameNumber number{begin, end, false, {}, {}};
-    const std::string_view text = name.substr(begin, end - begin);
-    const size_t point = std::min(text.find('.'), text.size());
-    number.whole = without_leading_zeros(text.substr(0, point));
-    if (point < text.size()) {
-        const std::string_view digits = text.substr(point + 1);
-        number.fraction = digits.substr(0, digits.find_last_not_of('0') + 1);
-    }
-    return number;
 }
 
 // Runs of digits in the stem, each as a number.
@@ -232,6 +216,22 @@ void find_signs(const Names& names, Numbers& numbers) {
 
 }  // namespace
 
+std::string place_of(std::string_view before, std::string_view after) {
+    return shape_of(before) + '\0' + shape_of(after);
+}
+
+NameNumber number_of(std::string_view name, size_t begin, size_t end) {
+    NameNumber number{begin, end, false, {}, {}};
+    const std::string_view text = name.substr(begin, end - begin);
+    const size_t point = std::min(text.find('.'), text.size());
+    number.whole = without_leading_zeros(text.substr(0, point));
+    if (point < text.size()) {
+        const std::string_view digits = text.substr(point + 1);
+        number.fraction = digits.substr(0, digits.find_last_not_of('0') + 1);
+    }
+    return number;
+}
+
 int compare(const NameNumber& a, const NameNumber& b) {
     if (a.negative != b.negative) return a.negative ? -1 : 1;
     int order = 0;
@@ -257,6 +257,7 @@ std::vector<std::vector<NameNumber>> find_numbers(const std::vector<std::string_
     for (const std::string_view name : names) numbers.push_back(runs_of(name));
     join_fractions(names, numbers);
     find_signs(names, numbers);
+    find_signs_behind_digits(names, numbers);
     return numbers;
 }
 

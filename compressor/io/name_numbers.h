@@ -18,6 +18,12 @@ struct NameNumber {
     bool is_zero() const { return whole.empty() && fraction.empty(); }
 };
 
+// The number of the digits [begin, end), which may have a point among them.
+NameNumber number_of(std::string_view name, size_t begin, size_t end);
+
+// What names that are alike have in common: the shape of the text before and after a number.
+std::string place_of(std::string_view before, std::string_view after);
+
 // Negative, zero or positive, by value.
 int compare(const NameNumber& a, const NameNumber& b);
 
@@ -35,7 +41,8 @@ size_t stem_size(std::string_view name);
 //   - elsewhere, if an alike name has a number without hyphen in this place (t-004 and t0002), and
 //     one such number is 0, or all are padded to one width that counts the sign (-004 and 0002), or
 //     they go on where the negative ones end, with the step of the others.
-// It is no sign after a digit, and nowhere in alike names of which one has it before 0 (walk-00).
+// After a digit it is one by the rules of digit_signs.h alone (walk2-001 and walk20001). It is no sign
+// in alike names of which one has it before 0 (walk-00).
 //
 // A point between two numbers is a decimal point, if
 //   - an alike name has the whole number alone (t.1), or the fraction 0 (t.1.0), or a longer

@@ -10,8 +10,8 @@
 
 namespace paim {
 
-// The albedo is the colours of the vertices, if all have one; else the Kd of materials, averaged
-// over the faces at each vertex (each face counts once, whatever its area; a face without Kd has
+// The albedo is the colours of the vertices, if all that a face has have one; else the Kd of
+// materials, averaged over the faces at each vertex (each face counts once, whatever its area; a face without Kd has
 // the default albedo); else the default albedo. It is one value if all faces have the same. Values
 // are linear; Kd is taken as linear.
 // srgb      whether the colours of vertices are to be converted from sRGB, after clamping

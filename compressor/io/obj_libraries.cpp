@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <set>
 #include <string_view>
@@ -78,11 +79,52 @@ std::string_view without_comment(std::string_view text) {
 
 bool ends_in_mtl(std::string_view word) {
     word = word.substr(0, word.find_last_not_of("\"'") + 1);
-    if (word.size() < 4) return false;
-    std::string end(word.substr(word.size() - 4));
-    for (char& c : end) c = lower_case(c);
-    return end == ".mtl";
+    return word.size() >= 4 && in_lower_case(word.substr(word.size() - 4)) == ".mtl";
 }
+
+// Finds files by names that differ from theirs in case only.
+class OtherCase {
+  public:
+    // The file of this name in the folder: of each part of the path as it is written, or else of the
+    // only one that differs from it in case only. Nothing if there is no regular file, or if `name`
+    // is absolute.
+    std::optional<fs::path> find(const fs::path& folder, const fs::path& name) {
+        if (name.empty() || name.is_absolute()) return std::nullopt;
+        fs::path path = folder;
+        std::error_code failure;
+        for (const fs::path& part : name) {
+            fs::path next = path / part;
+            if (!fs::exists(next, failure)) {
+                const std::string* const only = only_entry(path, part.native());
+                if (only == nullptr) return std::nullopt;
+                next = path / *only;
+            }
+            path = std::move(next);
+        }
+        return fs::is_regular_file(path, failure) ? std::optional(path) : std::nullopt;
+    }
+
+  private:
+    using Entries = std::map<std::string, std::vector<std::string>>;  // by name in lower case
+
+    const std::string* only_entry(const fs::path& folder, const std::string& name) {
+        const auto [known, is_new] = folders_.try_emplace(folder.native());
+        if (is_new) {
+            // "" is the folder of "x.obj". A folder that cannot be read is empty.
+            std::error_code failure;
+            fs::directory_iterator at(folder.empty() ? fs::path(".") : folder, failure);
+            for (; !failure && at != fs::directory_iterator(); at.increment(failure)) {
+                std::string entry = at->path().filename().native();
+                known->second[in_lower_case(entry)].push_back(std::move(entry));
+            }
+        }
+        const auto found = known->second.find(in_lower_case(name));
+        if (found == known->second.end() || found->second.size() != 1) return nullptr;
+        return &found->second[0];
+    }
+
+    std::map<std::string, Entries> folders_;
+};
 
 class LibraryReader {
   public:
@@ -112,7 +154,7 @@ class LibraryReader {
                 if (i > 0 && words[i][0] == '#') return;
                 const size_t end = std::min(words.size(), i + kMaxWords) - 1;
                 for (last = i; last < end && !ends_in_mtl(words[last]);) ++last;
-                path = find_by_last_part(join(i, last)).value_or(folder_ / join(i, last));
+                path = find_elsewhere(join(i, last));
             }
             read(*path);
             i = last + 1;
@@ -127,25 +169,43 @@ class LibraryReader {
         return path;
     }
 
-    std::optional<fs::path> find(std::string_view name) const {
+    // The first file that look_up() knows one of the forms of the name of.
+    template <typename LookUp>
+    static std::optional<fs::path> find_form(std::string_view name, const LookUp& look_up) {
         std::string last_tried;
         for (const std::string_view form : {name, without_quotes(name)}) {
             std::string slashes(form);
             std::replace(slashes.begin(), slashes.end(), '\\', '/');
             for (const std::string& tried : {std::string(form), slashes, without_escapes(form)}) {
                 if (tried == last_tried) continue;
-                if (auto path = existing(tried)) return path;
+                if (auto path = look_up(tried)) return path;
                 last_tried = tried;
             }
         }
         return std::nullopt;
     }
 
-    std::optional<fs::path> find_by_last_part(std::string_view name) const {
-        name = without_quotes(name);
-        const size_t separator = name.find_last_of("/\\");
-        if (separator == std::string_view::npos) return std::nullopt;
-        return existing(std::string(name.substr(separator + 1)));
+    std::optional<fs::path> find(std::string_view name) const {
+        return find_form(name, [this](const std::string& form) { return existing(form); });
+    }
+
+    // For a name that is no file: one in other case, or one of its last part next to the OBJ file.
+    fs::path find_elsewhere(std::string_view name) {
+        const auto in_other_case = [&](const std::string& form) {
+            auto path = other_case_.find(folder_, form);
+            if (path) {
+                result_.warnings.push_back(fmt::format("{}: taken for the material library '{}'",
+                                                       path->string(), printable(name)));
+            }
+            return path;
+        };
+        if (auto path = find_form(name, in_other_case)) return *path;
+        std::string_view last_part = without_quotes(name);
+        const size_t separator = last_part.find_last_of("/\\");
+        if (separator == std::string_view::npos) return folder_ / name;
+        last_part.remove_prefix(separator + 1);
+        if (auto path = existing(std::string(last_part))) return *path;
+        return in_other_case(std::string(last_part)).value_or(folder_ / name);
     }
 
     void read(const fs::path& path) {
@@ -164,6 +224,7 @@ class LibraryReader {
 
     fs::path folder_;
     ObjLibraries& result_;
+    OtherCase other_case_;
     std::set<std::string> lines_, read_;
     size_t num_words_left_ = kMaxAllWords;
     uint64_t num_bytes_ = 0;

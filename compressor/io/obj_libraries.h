@@ -21,8 +21,10 @@ struct ObjLibraries {
 //
 // A line may name several libraries with spaces between, and a name may have spaces. So from each
 // word on the longest name is taken that is a file. A name is looked for as it is written, without
-// quotes round it, and with each '\' as '/'; at last, by what follows its last '/' or '\', next to
-// the OBJ file. Names of files that are not there end with a word that ends in .mtl.
+// quotes round it, and with each '\' as '/'. Names of files that are not there end with a word that
+// ends in .mtl. Of these the only file is taken whose path differs in case only (of the letters
+// A to Z), with a warning; at last, what follows the last '/' or '\' is looked for next to the OBJ
+// file, as written or in other case.
 //
 // A material has all of the line as its name, without space at either end. A usemtl line that no
 // name equals is compared without quotes and with each run of space as one, and then one of the two

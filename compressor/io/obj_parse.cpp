@@ -46,9 +46,10 @@ ParsedObj parse_obj(const std::string& name, std::span<char> text, const ObjScan
     std::vector<tinyobj::shape_t> shapes;
     std::vector<tinyobj::material_t> materials;
     std::string warnings, errors;
-    // Does not triangulate, because the result would depend on the geometry of each pose.
+    // Does not triangulate, because the result would depend on the geometry of each pose. Vertices
+    // without a colour are white only if all of the faces have one.
     const bool loaded = tinyobj::LoadObj(&attributes, &shapes, &materials, &warnings, &errors,
-                                         &stream, nullptr, false, false);
+                                         &stream, nullptr, false, scan.has_colors);
     if (!loaded) throw_bad_input("{}: tinyobjloader: {}", name, printable(errors));
 
     std::vector<unsigned char> sizes;  // modulo 256

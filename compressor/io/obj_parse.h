@@ -14,8 +14,9 @@
 namespace paim {
 
 struct ParsedObj {
-    std::vector<Vec3d> positions;         // [V] scene units, those of the scan
-    std::vector<Vec3d> colors;            // [V] r g b as written, or empty unless all have one
+    std::vector<Vec3d> positions;  // [V] scene units, those of the scan
+    // [V] r g b as written, or empty unless all vertices of faces have one; others may be white.
+    std::vector<Vec3d> colors;
     std::vector<Vec3d> normals;           // vn lines as written
     std::vector<int32_t> corner_normals;  // per corner: index into normals, or -1
     std::vector<int32_t> face_materials;  // per face: index into materials, or -1

@@ -63,9 +63,7 @@ struct IndexRange {
 class Scanner {
   public:
     Scanner(const std::string& name, std::span<char> text, const ObjScanOptions& options)
-        : name_(name), text_(name, text), options_(options) {
-        scan_.has_colors = true;
-    }
+        : name_(name), text_(name, text), options_(options) {}
 
     ObjScan run() {
         for (; !text_.at_end(); text_.next_line()) {
@@ -101,7 +99,7 @@ class Scanner {
         if (num_values < 3) {
             text_.fail(fmt::format("vertex coordinate: expected 3 numbers, got {}", num_values));
         }
-        if (num_values < 6) scan_.has_colors = false;
+        vertex_has_color_.push_back(num_values >= 6);
         if (options_.read_positions) scan_.positions.push_back(position);
         if (++vertices_.num_elements > kMaxIndex) {
             text_.fail(fmt::format("expected at most {} vertices", kMaxIndex));
@@ -206,10 +204,27 @@ class Scanner {
         vertices_.check(name_);
         if (scan_.faces.num_faces() == 0) throw_bad_input("{}: no faces", name_);
         if (reference != nullptr) check_faces(*reference);
+        find_colors();
         if (options_.check_normals) {
             normals_.check(name_);
             check_corner_normals();
         }
+    }
+
+    void find_colors() {
+        std::vector<bool> seen(scan_.num_vertices, false);
+        bool any = false;
+        for (const uint32_t v : scan_.faces.corners) {
+            if (seen[v]) continue;
+            seen[v] = true;
+            if (vertex_has_color_[v]) {
+                any = true;
+            } else if (scan_.num_uncolored++ == 0 || v < scan_.first_uncolored) {
+                scan_.first_uncolored = v;
+            }
+        }
+        scan_.has_colors = any && scan_.num_uncolored == 0;
+        if (!any) scan_.num_uncolored = scan_.first_uncolored = 0;
     }
 
     void check_faces(const ObjReference& reference) const {
@@ -264,7 +279,7 @@ class Scanner {
     IndexRange texture_coordinates_{"texture coordinate index"};
     IndexRange normals_{"normal index"};
     std::vector<size_t> face_lines_;
-    std::vector<bool> corner_has_normal_;
+    std::vector<bool> vertex_has_color_, corner_has_normal_;
     std::unordered_map<std::string, int32_t> materials_;  // indices into those of the scan
     int32_t material_ = -1;
     bool has_objects_ = false;

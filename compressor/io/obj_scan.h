@@ -24,9 +24,13 @@ struct ObjName {
 
 struct ObjScan {
     uint32_t num_vertices = 0;
-    Polygons faces;                 // in the order of the file, all objects and groups together
-    std::vector<Vec3d> positions;   // [V] scene units, floats in range; empty unless read_positions
-    bool has_colors = false;        // every vertex is x y z r g b
+    Polygons faces;                // in the order of the file, all objects and groups together
+    std::vector<Vec3d> positions;  // [V] scene units, floats in range; empty unless read_positions
+    // Every vertex of a face is x y z r g b. Vertices of no face need no colour.
+    bool has_colors = false;
+    // If only some vertices of faces have a colour: the number of those without, and the first.
+    uint64_t num_uncolored = 0;
+    uint32_t first_uncolored = 0;
     uint64_t num_small_faces = 0;   // faces of fewer than 3 corners, which are ignored
     uint64_t num_other_shapes = 0;  // points and lines, which are ignored
 

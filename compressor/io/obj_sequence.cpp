@@ -7,7 +7,6 @@
 #include <atomic>
 #include <exception>
 #include <limits>
-#include <mutex>
 #include <utility>
 
 #include "compressor/io/obj_albedo.h"
@@ -22,8 +21,9 @@
 #include "paim/mesh/normals.h"
 #include "paim/mesh/orientation.h"
 #include "paim/mesh/origin.h"
-#include "paim/mesh/places.h"
 #include "paim/mesh/seams.h"
+#include "paim/mesh/sequence_places.h"
+#include "paim/mesh/usual_bounds.h"
 
 namespace paim {
 
@@ -34,36 +34,6 @@ constexpr uint64_t kMaxFileBytes = uint64_t{4} << 30;
 // The name of the first file for messages about another: without its folder if both have the same.
 std::string reference_name(const std::filesystem::path& first, const std::filesystem::path& other) {
     return first.parent_path() == other.parent_path() ? first.filename().string() : first.string();
-}
-
-// The bounds of the faces, or, where single vertices are far from all others, those of the middle 90 %
-// along each axis. So an outlier does not move the origin of the coordinates.
-BoundsD usual_bounds(const ObjScan& scan, const BoundsD& bounds) {
-    constexpr size_t kFewestCorners = 40, kMostCorners = 4000;
-    constexpr double kFar = 8.0;
-    const std::vector<uint32_t>& corners = scan.faces.corners;
-    if (corners.size() < kFewestCorners) return bounds;
-    const size_t step = corners.size() / kMostCorners + 1;
-    BoundsD middle;
-    Vec3d lower, upper;
-    for (int axis = 0; axis < 3; ++axis) {
-        std::vector<double> values;
-        for (size_t j = 0; j < corners.size(); j += step) {
-            values.push_back(scan.positions[corners[j]][axis]);
-        }
-        const auto quantile = [&](size_t percent) {
-            const auto at =
-                values.begin() + static_cast<ptrdiff_t>(percent * (values.size() - 1) / 100);
-            std::nth_element(values.begin(), at, values.end());
-            return *at;
-        };
-        lower[axis] = quantile(5);
-        upper[axis] = quantile(95);
-    }
-    middle.extend(lower);
-    middle.extend(upper);
-    return bounds.diagonal() > kFar * middle.diagonal() && middle.diagonal() > 0.0 ? middle
-                                                                                   : bounds;
 }
 
 }  // namespace
@@ -82,7 +52,7 @@ Triangulation ObjSequence::check_files() {
     std::vector<BoundsD> bounds(files_.size());  // of vertices of faces
     std::vector<BoundsD> usual(files_.size());   // of most of them
     std::optional<Triangulator> triangulator;
-    std::mutex places_mutex;
+    std::optional<SequencePlaces> places;
     const auto check = [&](size_t i) {
         std::vector<char> text = read_file(files_[i], kMaxFileBytes);
         checksums_[i] = xxh3(text.data(), text.size());
@@ -90,21 +60,23 @@ Triangulation ObjSequence::check_files() {
         ObjScan scan = scan_obj(files_[i].string(), text,
                                 {options_.normals_from_file, i > 0 ? &reference : nullptr, true});
         for (const uint32_t v : scan.faces.corners) bounds[i].extend(scan.positions[v]);
-        usual[i] = usual_bounds(scan, bounds[i]);
-        find_places(i, scan.positions, places_mutex);
+        const UsualBounds most = usual_bounds(scan.positions, scan.faces.corners, bounds[i]);
+        usual[i] = most.bounds;
+        if (places && !is_reference(i)) places->add(scan.positions, most);
         const Vec3d origin = options_.origin.value_or(choose_origin(usual[i]));
         if (i > 0) {
             triangulator->review(static_cast<uint32_t>(i), scan.positions, origin);
         } else {
             origin_ = origin;  // of this file; that of all is not known yet
             const std::vector<Vec3f> positions = local(0, scan.positions);
-            scan.positions = {};
+            references_.push_back(std::exchange(scan.positions, {}));
             first_ = std::move(scan);
             triangulator.emplace(first_.faces, positions);
         }
         if (options_.on_file_checked) options_.on_file_checked();
     };
     check(0);
+    if (read_references() && !options_.normals_from_file) compare_references(places);
 
     // Files after one that failed are skipped. Those before it are checked, because the first error
     // in the order of the sequence is reported.
@@ -131,22 +103,44 @@ Triangulation ObjSequence::check_files() {
     origin_ = options_.origin.value_or(choose_origin(all));
     if (!options_.origin) choose_offsets(usual);
     for (size_t i = 0; i < files_.size(); ++i) check_local(i, bounds[i]);
+    if (places) {
+        first_places_ = places->first_places();
+        longest_edge_ = places->longest_edge();
+        places_ = places->finish();
+    }
     return triangulator->finish();
 }
 
-// Keeps the places that vertices of this file share, too. The files after the first may come in any
-// order: the result is what all of them share.
-void ObjSequence::find_places(size_t file, std::span<const Vec3d> positions, std::mutex& mutex) {
-    if (options_.normals_from_file) return;
-    if (file == 0) {
-        places_ = first_places_ = first_at_position(positions);
-        return;
+bool ObjSequence::is_reference(size_t file) const {
+    const std::vector<uint32_t> poses = reference_poses(num_poses());
+    return std::find(poses.begin(), poses.end(), file) != poses.end();
+}
+
+// Reads the positions of the reference poses, after those of the first. Returns false if one of them
+// is damaged: check_files() reports it, or a file before it.
+bool ObjSequence::read_references() {
+    for (const uint32_t p : reference_poses(num_poses())) {
+        if (p == 0) continue;
+        try {
+            std::vector<char> text = read_file(files_[p], kMaxFileBytes);
+            ObjScan scan = scan_obj(files_[p].string(), text, {false, nullptr, true});
+            if (scan.num_vertices != first_.num_vertices) return false;
+            references_.push_back(std::move(scan.positions));
+        } catch (const Error&) {
+            return false;
+        }
     }
-    if (first_places_.empty()) return;
-    const std::vector<uint32_t> places = first_at_position(positions, first_places_);
-    if (places == first_places_) return;
-    const std::lock_guard lock(mutex);
-    places_ = shared_places(places_, places);
+    return true;
+}
+
+void ObjSequence::compare_references(std::optional<SequencePlaces>& places) const {
+    std::vector<SequencePlaces::Reference> references;
+    for (const std::vector<Vec3d>& positions : references_) {
+        BoundsD bounds;
+        for (const uint32_t v : first_.faces.corners) bounds.extend(positions[v]);
+        references.push_back({positions, usual_bounds(positions, first_.faces.corners, bounds)});
+    }
+    places.emplace(num_poses(), references);
 }
 
 // Error for meshes below the normal floats. Such floats have fewer digits, so rays would start
@@ -232,19 +226,30 @@ void ObjSequence::build(Triangulation cut) {
     const std::string name = pose_name(0);
     warnings_ = std::move(parsed.warnings);
 
-    const std::vector<Vec3f> positions = local(0, parsed.positions);
     if (cut.triangles.empty()) {
         throw_bad_input("{}: no faces with three different vertices", name);
     }
     topology_ = {first_.num_vertices, std::move(cut.triangles)};
-    check_orientation(positions);
+    std::vector<std::vector<Vec3f>> poses;
+    const std::vector<uint32_t> numbers = reference_poses(num_poses());
+    for (size_t r = 0; r < references_.size(); ++r) {
+        poses.push_back(local(numbers[r], references_[r]));
+        references_[r] = {};
+    }
+    check_orientation(poses);
     distinct_ = without_duplicate_faces(topology_);
-    seams_ = find_seams(distinct_, places_, positions);
+    seams_ = find_seams(distinct_, places_, poses[0], longest_edge_);
+    references_.clear();
     places_ = first_places_ = {};
     albedo_ = options_.albedo
                   ? Albedo{{*options_.albedo}}
                   : obj_albedo(name, first_.faces, parsed, vertex_colours_.srgb, warnings_);
 
+    if (!options_.albedo && first_.num_uncolored > 0) {
+        warnings_.push_back(fmt::format(
+            "{}: vertex colours ignored: {} vertices of faces have none, e.g. vertex {}", name,
+            first_.num_uncolored, uint64_t{first_.first_uncolored} + 1));
+    }
     const auto warn = [&](uint64_t count, const char* what) {
         if (count > 0) warnings_.push_back(fmt::format("{}: {} {}", name, count, what));
     };
@@ -255,9 +260,10 @@ void ObjSequence::build(Triangulation cut) {
 }
 
 // Names the closed parts that face inwards; turns them if asked.
-void ObjSequence::check_orientation(std::span<const Vec3f> positions) {
+// poses  the reference poses
+void ObjSequence::check_orientation(std::span<const std::vector<Vec3f>> poses) {
     constexpr size_t kMaxNamed = 6;
-    const std::vector<InwardPart> parts = find_inward_parts(topology_, positions);
+    const std::vector<InwardPart> parts = find_inward_parts(topology_, poses, first_places_);
     num_inward_ = parts.size();
     for (size_t i = 0; i < std::min(parts.size(), kMaxNamed); ++i) {
         warnings_.push_back(fmt::format(

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <functional>
-#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,6 +14,7 @@
 #include "compressor/io/vertex_colours.h"
 #include "paim/mesh/bounds.h"
 #include "paim/mesh/pose_source.h"
+#include "paim/mesh/sequence_places.h"
 
 namespace paim {
 
@@ -71,11 +71,13 @@ class ObjSequence : public PoseSource {
 
   private:
     Triangulation check_files();
-    void find_places(size_t file, std::span<const Vec3d> positions, std::mutex& mutex);
+    bool is_reference(size_t file) const;
+    bool read_references();
+    void compare_references(std::optional<SequencePlaces>& places) const;
     void check_size(const BoundsD& bounds) const;
     void check_local(size_t file, const BoundsD& bounds) const;
     void build(Triangulation cut);
-    void check_orientation(std::span<const Vec3f> positions);
+    void check_orientation(std::span<const std::vector<Vec3f>> poses);
     std::string part_name(uint32_t vertex) const;
     ParsedObj parse(uint32_t p) const;
     ParsedObj parse_first();
@@ -91,9 +93,11 @@ class ObjSequence : public PoseSource {
     std::vector<Vec3d> offsets_;  // of the poses, from the origin
     Topology topology_;
     Topology distinct_;  // without duplicate faces, for the normals
-    // Vertices that share places (mesh/places.h): in the first file, and in every one. Until seams
-    // are found.
+    // Until seams are found: positions of the reference poses (mesh/sequence_places.h), and vertices
+    // that share places: in the first file, if it has outliers, and in every one.
+    std::vector<std::vector<Vec3d>> references_;
     std::vector<uint32_t> first_places_, places_;
+    double longest_edge_ = 0.0;    // that is none of an outlier in the first pose
     std::vector<uint32_t> seams_;  // vertices that share normals (mesh/seams.h)
     Albedo albedo_;
     VertexColours vertex_colours_;

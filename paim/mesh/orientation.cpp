@@ -19,100 +19,106 @@ namespace {
 // Volumes below this share of the sum of the volumes below their faces are those of flat parts.
 constexpr double kFlatVolume = 1e-9;
 
+// A part of the mesh: faces that are connected across edges.
 struct MeshPart {
     std::vector<uint32_t> triangles;
-    Bounds bounds;
-    double volume = 0.0;  // six times
-    double sum = 0.0;     // of the absolute volumes that it is the sum of
     bool is_closed = true;
-
-    bool has_volume() const { return is_closed && std::abs(volume) > kFlatVolume * sum; }
 };
 
-class MeshParts {
+// Joins faces at edges; a face with an edge of another kind opens its part.
+// places  [V] places that vertices share, or empty
+std::vector<MeshPart> split(const Topology& topology, std::span<const uint32_t> places) {
+    const size_t num_faces = topology.triangles.size();
+    Sets faces(num_faces);
+    std::vector<uint32_t> odd;  // faces
+    const auto join = [&](std::span<const FaceEdge> edges, bool runs_on) {
+        if (edges.size() == 2 && runs_on) return faces.join(edges[0].face, edges[1].face);
+        for (const FaceEdge& edge : edges) odd.push_back(edge.face);
+    };
+    std::vector<FaceEdge> open;
+    for_each_edge(face_edges(topology), {}, [&](std::span<const FaceEdge> edges) {
+        if (edges.size() == 1) {
+            open.push_back(edges[0]);
+        } else {
+            join(edges, edges[0].vertices[0] != edges[1].vertices[0]);
+        }
+    });
+    for_each_edge(std::move(open), places, [&](std::span<const FaceEdge> edges) {
+        join(edges, edges.size() == 2 && run_opposite(edges[0], edges[1], places));
+    });
+    std::vector<MeshPart> parts;
+    std::vector<uint32_t> part_of(num_faces);
+    for (uint32_t f = 0; f < num_faces; ++f) {
+        const uint32_t first = faces.lowest(f);
+        if (first == f) {
+            part_of[f] = static_cast<uint32_t>(parts.size());
+            parts.emplace_back();
+        }
+        part_of[f] = part_of[first];
+        parts[part_of[f]].triangles.push_back(f);
+    }
+    for (const uint32_t f : odd) parts[part_of[f]].is_closed = false;
+    return parts;
+}
+
+// The parts in one pose.
+class PosedParts {
   public:
-    MeshParts(const Topology& topology, std::span<const Vec3f> positions)
-        : topology_(topology), positions_(positions) {
-        split();
-        for (MeshPart& part : parts_) measure(part);
+    PosedParts(const Topology& topology, const std::vector<MeshPart>& parts,
+               std::span<const Vec3f> positions)
+        : topology_(topology), parts_(parts), positions_(positions) {
+        for (const MeshPart& part : parts) shapes_.push_back(measure(part));
     }
 
-    std::vector<InwardPart> inward() const {
-        std::vector<InwardPart> found;
-        for (const MeshPart& part : parts_) {
-            if (!part.has_volume() || part.volume > 0.0 || num_around(part) % 2 == 1) continue;
-            InwardPart& entry = found.emplace_back();
-            entry.triangles = part.triangles;
-            entry.first_vertex = topology_.num_vertices;
-            for (const uint32_t f : part.triangles) {
-                for (const uint32_t v : topology_.triangles[f]) {
-                    entry.first_vertex = std::min(entry.first_vertex, v);
-                }
-            }
-        }
-        return found;
+    // 1 if the part faces outwards, or is the wall of a cavity; −1 if it faces inwards; 0 if it is
+    // not closed, or has no volume.
+    int side(size_t i) const {
+        const Shape& shape = shapes_[i];
+        if (!shape.has_volume()) return 0;
+        return shape.volume < 0.0 && num_around(i) % 2 == 0 ? -1 : 1;
     }
 
   private:
-    // Joins faces at edges; a face with an edge of another kind opens its part.
-    void split() {
-        const size_t num_faces = topology_.triangles.size();
-        Sets faces(num_faces);
-        std::vector<uint32_t> odd;  // faces
-        const auto join = [&](std::span<const FaceEdge> edges, bool runs_on) {
-            if (edges.size() == 2 && runs_on) return faces.join(edges[0].face, edges[1].face);
-            for (const FaceEdge& edge : edges) odd.push_back(edge.face);
-        };
-        std::vector<FaceEdge> open;
-        for_each_edge(face_edges(topology_), {}, [&](std::span<const FaceEdge> edges) {
-            if (edges.size() == 1) {
-                open.push_back(edges[0]);
-            } else {
-                join(edges, edges[0].vertices[0] != edges[1].vertices[0]);
-            }
-        });
-        const std::vector<uint32_t> places = first_at_position(positions_);
-        for_each_edge(std::move(open), places, [&](std::span<const FaceEdge> edges) {
-            join(edges, edges.size() == 2 && run_opposite(edges[0], edges[1], places));
-        });
-        std::vector<uint32_t> part_of(num_faces);
-        for (uint32_t f = 0; f < num_faces; ++f) {
-            const uint32_t first = faces.lowest(f);
-            if (first == f) {
-                part_of[f] = static_cast<uint32_t>(parts_.size());
-                parts_.emplace_back();
-            }
-            part_of[f] = part_of[first];
-            parts_[part_of[f]].triangles.push_back(f);
-        }
-        for (const uint32_t f : odd) parts_[part_of[f]].is_closed = false;
-    }
+    struct Shape {
+        Bounds bounds;
+        double volume = 0.0;  // six times
+        double sum = 0.0;     // of the absolute volumes that it is the sum of
+
+        // Not of open parts, which are not measured.
+        bool has_volume() const { return std::abs(volume) > kFlatVolume * sum; }
+    };
 
     Vec3d corner(uint32_t f, size_t i) const {
         return positions_[topology_.triangles[f][i]].cast<double>();
     }
 
-    void measure(MeshPart& part) const {
-        if (!part.is_closed) return;
+    Shape measure(const MeshPart& part) const {
+        Shape shape;
+        if (!part.is_closed) return shape;
         const Vec3d origin = corner(part.triangles[0], 0);
         for (const uint32_t f : part.triangles) {
-            for (const uint32_t v : topology_.triangles[f]) part.bounds.extend(positions_[v]);
+            for (const uint32_t v : topology_.triangles[f]) shape.bounds.extend(positions_[v]);
             const double volume =
                 (corner(f, 0) - origin).dot((corner(f, 1) - origin).cross(corner(f, 2) - origin));
-            part.volume += volume;
-            part.sum += std::abs(volume);
+            shape.volume += volume;
+            shape.sum += std::abs(volume);
         }
+        return shape;
     }
 
     // Number of the other parts around this one.
-    size_t num_around(const MeshPart& part) const {
-        const Vec3f point = positions_[topology_.triangles[part.triangles[0]][0]];
-        return static_cast<size_t>(
-            std::count_if(parts_.begin(), parts_.end(), [&](const MeshPart& p) {
-                return &p != &part && p.has_volume() &&
-                       (point.array() >= p.bounds.lower.array()).all() &&
-                       (point.array() <= p.bounds.upper.array()).all() && is_around(p, point);
-            }));
+    size_t num_around(size_t i) const {
+        const Vec3f point = positions_[topology_.triangles[parts_[i].triangles[0]][0]];
+        size_t count = 0;
+        for (size_t j = 0; j < parts_.size(); ++j) {
+            const Bounds& bounds = shapes_[j].bounds;
+            if (j != i && shapes_[j].has_volume() &&
+                (point.array() >= bounds.lower.array()).all() &&
+                (point.array() <= bounds.upper.array()).all() && is_around(parts_[j], point)) {
+                ++count;
+            }
+        }
+        return count;
     }
 
     // By the sum of the solid angles of its faces, which is ±4π inside and 0 outside.
@@ -129,16 +135,44 @@ class MeshParts {
     }
 
     const Topology& topology_;
+    const std::vector<MeshPart>& parts_;
     std::span<const Vec3f> positions_;
-    std::vector<MeshPart> parts_;
+    std::vector<Shape> shapes_;  // of the parts
 };
 
 }  // namespace
 
 std::vector<InwardPart> find_inward_parts(const Topology& topology,
-                                          std::span<const Vec3f> positions) {
-    PAIM_CHECK_EQ(positions.size(), topology.num_vertices);
-    return MeshParts(topology, positions).inward();
+                                          std::span<const std::vector<Vec3f>> poses,
+                                          std::span<const uint32_t> places) {
+    PAIM_CHECK(!poses.empty());
+    for (const auto& positions : poses) PAIM_CHECK_EQ(positions.size(), topology.num_vertices);
+    const std::vector<uint32_t> first_places =
+        places.empty() ? first_at_position(poses[0])
+                       : std::vector<uint32_t>(places.begin(), places.end());
+    const std::vector<MeshPart> parts = split(topology, first_places);
+    std::vector<int> first_side(parts.size()), sum(parts.size(), 0);
+    for (const auto& positions : poses) {
+        const PosedParts posed(topology, parts, positions);
+        for (size_t i = 0; i < parts.size(); ++i) {
+            const int side = posed.side(i);
+            if (&positions == &poses[0]) first_side[i] = side;
+            sum[i] += side;
+        }
+    }
+    std::vector<InwardPart> found;
+    for (size_t i = 0; i < parts.size(); ++i) {
+        if (first_side[i] == 0 || sum[i] >= 0) continue;
+        InwardPart& entry = found.emplace_back();
+        entry.triangles = parts[i].triangles;
+        entry.first_vertex = topology.num_vertices;
+        for (const uint32_t f : entry.triangles) {
+            for (const uint32_t v : topology.triangles[f]) {
+                entry.first_vertex = std::min(entry.first_vertex, v);
+            }
+        }
+    }
+    return found;
 }
 
 void turn_triangles(std::span<const uint32_t> triangles, Topology& topology) {

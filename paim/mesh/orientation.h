@@ -18,12 +18,18 @@ struct InwardPart {
     uint32_t first_vertex = 0;        // the lowest one
 };
 
-// The closed parts whose signed volume is negative, in the order of their first triangles. A part
-// that lies inside an odd number of other closed parts is not among them: it may be the wall of a
-// cavity, which rightly faces its inside.
-// positions  [V] finite, of a pose; parts without volume there are not judged
+// The closed parts that face inwards, in the order of their first triangles. A part faces inwards in
+// a pose if its signed volume is negative there, and it lies inside an even number of other closed
+// parts: inside an odd number it may be the wall of a cavity, which rightly faces its inside. More
+// poses must say so than say the opposite, so that a vertex that is an outlier in one of three does
+// not decide.
+// poses   [poses][V] finite: the first one, and perhaps others. Parts without volume in the first
+//         one are not judged
+// places  [V] the places that vertices share in the first pose (sequence_places.h). Empty: those of
+//         its positions
 std::vector<InwardPart> find_inward_parts(const Topology& topology,
-                                          std::span<const Vec3f> positions);
+                                          std::span<const std::vector<Vec3f>> poses,
+                                          std::span<const uint32_t> places = {});
 
 // Turns these triangles.
 void turn_triangles(std::span<const uint32_t> triangles, Topology& topology);

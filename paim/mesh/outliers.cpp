@@ -18,6 +18,11 @@ constexpr uint64_t kValuesAtOnce = uint64_t{1} << 20;
 // Vertices that a thread works on at once.
 constexpr size_t kVerticesAtOnce = 64;
 
+// The index of the 75 % quantile of this number of values.
+uint64_t quantile_index(uint64_t num_values) {
+    return 3 * (num_values - 1) / 4;
+}
+
 uint64_t vertices_per_block(uint64_t num_vertices, uint64_t num_poses) {
     const uint64_t most = kValuesAtOnce / (3 * std::max<uint64_t>(1, num_poses));
     return std::clamp<uint64_t>(most, 1, std::max<uint64_t>(1, num_vertices));
@@ -46,7 +51,7 @@ class Track {
         }
         sorted_ = distances_;
         const auto quantile =
-            sorted_.begin() + static_cast<ptrdiff_t>(3 * (sorted_.size() - 1) / 4);
+            sorted_.begin() + static_cast<ptrdiff_t>(quantile_index(sorted_.size()));
         std::nth_element(sorted_.begin(), quantile, sorted_.end());
         spread_ = *quantile;
     }
@@ -273,6 +278,10 @@ PositionOutliers find_outliers(uint32_t num_vertices, uint32_t num_poses,
     if (outliers.size() > most) return {};
     remove_cuts(num_poses, counted.size(), outliers);
     return PositionOutliers(std::move(outliers));
+}
+
+uint32_t most_outliers_of_vertex(uint32_t num_poses) {
+    return num_poses < 3 ? 0 : num_poses - 1 - static_cast<uint32_t>(quantile_index(num_poses));
 }
 
 uint64_t outliers_bytes(uint64_t num_vertices, uint64_t num_poses, uint64_t num_threads) {

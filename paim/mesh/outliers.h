@@ -74,6 +74,9 @@ PositionOutliers find_outliers(uint32_t num_vertices, uint32_t num_poses,
 
 constexpr uint64_t kMaxOutliersPerVertex = 16;
 
+// The most poses in which a vertex can be an outlier: those beyond the quantile s.
+uint32_t most_outliers_of_vertex(uint32_t num_poses);
+
 // Memory of find_outliers() without what it finds.
 uint64_t outliers_bytes(uint64_t num_vertices, uint64_t num_poses, uint64_t num_threads);
 

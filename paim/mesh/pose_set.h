@@ -23,6 +23,8 @@ class PoseSet : public PoseSource {
     Pose load_pose(uint32_t p) const override;
 
   private:
+    void find_seams();
+
     Topology topology_;
     Topology distinct_;            // without duplicate faces, for the normals
     std::vector<uint32_t> seams_;  // vertices that share normals (mesh/seams.h)

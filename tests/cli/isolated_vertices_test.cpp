@@ -131,7 +131,8 @@ class IsolatedVertices : public ToolTest {
         return {{"still", {at("0 0 40")}, {}},
                 {"moving", {moving}, {}},
                 {"many", many(300), many(200)},
-                {"huge", {at("1e30 -1e30 5")}, {at("0 3.3e38 0")}}};
+                {"huge", {at("1e30 -1e30 5")}, {at("0 3.3e38 0")}},
+                {"once", {}, {[](int p) { return p == 2 ? "900 -900 0" : "3 1 0"; }}}};
     }
 };
 

@@ -162,6 +162,27 @@ TEST_F(LightTools, ABlackLightIsNoMeasurement) {
     EXPECT_TRUE(contains(page, "Nothing to see: the light is black"));
 }
 
+// Neither is a black light of another shape, nor a mesh that reflects nothing.
+TEST_F(LightTools, BlackCubesAndBlackMeshesAreNoMeasurement) {
+    make_bake("x.bake");
+    write_exr_with(path("cube.exr"), Image(4, 24), mark_as_cube);
+    write_exr(path("grey.exr"), Image(8, 4, Vec3f::Ones()));
+    expect_success(compress({"bake", path("plates"), "-o", path("dark.bake"), "--rays", "16",
+                             "--bands", "3", "--albedo", "0"}));
+    const auto expect_nothing = [&](const std::string& name, const std::string& light,
+                                    const std::string& why) {
+        const ToolResult result =
+            analyze_under(path(name), {"--env", path(light + ".exr"), "--json"});
+        EXPECT_TRUE(contains(result.err, "note: light " + light + ": " + why)) << result.err;
+        const Json json = parse_object(result);
+        for (const Json& point : json["transfer_components"]) {
+            EXPECT_TRUE(point["visual_error"][light].is_null()) << point;
+        }
+    };
+    expect_nothing("x.bake", "cube", "the light is black");
+    expect_nothing("dark.bake", "grey", "the pictures of the bake are black");
+}
+
 // A mesh that is seen from its edge covers no pixel.
 TEST_F(LightTools, AnEmptyPictureIsNoMeasurement) {
     std::filesystem::create_directory(path("flat"));

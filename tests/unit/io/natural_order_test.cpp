@@ -92,6 +92,41 @@ TEST(NaturalOrder, TakesHyphensAsSignsWhereOtherNamesShowIt) {
     expect_order({"cam2-f-2.obj", "cam2-f-1.obj", "cam2-f0.obj", "cam10-f-2.obj", "cam10-f0.obj"});
 }
 
+// Exporters put the frame right behind a name that ends in a digit, too.
+TEST(NaturalOrder, TakesHyphensAsSignsBehindDigitsWhereOtherNamesShowIt) {
+    expect_order({"walk2-002.obj", "walk2-001.obj", "walk20000.obj", "walk20001.obj"});
+    expect_order(
+        {"walk2-10.obj", "walk2-2.obj", "walk2-1.obj", "walk20.obj", "walk21.obj", "walk210.obj"});
+    expect_order({"walk2-003.obj", "walk20002.obj"});
+    expect_order({"walk2-010.obj", "walk2-002.obj", "walk20000.obj", "walk29999.obj",
+                  "walk210000.obj", "walk210001.obj"});
+    expect_order({"walk2-200.obj", "walk2-100.obj", "walk20000.obj", "walk20100.obj"});
+    expect_order({"a2-001_b.obj", "a20000_b.obj", "a10-001_b.obj", "a100000_b.obj"});
+    expect_order({"cam-1-001.obj", "cam-10000.obj", "cam-10001.obj", "cam-2-001.obj"});
+    expect_order({"2-001.obj", "20000.obj", "20001.obj"});
+    expect_order({"t2-001.5.obj", "t2-001.obj", "t2-000.5.obj", "t20000.obj", "t20000.5.obj"});
+    // Other sequences in the folder.
+    expect_order({"walk.obj", "walk1.obj", "walk2-002.obj", "walk2-001.obj", "walk20000.obj",
+                  "walk20001.obj", "walk3-1.obj", "walk30.obj"});
+}
+
+TEST(NaturalOrder, TakesHyphensBehindDigitsAsSeparatorsElsewhere) {
+    expect_order({"shot2-001.obj", "shot2-002.obj"});
+    expect_order({"shot2-001.obj", "shot2-002.obj", "shot3-001.obj", "shot10-001.obj"});
+    // Frames count from 0, or have another width.
+    expect_order({"shot2-000.obj", "shot2-001.obj", "shot20001.obj"});
+    expect_order({"shot2-0001.obj", "shot2-0002.obj", "shot20001.obj"});
+    // Parts of shot 1 among other shots.
+    expect_order({"x1-1.obj", "x1-2.obj", "x2.obj", "x10.obj", "x11.obj"});
+    expect_order({"x1.obj", "x1-1.obj", "x1-2.obj", "x10.obj", "x11.obj"});
+    expect_order({"x1-1.obj", "x1-2.obj", "x10.obj"});
+    expect_order({"x1-1.obj", "x1-2.obj", "x99.obj", "x100.obj", "x101.obj"});
+    expect_order({"x1-10.obj", "x1-20.obj", "x1100.obj", "x1110.obj"});
+    expect_order({"2024-01-01.obj", "2024-01-02.obj", "202401.obj"});
+    // Another take.
+    expect_order({"walk-01.obj", "walk-02.obj", "walk2-01.obj", "walk2-02.obj"});
+}
+
 TEST(NaturalOrder, TakesHyphensAsSeparatorsElsewhere) {
     expect_order({"walk-01.obj", "walk-02.obj", "walk-09.obj", "walk-10.obj"});
     expect_order({"walk-0.obj", "walk-1.obj", "walk-2.obj", "walk-10.obj"});

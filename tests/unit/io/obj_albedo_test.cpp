@@ -32,7 +32,36 @@ TEST(ObjAlbedo, ClampsVertexColors) {
 
 TEST(ObjAlbedo, IgnoresColorsThatNotAllVerticesHave) {
     const ObjTestFiles files({"v 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0 1 0 0\nf 1 2 3\n"});
-    EXPECT_EQ(ObjSequence(files.files()).albedo().values, Albedo().values);
+    const ObjSequence sequence(files.files());
+    EXPECT_EQ(sequence.albedo().values, Albedo().values);
+    EXPECT_EQ(files.warnings(sequence),
+              (std::vector<std::string>{"0.obj: vertex colours ignored: 1 vertices of faces have "
+                                        "none, e.g. vertex 2"}));
+    ObjOptions options;
+    options.albedo = Vec3f(0, 0, 1);
+    EXPECT_TRUE(ObjSequence(files.files(), options).warnings().empty());
+}
+
+// A vertex of no face counts for nothing, whether it is the only one with a colour or without.
+TEST(ObjAlbedo, NeedsNoColourOfVerticesOfNoFace) {
+    for (const std::string odd : {"v 0 0 0\n", "v 0 0 0 1\n", "v 0 0 0 0 1 0\n"}) {
+        const std::string red = "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\n";
+        for (const std::string& text : {odd + red + "f 2 3 4\n", red + odd + "f 1 2 3\nf 4 1\n"}) {
+            const ObjTestFiles files({text, text});
+            const ObjSequence sequence(files.files());
+            const uint32_t first = text.starts_with(odd) ? 1 : 0;
+            ASSERT_EQ(sequence.albedo().values.size(), 4u) << text;
+            for (uint32_t v = first; v < first + 3; ++v) {
+                EXPECT_EQ(sequence.albedo().at(v), Vec3f(1, 0, 0)) << text;
+            }
+            EXPECT_EQ(files.warnings(sequence).size(), 1 - first) << text;  // the face of two
+        }
+    }
+    const ObjTestFiles files({"v 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nf 2 3 4\n"});
+    const ObjSequence sequence(files.files());
+    EXPECT_EQ(sequence.albedo().values, Albedo().values);
+    EXPECT_TRUE(sequence.warnings().empty());
+    EXPECT_FALSE(sequence.vertex_colours().used);
 }
 
 TEST(ObjAlbedo, AveragesMaterialsOverTheFacesRoundAVertex) {

@@ -10,6 +10,9 @@ const std::string kFourVertices = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 const std::string kRed = "newmtl red\nKd 1 0 0\n";
 const Vec3f kRedValue(1, 0, 0), kGreenValue(0, 1, 0);
 
+using Colors = std::vector<Vec3f>;
+using Lines = std::vector<std::string>;
+
 // A triangle of `first`, then one of `second`; vertex 1 is of the first alone, vertex 3 of the
 // second.
 std::string two_materials(const std::string& library, const std::string& first,
@@ -39,9 +42,6 @@ class ObjLibrariesTest : public testing::Test {
     std::vector<std::string> warnings_;
 };
 
-using Colors = std::vector<Vec3f>;
-using Lines = std::vector<std::string>;
-
 TEST_F(ObjLibrariesTest, FindsLibrariesUnderTheNamesThatExportersWrite) {
     std::filesystem::create_directory(files_.files()[0].parent_path() / "sub");
     for (const char* name : {"my char.mtl", "tab\tin it.mtl", "sub/x.mtl", "sub/two words.mtl",
@@ -67,6 +67,40 @@ TEST_F(ObjLibrariesTest, FindsLibrariesUnderTheNamesThatExportersWrite) {
     // A path of the machine that wrote the file: the library lies next to it.
     EXPECT_TRUE(finds_red("C:\\Users\\me\\my char.mtl"));
     EXPECT_TRUE(finds_red("/nowhere/at all/my char.mtl"));
+}
+
+// Windows takes both for the same file.
+TEST_F(ObjLibrariesTest, FindsLibrariesInOtherCase) {
+    const auto folder = files_.files()[0].parent_path();
+    std::filesystem::create_directories(folder / "Sub");
+    for (const char* name : {"My Char.mtl", "Sub/X.MTL", "other.mtl"}) files_.add(name, kRed);
+    const auto takes = [&](const std::string& file, const std::string& library) {
+        return !finds_red(library) &&
+               warnings_ == Lines{file + ": taken for the material library '" + library + "'"} &&
+               ObjSequence(files_.files()).albedo().values == Colors{kRedValue};
+    };
+    EXPECT_TRUE(takes("My Char.mtl", "my char.mtl"));
+    EXPECT_TRUE(takes("My Char.mtl", "MY CHAR.MTL"));
+    EXPECT_TRUE(takes("My Char.mtl", "\"MY CHAR.MTL\""));
+    EXPECT_TRUE(takes("My Char.mtl", "C:\\Me\\My char.MTL"));
+    EXPECT_TRUE(takes("My Char.mtl", "/nowhere/at all/MY char.mtl"));
+    EXPECT_TRUE(takes("Sub/X.MTL", "sub/x.mtl"));
+    EXPECT_TRUE(takes("./Sub/X.MTL", ".\\sub\\x.mtl"));
+    EXPECT_TRUE(takes("Sub/X.MTL", "Sub/x.MTL"));
+    // Several on a line.
+    files_.add("green.Mtl", "newmtl green\nKd 0 1 0\n");
+    EXPECT_EQ(colors(two_materials("MY char.mtl GREEN.mtl", "red", "green")),
+              (Colors{kRedValue, kGreenValue}));
+    EXPECT_EQ(warnings_.size(), 2u);
+    // A file of the very name comes first, without a word. Two others are as good as none.
+    files_.add("other.MTL", "newmtl red\nKd 0 0 1\n");
+    EXPECT_TRUE(finds_red("other.mtl"));
+    EXPECT_FALSE(finds_red("Other.mtl"));
+    EXPECT_EQ(warnings_[0], "Other.mtl: cannot open: No such file or directory");
+    // No folder is a library.
+    std::filesystem::create_directory(folder / "Folder.mtl");
+    EXPECT_FALSE(finds_red("folder.mtl"));
+    EXPECT_EQ(warnings_[0], "folder.mtl: cannot open: No such file or directory");
 }
 
 TEST_F(ObjLibrariesTest, ReadsAllLibrariesOfALine) {

@@ -1,6 +1,8 @@
 // Sequences: what is read, what all files must share, errors and warnings in their words.
 #include "compressor/io/obj_sequence.h"
 
+#include <fmt/format.h>
+
 #include <atomic>
 #include <chrono>
 #include <thread>
@@ -88,6 +90,132 @@ TEST(ObjSequence, SharesNormalsAcrossSeamsOfAllPoses) {
     ObjOptions options;
     options.normals_from_file = true;
     EXPECT_EQ(ObjSequence(together.files(), options).load_pose(0).normals[0], Vec3f(0, 0, 1));
+}
+
+// A sphere of rings, closed by two points. Its first meridian is there twice if `has_seam`.
+// bad     line of vertex 20, or nothing
+// inward  whether it is mirrored, so that its faces face inwards
+std::string sphere_text(bool has_seam, const std::string& bad = "", bool inward = false) {
+    constexpr size_t kRings = 7, kSegments = 8;
+    const size_t num_columns = has_seam ? kSegments + 1 : kSegments;
+    std::string text = "v 0 -1 0\nv 0 1 0\n";
+    size_t number = 2;
+    for (size_t ring = 1; ring <= kRings; ++ring) {
+        for (size_t column = 0; column < num_columns; ++column) {
+            const double down = kPi * static_cast<double>(ring) / (kRings + 1);
+            const double round =
+                (inward ? -2.0 : 2.0) * kPi * static_cast<double>(column % kSegments) / kSegments;
+            const bool is_bad = ++number == 20 && !bad.empty();
+            text += is_bad
+                        ? bad
+                        : fmt::format("v {:.6f} {:.6f} {:.6f}\n", std::sin(down) * std::sin(round),
+                                      -std::cos(down), std::sin(down) * std::cos(round));
+        }
+    }
+    const auto at = [&](size_t ring, size_t column) {
+        return 3 + (ring - 1) * num_columns + column % num_columns;
+    };
+    for (size_t column = 0; column < kSegments; ++column) {
+        text += fmt::format("f 1 {} {}\n", at(1, column + 1), at(1, column));
+        text += fmt::format("f 2 {} {}\n", at(kRings, column), at(kRings, column + 1));
+        for (size_t ring = 1; ring < kRings; ++ring) {
+            text += fmt::format("f {} {} {} {}\n", at(ring, column), at(ring, column + 1),
+                                at(ring + 1, column + 1), at(ring + 1, column));
+        }
+    }
+    return text;
+}
+
+// Vertex 20 lies on the seam and is far away in one pose; the other poses have the normals that
+// they have without it.
+TEST(ObjSequence, SharesNormalsAcrossASeamWithAnOutlier) {
+    const std::string good = sphere_text(true), bad = sphere_text(true, "v 5000 4000 0\n");
+    const ObjTestFiles clean({good, good, good, good}), broken({good, good, bad, good});
+    const auto expected = ObjSequence(clean.files()).load_pose(0).normals;
+    const auto got = ObjSequence(broken.files()).load_pose(0).normals;
+    for (size_t v = 0; v < expected.size(); ++v) {
+        // Coordinates have six digits, so that quads are flat to 1e-5 of their sides.
+        EXPECT_LT((got[v] - expected[v]).norm(), 1e-4f) << v;
+    }
+}
+
+TEST(ObjSequence, TurnsNoPartsForAnOutlierInTheFirstPose) {
+    const std::string good = sphere_text(false), bad = sphere_text(false, "v 0 5000 0\n");
+    const ObjTestFiles files({bad, good, good, good});
+    ObjOptions options;
+    options.orient = true;
+    const ObjSequence sequence(files.files(), options);
+    EXPECT_EQ(sequence.num_inward(), 0u);
+    EXPECT_LT((sequence.load_pose(1).normals[0] - Vec3f(0, -1, 0)).norm(), 1e-3f);
+}
+
+TEST(ObjSequence, FindsPartsThatFaceInwardsInSpiteOfAnOutlier) {
+    for (const bool has_seam : {false, true}) {  // vertex 20 is on the seam
+        const std::string good = sphere_text(has_seam, "", true);
+        const std::string bad = sphere_text(has_seam, "v 0 5000 0\n", true);
+        for (size_t p = 0; p < 4; ++p) {
+            std::vector<std::string> texts(4, good);
+            texts[p] = bad;
+            EXPECT_EQ(ObjSequence(ObjTestFiles(texts).files()).num_inward(), 1u) << p;
+        }
+    }
+}
+
+// The normals at the rims of a prism, lower and upper, whose caps are these faces (of vertices
+// counted from 1, those of the upper cap; the lower one is the same from below).
+std::vector<Vec3f> prism_normals(const std::vector<Vec3d>& rim,
+                                 const std::vector<std::vector<size_t>>& caps) {
+    const size_t n = rim.size();
+    std::string text;
+    for (const int z : {0, 2}) {
+        for (const Vec3d& x : rim) text += fmt::format("v {:.9f} {:.9f} {}\n", x.x(), x.y(), z);
+    }
+    text += "v 0 0 0\nv 0 0 2\n";  // the middles, number n + 1 of each cap
+    for (size_t i = 1; i <= n; ++i) {
+        const size_t j = i % n + 1;
+        text += fmt::format("f {} {} {} {}\n", i, j, n + j, n + i);
+    }
+    for (const std::vector<size_t>& cap : caps) {
+        std::string upper = "f", lower;
+        for (const size_t i : cap) {
+            upper += fmt::format(" {}", i <= n ? n + i : 2 * n + 2);
+            lower = fmt::format(" {}", i <= n ? i : 2 * n + 1) + lower;
+        }
+        text += upper + "\nf" + lower + "\n";
+    }
+    const ObjTestFiles files({text});
+    std::vector<Vec3f> normals = ObjSequence(files.files()).load_pose(0).normals;
+    normals.resize(2 * n);
+    return normals;
+}
+
+TEST(ObjSequence, NormalsDoNotDependOnHowCapsAreCut) {
+    for (const size_t n : {5, 12, 31}) {
+        std::vector<Vec3d> rim;
+        std::vector<std::vector<size_t>> fans(n);
+        std::vector<size_t> whole;
+        for (size_t i = 0; i < n; ++i) {
+            const double angle = 2.0 * kPi * static_cast<double>(i) / static_cast<double>(n);
+            rim.emplace_back(std::cos(angle), std::sin(angle), 0.0);
+            fans[i] = {n + 1, i + 1, (i + 1) % n + 1};
+            whole.push_back(i + 1);
+        }
+        const auto expected = prism_normals(rim, fans);
+        const auto got = prism_normals(rim, {whole});
+        // Sums of the same angles, cut otherwise, differ by their rounding.
+        for (size_t v = 0; v < 2 * n; ++v) EXPECT_LT((got[v] - expected[v]).norm(), 3e-7f) << n;
+    }
+    // An angle: two sides of a right angle each, and a cap of a right angle, or three at the notch.
+    const std::vector<Vec3d> angle{{1, -1, 0},   {1, -0.5, 0}, {-0.5, -0.5, 0},
+                                   {-0.5, 1, 0}, {-1, 1, 0},   {-1, -1, 0}};
+    const auto got = prism_normals(angle, {{1, 2, 3, 4, 5, 6}});
+    const std::vector<Vec3f> expected{{1, -1, 1}, {1, 1, 1},  {1, 1, 3},
+                                      {1, 1, 1},  {-1, 1, 1}, {-1, -1, 1}};
+    for (size_t v = 0; v < 6; ++v) {
+        const Vec3f lower = expected[v].cwiseProduct(Vec3f(1, 1, -1)).normalized();
+        EXPECT_LT((got[v] - lower).norm(), 1e-6f) << v;
+        EXPECT_LT((got[6 + v] - expected[v].normalized()).norm(), 1e-6f) << v;
+    }
 }
 
 TEST(ObjSequence, NamesPartsThatFaceInwards) {

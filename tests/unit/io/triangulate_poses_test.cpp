@@ -1,4 +1,6 @@
 // Cuts of polygons that depend on no pose in which the polygon is degenerate.
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numeric>
 #include <random>

@@ -99,6 +99,16 @@ TEST_F(LoadLight, CubeMapsAreConverted) {
               std::string::npos);
 }
 
+// Crosses and rows of six faces are no cube maps of OpenEXR.
+TEST_F(LoadLight, OtherLayoutsOfCubesAreRefusedOrNoted) {
+    for (const auto& [width, height] : {std::pair{32, 24}, {24, 32}, {48, 8}, {8, 8}}) {
+        const Image image(width, height, Vec3f::Ones());
+        EXPECT_NE(error_of(image, mark_as_cube).find("N x 6 N pixels"), std::string::npos) << width;
+        EXPECT_NE(error_of(image, {}, EnvMapping::cube).find("N x 6 N pixels"), std::string::npos);
+        EXPECT_TRUE(notes_have(load(image), "expected 2:1")) << width;
+    }
+}
+
 TEST_F(LoadLight, LightProbesAreConverted) {
     const LoadedLight asked = load(probe(32), {}, EnvMapping::angular);
     EXPECT_TRUE(asked.notes.empty());
@@ -148,6 +158,30 @@ TEST_F(LoadLight, ColoursBecomeRec709) {
     EXPECT_GT(green.light.image().at(0, 0).y(), 1.3f);
     // Its own values are checked, not the converted ones.
     EXPECT_NE(error_of(Image(4, 2, Vec3f(0, -1, 0)), mark_as_ap0).find("is -1"), std::string::npos);
+}
+
+TEST_F(LoadLight, ColoursOfManySpacesBecomeRec709) {
+    const std::vector<Chromaticities> spaces{
+        {{0.713, 0.293}, {0.165, 0.830}, {0.128, 0.044}, {0.32168, 0.33767}},  // ACES AP1
+        {{0.708, 0.292}, {0.170, 0.797}, {0.131, 0.046}, {0.3127, 0.3290}},    // Rec. 2020
+        {{0.680, 0.320}, {0.265, 0.690}, {0.150, 0.060}, {0.3127, 0.3290}}};   // P3, D65
+    const auto to_file = [](const Eigen::Vector2d& xy) {
+        return Imath::V2f(static_cast<float>(xy.x()), static_cast<float>(xy.y()));
+    };
+    for (const Chromaticities& space : spaces) {
+        const Eigen::Matrix3d from_rec709 = rec709_from(space)->inverse();
+        for (const Vec3d& colour : {Vec3d(2, 0, 0), Vec3d(0, 2, 0), Vec3d(0.1, 0.2, 2)}) {
+            const Image image(4, 2, (from_rec709 * colour).cast<float>());
+            const LoadedLight loaded = load(image, [&](Imf::Header& header) {
+                Imf::addChromaticities(header, {to_file(space.red), to_file(space.green),
+                                                to_file(space.blue), to_file(space.white)});
+            });
+            EXPECT_TRUE(loaded.converted_colours);
+            EXPECT_TRUE(loaded.notes.empty());
+            // Pixels and chromaticities are rounded to float.
+            EXPECT_LT((loaded.light.image().at(1, 1) - colour.cast<float>()).norm(), 1e-5f);
+        }
+    }
 }
 
 TEST_F(LoadLight, ColoursThatAreNoneAreNoted) {

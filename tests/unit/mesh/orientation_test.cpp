@@ -29,7 +29,7 @@ struct Mesh {
     }
     std::vector<uint32_t> inward() const {
         std::vector<uint32_t> first;
-        for (const auto& part : find_inward_parts(topology, positions)) {
+        for (const auto& part : find_inward_parts(topology, {&positions, 1})) {
             first.push_back(part.first_vertex);
         }
         return first;
@@ -47,7 +47,7 @@ TEST(Orientation, ClosedPartsThatFaceInwardsAreFoundAndTurned) {
             .add_sphere(0.1f * scale, {0, 0, 40 * scale}, true);
         EXPECT_EQ(mesh.inward(), (Vertices{42, 126}));
         const Topology before = mesh.topology;
-        for (const InwardPart& part : find_inward_parts(mesh.topology, mesh.positions)) {
+        for (const InwardPart& part : find_inward_parts(mesh.topology, {&mesh.positions, 1})) {
             EXPECT_EQ(part.triangles.size(), 80u);
             turn_triangles(part.triangles, mesh.topology);
         }
@@ -98,7 +98,7 @@ TEST(Orientation, PartsThatAreCutAlongSeamsAreClosed) {
         cut.topology.num_vertices += 3;
         for (const uint32_t v : t) cut.positions.push_back(whole.positions[v]);
     }
-    const auto parts = find_inward_parts(cut.topology, cut.positions);
+    const auto parts = find_inward_parts(cut.topology, {&cut.positions, 1});
     ASSERT_EQ(parts.size(), 1u);
     EXPECT_EQ(parts[0].triangles.size(), 80u);
     // Two of them side by side share places, not edges.
@@ -106,6 +106,37 @@ TEST(Orientation, PartsThatAreCutAlongSeamsAreClosed) {
     two.topology.append(cut.topology);
     for (const Vec3f& x : cut.positions) two.positions.push_back(x + Vec3f(2, 0, 0));
     EXPECT_EQ(two.inward(), (Vertices{0, 240}));
+}
+
+TEST(Orientation, IsThatOfMostPoses) {
+    Mesh right;
+    right.add_sphere(1, {0, 0, 0}, false).add_sphere(0.5f, {0, 0, 0}, true);
+    Mesh wrong;
+    wrong.add_sphere(1, {0, 0, 0}, true);
+    const auto inward = [](const Mesh& mesh, const std::vector<std::vector<Vec3f>>& poses) {
+        return find_inward_parts(mesh.topology, poses).size();
+    };
+    // A vertex that is pulled through the sphere turns its volume.
+    const auto bad = [](const Mesh& mesh) {
+        std::vector<Vec3f> positions = mesh.positions;
+        positions[0] *= -5000.0f;
+        return positions;
+    };
+    EXPECT_GT(inward(right, {bad(right)}), 0u);
+    EXPECT_EQ(inward(wrong, {bad(wrong)}), 0u);
+    for (size_t p = 0; p < 3; ++p) {
+        std::vector<std::vector<Vec3f>> poses(3, right.positions);
+        poses[p] = bad(right);
+        EXPECT_EQ(inward(right, poses), 0u) << p;
+        poses.assign(3, wrong.positions);
+        poses[p] = bad(wrong);
+        EXPECT_EQ(inward(wrong, poses), 1u) << p;
+    }
+    // Flat in the first pose: not judged. Flat in the others: by the first.
+    std::vector<Vec3f> flat = wrong.positions;
+    for (Vec3f& x : flat) x.z() = 0.0f;
+    EXPECT_EQ(inward(wrong, {flat, wrong.positions, wrong.positions}), 0u);
+    EXPECT_EQ(inward(wrong, {wrong.positions, flat, flat}), 1u);
 }
 
 }  // namespace

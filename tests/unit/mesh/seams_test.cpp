@@ -102,6 +102,31 @@ TEST(Seams, ArePlacesSharedInEveryPose) {
     EXPECT_LT((normal({mesh.positions, bent, moved}) - Vec3f(0, 0, 1)).norm(), 1e-6f);
 }
 
+// A flat sheet of two halves. In the first pose a vertex of one half is far away in the plane of the
+// sheet, so that its faces there lie back to back with those of the other.
+TEST(Seams, AreNotPartedByOutliers) {
+    for (const size_t bad : {0, 1, 5}) {  // far from the seam, and on it
+        Mesh sheet;
+        for (int j = 0; j < 8; ++j) {
+            const auto y = static_cast<float>(j);
+            sheet.add_quad({-1, y, 0}, {0, y, 0}, {0, y + 1, 0}, {-1, y + 1, 0});
+            sheet.add_quad({0, y, 0}, {1, y, 0}, {1, y + 1, 0}, {0, y + 1, 0});
+        }
+        std::vector<Vec3f> bent = sheet.positions, broken = bent;
+        for (Vec3f& x : bent) x.z() = std::abs(x.x());
+        broken[bad] += Vec3f(7000, 100, 0);
+        const auto expected = PoseSet(sheet.topology, {bent, bent, bent, bent}).load_pose(3);
+        for (size_t p = 0; p < 4; ++p) {
+            std::vector<std::vector<Vec3f>> poses(4, bent);
+            poses[p] = broken;
+            const Pose got = PoseSet(sheet.topology, poses).load_pose(p == 3 ? 2 : 3);
+            for (size_t v = 0; v < bent.size(); ++v) {
+                EXPECT_EQ(got.normals[v], expected.normals[v]) << bad << ' ' << p << ' ' << v;
+            }
+        }
+    }
+}
+
 TEST(Seams, AreNotWhereSurfacesOnlyTouch) {
     // The two sides of a card, cut along the same diagonal and along the other.
     for (const bool other_diagonal : {false, true}) {
