@@ -12,6 +12,7 @@
 #include "paim/codec/component_planes.h"
 #include "paim/codec/rebuild_planes.h"
 #include "paim/format/container/metadata.h"
+#include "paim/mesh/cache_order.h"
 #include "paim/mesh/face_vertices.h"
 #include "paim/metrics/pose_space.h"
 #include "paim/metrics/vertex_match.h"
