@@ -15,7 +15,7 @@ namespace paim {
 
 namespace {
 
-constexpr double kTurnsPerPoint = std::numbers::sqrt2;
+constexpr double kTurnsPerPoint = 1.0 / std::numbers::sqrt2;
 
 // Vector registers of SSE2 and NEON. GCC and Clang do arithmetic on these types directly.
 constexpr size_t kLanes = 4;
@@ -30,31 +30,6 @@ inline Floats load(const float* from) {
 inline Floats square_root(Floats x) {
     for (size_t lane = 0; lane < kLanes; ++lane) x[lane] = std::sqrt(x[lane]);
     return x;
-}
-
-// The part of each of an even number of points: 0 and 1 for every other turn of the spiral. Turns
-// are counted from where both parts have as many points. There is such a place: as it moves on by a
-// turn, the parts change places, one point after another.
-std::vector<uint8_t> parts_by_turn(uint32_t num_points) {
-    std::vector<uint8_t> part(num_points);
-    const auto excess_of_first = [&](double first_turn) {
-        int64_t excess = 0;
-        for (uint32_t j = 0; j < num_points; ++j) {
-            part[j] = static_cast<uint64_t>(j * kTurnsPerPoint + first_turn) % 2;
-            excess += part[j] == 0 ? 1 : -1;
-        }
-        return excess;
-    };
-    double low = 0.0, high = 1.0;
-    const int64_t at_low = excess_of_first(low);
-    int64_t excess = at_low;
-    while (excess != 0) {
-        const double middle = 0.5 * (low + high);
-        PAIM_CHECK(low < middle && middle < high);
-        excess = excess_of_first(middle);
-        ((excess > 0) == (at_low > 0) ? low : high) = middle;
-    }
-    return part;
 }
 
 struct DiskPoint {
@@ -97,14 +72,12 @@ CosineDirections::CosineDirections(uint32_t num_points, uint32_t num_parts)
         return 2.0 * kPi * (turns - std::floor(turns));
     };
     std::vector<std::vector<DiskPoint>> points(num_parts);
-    const std::vector<uint8_t> part_of =
-        num_parts == 2 ? parts_by_turn(num_points) : std::vector<uint8_t>(num_points, 0);
     for (uint32_t j = 0; j < num_points; ++j) {
         const double radius = std::sqrt((j + 0.5) / num_points);
-        points[part_of[j]].push_back({radius * std::cos(angle(j)), radius * std::sin(angle(j)), j});
+        points[j % num_parts].push_back(
+            {radius * std::cos(angle(j)), radius * std::sin(angle(j)), j});
     }
     for (size_t h = 0; h < num_parts; ++h) {
-        PAIM_CHECK_EQ(points[h].size(), count_);
         sort_by_place(points[h]);
         Part& part = parts_[h];
         for (auto* array : {&part.ring, &part.cosine, &part.sine}) {

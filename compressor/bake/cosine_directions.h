@@ -22,15 +22,16 @@ struct DirectionArrays {
 // Sets of directions whose density over the hemisphere is cos θ / π. Point j of n has, on the disk
 // below the hemisphere,
 //
-//     radius² = (j + shift) / n        angle = 2π (j √2 + turn),
+//     radius² = (j + shift) / n        angle = 2π (j / √2 + turn),
 //
 // where shift and turn are uniform random numbers of the set. Each point is then uniform in its
 // ring, and all together are unbiased, for any n. Near any place the points are a lattice, which
 // counts areas with less error than a scrambled net of as many points.
 //
-// A set can be had in two parts of n / 2 points: those of every other turn of the spiral. As the
-// points of a lattice of √2 with even turns are such a lattice again, a part is as good as a set of
-// n / 2 points. A random bit of the set says which part is which, so that each is unbiased.
+// A set can be had in two parts of n / 2 points: those of even j, which step by √2 turns, and those
+// of odd j. As numbers, points are a √2 + b for integer a and b = j, and even b are the multiples of
+// √2: a part is a lattice of the same kind, as good as a set of n / 2 points. A random bit of the set
+// says which part is which, so that each is unbiased.
 class CosineDirections {
   public:
     // num_points  a multiple of num_parts

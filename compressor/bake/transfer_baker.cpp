@@ -40,9 +40,9 @@ std::vector<double> cosine_lobe_by_coefficient(uint32_t bands) {
 
 using Halves = std::array<SplitEstimate, 2>;
 
-// Points of a half in the first round with a noise target: a packet of rays. Others have powers
+// Points of a half in the first round with a noise target: two packets of rays. Others have powers
 // of two and what is half-way between them, so that there are few sizes.
-constexpr uint32_t kFirstPoints = 16;
+constexpr uint32_t kFirstPoints = 32;
 
 uint32_t next_size(uint32_t points) {
     return points + (std::has_single_bit(points) ? points / 2 : points / 3);

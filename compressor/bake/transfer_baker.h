@@ -28,7 +28,7 @@ constexpr uint32_t kBakerVersion = 6;
 // cosine_directions.h). The mean of their estimates is the transfer. Half their difference, scaled
 // (DirectionSampler::noise_scale), is its noise: one draw with the variance of the error, and
 // uncorrelated with it. With a fixed count all rays of a vertex are traced at once. With a noise
-// target they are traced in rounds: a first one of 32 rays, then as many as the noise of the
+// target they are traced in rounds: a first one of 64 rays, then as many as the noise of the
 // neighbours asks for (noise_target.h). Bounced light is added to the halves afterwards
 // (bounces.h). The target is for light straight from the sky.
 class TransferBaker {

@@ -19,38 +19,15 @@ def stream_key(seed, pose, vertex, part):
     return key
 
 
-def _parts(num_points):
-    """The part of each point, 0 or 1, by turns of the spiral."""
-
-    def parts(first_turn):
-        return [int(j * math.sqrt(2) + first_turn) % 2 for j in range(num_points)]
-
-    def excess(first_turn):
-        return num_points - 2 * sum(parts(first_turn))
-
-    low, high = 0.0, 1.0
-    at_low = excess(low)
-    middle = low
-    while excess(middle) != 0:
-        middle = 0.5 * (low + high)
-        if (excess(middle) > 0) == (at_low > 0):
-            low = middle
-        else:
-            high = middle
-    return parts(middle)
-
-
 def disk_points(num_points, key, half):
     """Points of the unit disk, uniform in area: cosine-distributed directions seen from above.
     num_points is that of both halves."""
     shift = ((key & _MASK32) >> 8) * 2.0**-24
     turn = (key >> 40) * 2.0**-24
     points = []
-    for j, part in enumerate(_parts(num_points)):
-        if part != half ^ (key & 1):
-            continue
+    for j in range(half ^ (key & 1), num_points, 2):
         radius = math.sqrt((j + shift) / num_points)
-        angle = 2.0 * math.pi * (j * math.sqrt(2) + turn)
+        angle = 2.0 * math.pi * (j / math.sqrt(2) + turn)
         points.append((radius * math.cos(angle), radius * math.sin(angle)))
     return points
 
@@ -65,4 +42,4 @@ def directions_about_y(num_points, key, half):
 
 def half_difference_ratio(num_points):
     """That of direction_sampler.cpp, for 2 to 32 points."""
-    return 1.1 + (math.log2(num_points) - 1.0) / 4.0 * (1.44 - 1.1)
+    return 1.1 + (math.log2(num_points) - 1.0) / 4.0 * (1.42 - 1.1)

@@ -152,14 +152,11 @@ TEST_P(DirectionSamplers, HalfTheDifferenceIsANoiseLikeTheError) {
                            std::to_string(ratio));
             // The ratio is known to 1.6 %, of the largest sets to 4.5 %; three times that.
             const double chance = points_of_half < 4096 ? 0.05 : 0.14;
-            if (sampler->noise_scale() == 1.0) {
-                EXPECT_NEAR(ratio, 1.0, chance) << points_of_half;
-            } else {
-                // Observed: within 6 % from 100 points on, and up to 46 % too much of fewer, more
-                // than bakes have (docs/results/noise.md).
-                EXPECT_GT(ratio, 0.9) << points_of_half;
-                EXPECT_LT(ratio, points_of_half < 100 ? 1.5 : 1.1) << points_of_half;
-            }
+            EXPECT_GT(ratio, 1.0 - chance) << points_of_half;
+            // Of fewer points, halves of lattices are 1.22 times as far apart here as in bakes
+            // (docs/results/noise.md), which is observed.
+            const bool is_few = sampler->noise_scale() < 1.0 && points_of_half < 16;
+            EXPECT_LT(ratio, is_few ? 1.3 : 1.0 + chance) << points_of_half;
             // Four standard errors.
             EXPECT_NEAR(errors.product, 0.0,
                         4.0 * std::sqrt(errors.squared_difference * errors.squared_error /

@@ -110,7 +110,7 @@ std::vector<std::pair<double, double>> rings_and_turns(const CosineDirections& d
     return points;
 }
 
-TEST(CosineDirections, AreOneInEachRingAndStepBySqrt2Turns) {
+TEST(CosineDirections, AreOneInEachRingAndStepByTheSameTurn) {
     for (const uint32_t num_points : {2u, 6u, 64u, 514u}) {
         for (const uint32_t num_parts : {1u, 2u}) {
             const CosineDirections directions(num_points, num_parts);
@@ -123,7 +123,7 @@ TEST(CosineDirections, AreOneInEachRingAndStepBySqrt2Turns) {
                             1e-6);
                 EXPECT_LT(points[0].first, 1.0 / num_points + 1e-6);
                 const double turns =
-                    points[j].second - points[0].second - static_cast<double>(j) * std::sqrt(2.0);
+                    points[j].second - points[0].second - static_cast<double>(j) / std::sqrt(2.0);
                 EXPECT_NEAR(turns, std::round(turns), 1e-4) << j;
             }
         }
