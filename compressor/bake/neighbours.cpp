@@ -2,29 +2,34 @@
 #include "compressor/bake/neighbours.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace paim {
 
 Neighbours::Neighbours(const Topology& topology) {
-    std::vector<std::pair<uint32_t, uint32_t>> pairs;
-    pairs.reserve(6 * topology.triangles.size());
+    // First with those of every face, which are there twice along inner edges.
+    std::vector<size_t> begin(topology.num_vertices + size_t{1}, 0);
+    for (const Triangle& t : topology.triangles) {
+        for (const uint32_t v : t) begin[v + size_t{1}] += 2;
+    }
+    for (size_t v = 1; v < begin.size(); ++v) begin[v] += begin[v - 1];
+    std::vector<uint32_t> of_faces(begin.back());
+    std::vector<size_t> next(begin.begin(), begin.end() - 1);
     for (const Triangle& t : topology.triangles) {
         for (size_t corner = 0; corner < 3; ++corner) {
-            for (const uint32_t neighbour : {t[(corner + 1) % 3], t[(corner + 2) % 3]}) {
-                if (neighbour != t[corner]) pairs.emplace_back(t[corner], neighbour);
-            }
+            of_faces[next[t[corner]]++] = t[(corner + 1) % 3];
+            of_faces[next[t[corner]]++] = t[(corner + 2) % 3];
         }
     }
-    std::sort(pairs.begin(), pairs.end());
-    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-    all_.reserve(pairs.size());
-    begin_.assign(topology.num_vertices + size_t{1}, 0);
-    for (const auto& [v, neighbour] : pairs) {
-        ++begin_[v + size_t{1}];
-        all_.push_back(neighbour);
+    begin_.assign(begin.size(), 0);
+    all_.reserve(of_faces.size() / 2);
+    for (size_t v = 0; v + 1 < begin.size(); ++v) {
+        const std::span<uint32_t> these(of_faces.data() + begin[v], begin[v + 1] - begin[v]);
+        std::sort(these.begin(), these.end());
+        for (size_t k = 0; k < these.size(); ++k) {
+            if (these[k] != v && (k == 0 || these[k] != these[k - 1])) all_.push_back(these[k]);
+        }
+        begin_[v + 1] = all_.size();
     }
-    for (size_t v = 1; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
 }
 
 double open_fraction_around(const Neighbours& neighbours, size_t v,

@@ -128,7 +128,7 @@ noise (t_A − t_B) / 2 / {rays.ratio:.2f} = {number(rays.noise[0])}    error: {
         edge = (1 + math.sqrt((octopus.num_poses - 1) / nu)) ** 2
         report = self.report("auto")["transfer"]
         rows = []
-        for k in (0, 4, 8, 9, 10, 11, 46):
+        for k in (0, 4, 8, 10, 13, 14, 15, 46):
             signal = max(0.0, energy[k] - noise[k])
             rows.append(
                 [
