@@ -6,7 +6,6 @@
 #include "compressor/bake/ray_start.h"
 #include "compressor/bake/transfer_baker.h"
 #include "paim/base/check.h"
-#include "paim/base/seed.h"
 #include "paim/base/tbb_parallel.h"
 #include "paim/mesh/normals.h"
 #include "paim/trace/ray_scene.h"
@@ -20,7 +19,7 @@ constexpr size_t kOriginsPerPiece = 64;  // as the baker
 
 // The rays that TransferBaker traces for pose 0.
 RayList rays_of_bake(const PoseSource& source, const Pose& pose, const BakeOptions& options) {
-    const CosineDirections generator(0, options.rays / 2);
+    const CosineDirections generator(options.rays, 2);
     const RayStarts starts(source.topology(), pose.positions, pose.normals);
     PAIM_CHECK_EQ(starts.num_fans(), size_t{0});  // of the octopus; their rays are other work
     RayList rays;
@@ -29,7 +28,7 @@ RayList rays_of_bake(const PoseSource& source, const Pose& pose, const BakeOptio
     for (uint32_t v = 0; v < source.topology().num_vertices; ++v) {
         rays.origins.push_back(starts[v].origin);
         for (uint32_t h = 0; h < 2; ++h) {
-            generator.generate(pose.normals[v], stream_key(options.seed, 0, v, h), half);
+            generator.generate(pose.normals[v], half_keys(options, 0, v, 0)[0], h, half);
             for (uint32_t j = 0; j < generator.count(); ++j) {
                 rays.directions.emplace_back(half.x[j], half.y[j], half.z[j]);
             }
@@ -84,12 +83,12 @@ void bake_threads(benchmark::State& state, uint32_t num_vertices, uint32_t num_r
 
 // Making directions alone, which is most of what surrounds the rays.
 void directions(benchmark::State& state, uint32_t num_rays) {
-    const CosineDirections generator(0, num_rays);
+    const CosineDirections generator(num_rays, 1);
     DirectionArrays out;
     const Vec3f normal = Vec3f(0.3f, -0.8f, 0.5f).normalized();
     uint64_t key = 0;
     for (auto _ : state) {
-        generator.generate(normal, ++key * 0x9e3779b97f4a7c15u, out);
+        generator.generate(normal, ++key * 0x9e3779b97f4a7c15u, 0, out);
         benchmark::DoNotOptimize(out.x.data());
         benchmark::ClobberMemory();
     }

@@ -20,10 +20,19 @@ const char* streams_name(Streams streams) {
     return "unknown";
 }
 
-uint64_t half_key(const BakeOptions& options, uint32_t p, uint32_t v, uint32_t half) {
-    const bool is_shared =
-        options.streams == Streams::shared || (options.streams == Streams::mixed && half == 0);
-    return stream_key(options.seed, is_shared ? 0 : p, v, half);
+HalfRelation half_relation(const BakeOptions& options) {
+    return options.streams == Streams::mixed ? HalfRelation::independent
+                                             : HalfRelation::interleaved;
+}
+
+HalfKeys half_keys(const BakeOptions& options, uint32_t p, uint32_t v, uint32_t round) {
+    HalfKeys keys{};
+    for (uint32_t half = 0; half < 2; ++half) {
+        const bool is_shared =
+            options.streams == Streams::shared || (options.streams == Streams::mixed && half == 0);
+        keys[half] = stream_key(options.seed, is_shared ? 0 : p, v, 2 * round + half);
+    }
+    return keys;
 }
 
 double open_transfer_norm(uint32_t bands) {

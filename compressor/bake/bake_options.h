@@ -11,7 +11,7 @@ namespace paim {
 enum class Streams : uint32_t {
     per_pose,  // independent in every pose: the noise averages out over the poses, but flickers
     shared,    // the same in every pose: the noise moves with the mesh and does not average out
-    mixed,     // half of the rays shared by all poses, the other half independent
+    mixed,     // half of the rays shared by all poses, the other half independent of them
 };
 
 // The name in manifests: "per-pose", "shared" or "mixed".
@@ -35,8 +35,11 @@ struct BakeOptions {
     uint32_t bounces = 0;  // number of times that light bounces, 0 … kMaxBounces (bounces.h)
 };
 
-// Key of the random numbers of the rays of one half (0 or 1) of a vertex.
-uint64_t half_key(const BakeOptions& options, uint32_t p, uint32_t v, uint32_t half);
+// How the halves of the rays of a vertex go together: independent if only one of them is shared.
+HalfRelation half_relation(const BakeOptions& options);
+
+// Keys of the random numbers of a round (0, 1 …) of rays of a vertex.
+HalfKeys half_keys(const BakeOptions& options, uint32_t p, uint32_t v, uint32_t round);
 
 // The L2 norm of the transfer of an unshadowed vertex, which does not depend on its normal:
 // √(Σ_l (â_l/π)² (2l+1)/4π) over the bands.

@@ -1,6 +1,7 @@
 // The directions of a vertex's rays and their weights.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -10,7 +11,7 @@
 namespace paim {
 
 enum class SamplerKind : uint32_t {
-    cosine,         // cosine-distributed, low-discrepancy: the default
+    cosine,         // cosine-distributed, a lattice on a spiral: the default
     uniform,        // uniform over the sphere, random: the slow reference
     uniform_sobol,  // uniform over the sphere, low-discrepancy
 };
@@ -43,22 +44,42 @@ struct RaySet : DirectionArrays {
     uint32_t num_rays = 0;
 };
 
-// Points [first, first + count) of a sequence of directions. For any function f of direction, the
-// sum of weight · f(ω) over the rays of a set, divided by num_points(), has the expectation
-// 1/π ∫ max(0, n·ω) f(ω) dω. Each key gives an independent sequence.
+// The random numbers of both halves of a vertex's rays. A sampler whose halves belong together takes
+// them all from the first key.
+using HalfKeys = std::array<uint64_t, 2>;
+
+// Two sets of directions, the halves of a vertex's rays. For any function f of direction, the sum of
+// weight · f(ω) over the rays of a half, divided by num_points(), has the expectation
+// 1/π ∫ max(0, n·ω) f(ω) dω. Other keys give independent sets.
 class DirectionSampler {
   public:
     explicit DirectionSampler(uint32_t num_points) : num_points_(num_points) {}
     virtual ~DirectionSampler() = default;
+
+    // Points of a half.
     uint32_t num_points() const { return num_points_; }
 
     // normal  unit; points below its horizon contribute nothing and are not among the rays
-    virtual void generate(const Vec3f& normal, uint64_t key, RaySet& out) const = 0;
+    // half    0 or 1
+    virtual void generate(const Vec3f& normal, const HalfKeys& keys, uint32_t half,
+                          RaySet& out) const = 0;
+
+    // What half the difference of the halves' means is multiplied by, to have the variance of the
+    // error of their mean: 1 if the halves are independent, less if they are better together.
+    virtual double noise_scale() const { return 1.0; }
 
   private:
     uint32_t num_points_;
 };
 
-std::unique_ptr<DirectionSampler> make_sampler(SamplerKind kind, uint32_t first, uint32_t count);
+// How the halves of the rays go together.
+enum class HalfRelation {
+    interleaved,  // halves of one set, if the sampler has such
+    independent,  // each with a key of its own
+};
+
+// num_points  of a half
+std::unique_ptr<DirectionSampler> make_sampler(SamplerKind kind, uint32_t num_points,
+                                               HalfRelation relation);
 
 }  // namespace paim

@@ -1,4 +1,4 @@
-// Finds the vertices that need more rays.
+// Finds the vertices that need more rays, and how many.
 #include "compressor/bake/noise_target.h"
 
 #include <cmath>
@@ -7,34 +7,28 @@
 
 namespace paim {
 
-std::vector<uint32_t> above_noise_target(const Topology& topology,
-                                         std::span<const double> noise_energy,
-                                         std::span<const uint64_t> num_rays, double power,
-                                         double target_energy,
-                                         std::span<const uint32_t> candidates) {
-    PAIM_CHECK_EQ(noise_energy.size(), topology.num_vertices);
-    PAIM_CHECK_EQ(num_rays.size(), topology.num_vertices);
-    // Squared error of one ray divided by that of all rays.
-    std::vector<double> falls(topology.num_vertices);
-    for (size_t v = 0; v < falls.size(); ++v) {
-        falls[v] = std::pow(static_cast<double>(num_rays[v]), power);
-    }
-    // Sums over triangles, so that inner neighbours count twice and those along a border once.
-    std::vector<double> sums(topology.num_vertices, 0.0);
-    std::vector<uint32_t> counts(topology.num_vertices, 0);
-    for (const Triangle& t : topology.triangles) {
-        for (size_t corner = 0; corner < 3; ++corner) {
-            for (const uint32_t neighbour : {t[(corner + 1) % 3], t[(corner + 2) % 3]}) {
-                if (num_rays[neighbour] == 0 || neighbour == t[corner]) continue;
-                sums[t[corner]] += noise_energy[neighbour] * falls[neighbour];
-                ++counts[t[corner]];
-            }
-        }
-    }
-    std::vector<uint32_t> above;
+std::vector<RayDemand> above_noise_target(const Neighbours& neighbours,
+                                          std::span<const double> noise_energy,
+                                          std::span<const double> information, double power,
+                                          double target_energy,
+                                          std::span<const uint32_t> candidates) {
+    PAIM_CHECK_EQ(noise_energy.size(), neighbours.num_vertices());
+    PAIM_CHECK_EQ(information.size(), neighbours.num_vertices());
+    std::vector<RayDemand> above;
     for (const uint32_t v : candidates) {
-        const double of_one_ray = counts[v] > 0 ? sums[v] / counts[v] : noise_energy[v] * falls[v];
-        if (of_one_ray > target_energy * falls[v]) above.push_back(v);
+        // Squared error of a vertex with information 1.
+        double sum = 0.0;
+        size_t count = 0;
+        for (const uint32_t neighbour : neighbours[v]) {
+            if (information[neighbour] == 0.0) continue;
+            sum += noise_energy[neighbour] * information[neighbour];
+            ++count;
+        }
+        const double energy =
+            count > 0 ? sum / static_cast<double>(count) : noise_energy[v] * information[v];
+        if (energy > target_energy * information[v]) {
+            above.push_back({v, std::pow(energy / target_energy - information[v], 1.0 / power)});
+        }
     }
     return above;
 }

@@ -3,8 +3,6 @@
 //           dimension from the primitive polynomial x + 1
 #include "compressor/bake/sobol.h"
 
-#include <algorithm>
-
 namespace paim {
 
 namespace {
@@ -21,32 +19,12 @@ uint32_t reversed_second(uint32_t j) {
     return reverse_bits(y);
 }
 
-// Interleaves the bits of x and y, the highest first.
-// Based on: G. M. Morton, A Computer Oriented Geodetic Data Base, 1966
-uint64_t morton_code(uint32_t x, uint32_t y) {
-    uint64_t code = 0;
-    for (uint32_t bit = 32; bit-- > 0;) code = code << 2 | (x >> bit & 1u) << 1 | (y >> bit & 1u);
-    return code;
-}
-
-struct OrderedPoint {
-    uint64_t code;
-    uint32_t index;
-    auto operator<=>(const OrderedPoint&) const = default;
-};
-
 }  // namespace
 
-SobolPoints::SobolPoints(uint32_t first, uint32_t count) : reversed_x(count), reversed_y(count) {
-    std::vector<OrderedPoint> points(count);
+SobolPoints::SobolPoints(uint32_t count) : reversed_x(count), reversed_y(count) {
     for (uint32_t j = 0; j < count; ++j) {
-        const uint32_t index = first + j;
-        points[j] = {morton_code(reverse_bits(index), reverse_bits(reversed_second(index))), index};
-    }
-    std::sort(points.begin(), points.end());
-    for (uint32_t j = 0; j < count; ++j) {
-        reversed_x[j] = points[j].index;
-        reversed_y[j] = reversed_second(points[j].index);
+        reversed_x[j] = j;
+        reversed_y[j] = reversed_second(j);
     }
 }
 

@@ -8,21 +8,16 @@
 
 namespace paim {
 
-// Points [first, first + count) of the (0, 2)-sequence, each coordinate a 32-bit fraction with its
-// bits reversed, which is the form that scrambling works on. In Morton order: points of the same
-// square or half square (an elementary interval) follow one another, and as scrambling moves whole
-// intervals, they still do afterwards, whatever the seed. Rays along neighbouring directions go
-// together.
+// The first points of the (0, 2)-sequence, each coordinate a 32-bit fraction with its bits reversed,
+// which is the form that scrambling works on.
 struct SobolPoints {
     std::vector<uint32_t> reversed_x;
     std::vector<uint32_t> reversed_y;
 
-    SobolPoints(uint32_t first, uint32_t count);
+    explicit SobolPoints(uint32_t count);
 };
 
-// The next two functions take one number, or several as a vector type of the compiler.
-template <typename Word>
-constexpr Word reverse_bits(Word x) {
+constexpr uint32_t reverse_bits(uint32_t x) {
     x = (x >> 16) | (x << 16);
     x = ((x & 0x00ff00ffu) << 8) | ((x & 0xff00ff00u) >> 8);
     x = ((x & 0x0f0f0f0fu) << 4) | ((x & 0xf0f0f0f0u) >> 4);
@@ -33,8 +28,7 @@ constexpr Word reverse_bits(Word x) {
 // Permutes so that every bit depends only on itself, the seed and lower bits: an Owen scramble when
 // the bits are reversed. The constants are Nathan Vegdahl's, with better avalanche than Burley's:
 // "Building a Better LK Hash", 2021.
-template <typename Word>
-constexpr Word laine_karras_permutation(Word x, uint32_t seed) {
+constexpr uint32_t laine_karras_permutation(uint32_t x, uint32_t seed) {
     x ^= x * 0x3d20adeau;
     x += seed;
     x *= (seed >> 16) | 1u;

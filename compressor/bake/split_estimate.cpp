@@ -12,8 +12,9 @@ namespace {
 
 constexpr size_t kBatch = sh::BatchBasis::kBatch;
 constexpr size_t kSumLanes = sh::BatchBasis::kSumLanes;
-// Lane sums are floats. After this many rays they are added to doubles, before rounding matters.
-constexpr size_t kRaysPerFlush = 32 * kBatch;
+// Lane sums are floats. After this many packets of rays they are added to doubles, before rounding
+// matters.
+constexpr size_t kPacketsPerFlush = 32;
 
 }  // namespace
 
@@ -21,66 +22,73 @@ SplitTracer::SplitTracer(const sh::BatchBasis& basis)
     : basis_(basis), lanes_(static_cast<size_t>(basis.bands() * basis.bands()) * kSumLanes) {}
 
 void SplitTracer::trace(const RayScene& scene, const RayStart& start, const Vec3f& normal,
-                        const DirectionSampler& sampler, uint64_t key, SplitEstimate& sums) {
-    sampler.generate(normal, key, rays_);
+                        const DirectionSampler& sampler, const HalfKeys& keys, uint32_t half,
+                        SplitEstimate& sums) {
+    sampler.generate(normal, keys, half, rays_);
+    num_points_ = sampler.num_points();
     occluded_.resize(rays_.num_rays);
     sums.num_occluded += occluded_from(scene, start, rays_.x.data(), rays_.y.data(), rays_.z.data(),
                                        rays_.num_rays, occluded_.data());
-    sums.num_points += sampler.num_points();
     sums.num_rays += rays_.num_rays;
 }
 
-void SplitTracer::add(SplitEstimate& sums) {
-    open_weights_ = rays_.weights;  // the weight of padding is zero
-    for (size_t j = 0; j < rays_.num_rays; ++j) open_weights_[j] *= 1.0f - occluded_[j];
-    accumulate(rays_.weights, sums.all);
-    accumulate(open_weights_, sums.open);
+void SplitTracer::assume(const Vec3f& normal, const DirectionSampler& sampler, const HalfKeys& keys,
+                         uint32_t half, bool occluded) {
+    sampler.generate(normal, keys, half, rays_);
+    num_points_ = sampler.num_points();
+    occluded_.assign(rays_.num_rays, occluded ? 1.0f : 0.0f);
 }
 
-void SplitTracer::accumulate(std::span<const float> weights, std::vector<double>& sums) {
-    for (size_t first = 0; first < weights.size(); first += kRaysPerFlush) {
-        std::fill(lanes_.begin(), lanes_.end(), 0.0f);
-        const size_t end = std::min(weights.size(), first + kRaysPerFlush);
-        for (size_t j = first; j < end; j += kBatch) {
-            basis_.accumulate(rays_.x.data() + j, rays_.y.data() + j, rays_.z.data() + j,
-                              weights.data() + j, lanes_.data());
+void SplitTracer::add(double weight, SplitEstimate& sums) {
+    for (auto* packets : {&open_packets_, &mixed_packets_, &occluded_packets_}) packets->clear();
+    open_weights_ = rays_.weights;  // the weight of padding is zero
+    for (size_t first = 0; first < rays_.weights.size(); first += kBatch) {
+        const size_t end = std::min<size_t>(first + kBatch, rays_.num_rays);
+        float num_occluded = 0.0f;
+        for (size_t j = first; j < end; ++j) {
+            num_occluded += occluded_[j];
+            open_weights_[j] *= 1.0f - occluded_[j];
         }
-        for (size_t i = 0; i < sums.size(); ++i) {
-            for (size_t lane = 0; lane < kSumLanes; ++lane) {
-                sums[i] += static_cast<double>(lanes_[i * kSumLanes + lane]);
+        auto& packets = num_occluded == 0.0f                              ? open_packets_
+                        : num_occluded == static_cast<float>(end - first) ? occluded_packets_
+                                                                          : mixed_packets_;
+        packets.push_back(first);
+    }
+    std::vector<double>* const both[] = {&sums.all, &sums.open};
+    accumulate(open_packets_, rays_.weights, weight, both);
+    accumulate(occluded_packets_, rays_.weights, weight, std::span(both).first(1));
+    accumulate(mixed_packets_, rays_.weights, weight, std::span(both).first(1));
+    accumulate(mixed_packets_, open_weights_, weight, std::span(both).last(1));
+    sums.num_points += weight * num_points_;
+}
+
+void SplitTracer::accumulate(std::span<const size_t> packets, std::span<const float> weights,
+                             double weight, std::span<std::vector<double>* const> sums) {
+    for (size_t begin = 0; begin < packets.size(); begin += kPacketsPerFlush) {
+        std::fill(lanes_.begin(), lanes_.end(), 0.0f);
+        for (const size_t first :
+             packets.subspan(begin, std::min(kPacketsPerFlush, packets.size() - begin))) {
+            basis_.accumulate(rays_.x.data() + first, rays_.y.data() + first,
+                              rays_.z.data() + first, weights.data() + first, lanes_.data());
+        }
+        for (std::vector<double>* to : sums) {
+            for (size_t i = 0; i < to->size(); ++i) {
+                for (size_t lane = 0; lane < kSumLanes; ++lane) {
+                    (*to)[i] += weight * static_cast<double>(lanes_[i * kSumLanes + lane]);
+                }
             }
         }
     }
 }
 
-void estimate_split(std::span<const SplitEstimate, 2> halves, std::span<const double> unoccluded,
-                    std::span<double> estimates) {
-    const size_t num_coefficients = halves[0].all.size();
-    PAIM_CHECK_EQ(estimates.size(), 2 * num_coefficients);
-    const uint64_t num_rays = halves[0].num_rays + halves[1].num_rays;
-    const uint64_t num_occluded = halves[0].num_occluded + halves[1].num_occluded;
-    if (!unoccluded.empty() && num_occluded == 0) {
-        for (const size_t h : {size_t{0}, size_t{1}}) {
-            std::copy(unoccluded.begin(), unoccluded.end(),
-                      estimates.begin() + static_cast<std::ptrdiff_t>(h * num_coefficients));
-        }
-        return;
-    }
-    if (num_occluded == num_rays) {
-        std::fill(estimates.begin(), estimates.end(), 0.0);
-        return;
-    }
-    for (size_t h = 0; h < 2; ++h) {
-        const SplitEstimate& half = halves[h];
-        const SplitEstimate& other = halves[1 - h];
-        const double c = unoccluded.empty() ? 0.0
-                                            : 1.0 - static_cast<double>(other.num_occluded) /
-                                                        static_cast<double>(other.num_rays);
-        for (size_t i = 0; i < num_coefficients; ++i) {
-            const double lobe = unoccluded.empty() ? 0.0 : unoccluded[i];
-            estimates[h * num_coefficients + i] =
-                c * lobe + (half.open[i] - c * half.all[i]) / static_cast<double>(half.num_points);
-        }
+void estimate_half(const SplitEstimate& sums, std::span<const double> unoccluded, double c,
+                   std::span<double> estimate) {
+    PAIM_CHECK_EQ(estimate.size(), sums.all.size());
+    PAIM_CHECK(sums.num_points > 0.0);
+    if (unoccluded.empty()) c = 0.0;
+    for (size_t i = 0; i < estimate.size(); ++i) {
+        const double lobe = unoccluded.empty() ? 0.0 : unoccluded[i];
+        estimate[i] = c * lobe + (sums.open[i] - c * sums.all[i]) / sums.num_points;
     }
 }
 

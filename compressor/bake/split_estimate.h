@@ -1,4 +1,4 @@
-// Estimates of the transfer of a vertex from each half of its rays, and their noise from both.
+// Estimates of the transfer of a vertex from each half of its rays.
 // Based on: Owen, Monte Carlo Theory, Methods and Examples, 2013, chapter 8.9 (control variates)
 #pragma once
 
@@ -13,14 +13,14 @@
 
 namespace paim {
 
-// Running sums over the rays of one half.
+// Running sums over the rays of one half. Rays of one round (transfer_baker.h) have the same weight.
 struct SplitEstimate {
     explicit SplitEstimate(size_t num_coefficients)
         : all(num_coefficients), open(num_coefficients) {}
 
     std::vector<double> all;    // [C] Σ weight · y_i
     std::vector<double> open;   // [C] the same sum over rays that are not occluded
-    uint64_t num_points = 0;    // of the sampler
+    double num_points = 0.0;    // of the sampler, Σ weight
     uint64_t num_rays = 0;      // of these, above the horizon and traced
     uint64_t num_occluded = 0;  // of these
 };
@@ -32,37 +32,44 @@ class SplitTracer {
 
     // Traces and counts rays. The sums do not change before add().
     void trace(const RayScene& scene, const RayStart& start, const Vec3f& normal,
-               const DirectionSampler& sampler, uint64_t key, SplitEstimate& sums);
+               const DirectionSampler& sampler, const HalfKeys& keys, uint32_t half,
+               SplitEstimate& sums);
 
-    // Adds the rays that were traced last to the sums.
-    void add(SplitEstimate& sums);
+    // Makes rays of which is known that all are occluded or none is, to be added to the sums.
+    void assume(const Vec3f& normal, const DirectionSampler& sampler, const HalfKeys& keys,
+                uint32_t half, bool occluded);
+
+    // Adds the rays that were traced or made last to the sums.
+    void add(double weight, SplitEstimate& sums);
 
   private:
-    void accumulate(std::span<const float> weights, std::vector<double>& sums);
+    // Adds the rays of some packets to each of the sums.
+    void accumulate(std::span<const size_t> packets, std::span<const float> weights, double weight,
+                    std::span<std::vector<double>* const> sums);
 
     const sh::BatchBasis& basis_;
     RaySet rays_;
+    uint32_t num_points_ = 0;
     std::vector<float> occluded_;      // [rays] 1 or 0
     std::vector<float> open_weights_;  // [padded rays]
     std::vector<float> lanes_;         // [C][kSumLanes]
+    // The first rays of packets of sixteen whose rays are all open, all occluded, or neither. Those
+    // of the first have the same sum of all rays and of open ones, which needs the basis once.
+    std::vector<size_t> open_packets_, occluded_packets_, mixed_packets_;
 };
 
 // Each half's estimate of the transfer is
 //
 //     t_i = c · lobe_i + (open_i − c · all_i) / points,
 //
-// unbiased for any c that does not come from those rays. c is the fraction of open rays in the
-// *other* half: open vertices (c = 1) get the closed form exactly, closed ones (c = 0) exactly
-// zero, and in between the unoccluded part, whose integral is known, carries no noise of its own.
-// Half the difference of the two estimates has mean 0, is uncorrelated with the error of their
-// mean, and has its variance, up to the covariance of the estimates: c of one half multiplies the
-// rays of the other, so that this is Cov(c, all_i / points)² >= 0, of second order in 1 / points.
-// The noise that is stated is too low by that (docs/algorithms/transfer.md).
-// halves       both; their sums need not have been added up if all rays are open or all are
-//              occluded
+// unbiased for any c that does not come from the rays of the vertex. The nearer c is to the fraction
+// of its rays that are open, the less noise the unoccluded part adds, whose integral is known. If
+// all rays are open and c = 1, the estimate is the closed form, and if all are occluded and c = 0,
+// it is zero. Both are exact.
+// sums         of a half that has points
 // unoccluded   [C] the transfer if nothing is occluded; empty: c = 0
-// estimates    [2][C]
-void estimate_split(std::span<const SplitEstimate, 2> halves, std::span<const double> unoccluded,
-                    std::span<double> estimates);
+// estimate     [C]
+void estimate_half(const SplitEstimate& sums, std::span<const double> unoccluded, double c,
+                   std::span<double> estimate);
 
 }  // namespace paim

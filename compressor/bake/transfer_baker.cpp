@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "compressor/bake/neighbours.h"
 #include "compressor/bake/noise_target.h"
 #include "compressor/bake/ray_start.h"
 #include "compressor/bake/split_estimate.h"
@@ -23,28 +24,9 @@ namespace paim {
 namespace {
 
 constexpr size_t kVerticesPerPiece = 64;
-// Points of a half in the first batch with a noise target: two packets of rays.
-constexpr uint32_t kFirstBatch = 32;
-// Number of sums that are kept between batches, 256 MB. A larger mesh is baked in pieces.
-constexpr size_t kMaxSums = size_t{1} << 25;
-
-std::vector<std::unique_ptr<DirectionSampler>> make_batches(const BakeOptions& options) {
-    std::vector<std::unique_ptr<DirectionSampler>> batches;
-    const uint32_t num_points = options.rays / 2;
-    if (options.transfer_error <= 0.0) {
-        batches.push_back(make_sampler(options.sampler, 0, num_points));
-        return batches;
-    }
-    // Batches end at powers of two, where the points are a net, and half-way between these.
-    uint32_t end = kFirstBatch;
-    for (uint32_t first = 0; first < num_points;
-         end += std::has_single_bit(end) ? end / 2 : end / 3) {
-        end = std::min(end, num_points);
-        batches.push_back(make_sampler(options.sampler, first, end - first));
-        first = end;
-    }
-    return batches;
-}
+// Number of sums that are kept until the neighbours have traced their rays, 64 MB. A larger mesh is
+// baked in parts.
+constexpr size_t kMaxSums = size_t{1} << 23;
 
 // â_l / π for each coefficient, [bands²]. The transfer of an unoccluded vertex is this times
 // y_i(n).
@@ -57,6 +39,25 @@ std::vector<double> cosine_lobe_by_coefficient(uint32_t bands) {
 }
 
 using Halves = std::array<SplitEstimate, 2>;
+
+// Points of a half in the first round with a noise target: two packets of rays. Others have powers
+// of two and what is half-way between them, so that there are few sizes.
+constexpr uint32_t kFirstPoints = 32;
+
+uint32_t next_size(uint32_t points) {
+    return points + (std::has_single_bit(points) ? points / 2 : points / 3);
+}
+
+// Points of a half of a vertex's next round: at least as many as wanted, and half of those traced
+// already, so that rounds are few; if that is more than the vertex may have, as many as there are
+// left. 0: too few are left.
+uint32_t points_of_round(double wanted, uint64_t traced, uint64_t limit) {
+    wanted = std::max(wanted, 0.5 * static_cast<double>(traced));
+    const uint64_t left = limit - traced;
+    uint32_t points = kFirstPoints;
+    while (points < wanted && next_size(points) <= left) points = next_size(points);
+    return points <= left ? points : 0;
+}
 
 }  // namespace
 
@@ -76,19 +77,20 @@ class TransferBaker::PoseBake {
           scene_(topology, pose.positions, still_mesh.topology, still_mesh.pose.positions),
           starts_(topology, pose.positions, pose.normals),
           lobe_(cosine_lobe_by_coefficient(options_.bands)),
-          num_rays_(topology.num_vertices),
-          num_occluded_(topology.num_vertices),
-          num_batches_(topology.num_vertices, 0),
-          noise_energy_(topology.num_vertices) {
+          neighbours_(topology),
+          num_rays_(topology.num_vertices, 0),
+          num_occluded_(topology.num_vertices, 0),
+          num_points_(topology.num_vertices, 0),
+          information_(topology.num_vertices, 0.0),
+          noise_energy_(topology.num_vertices, 0.0) {
         for (auto& half : halves_) half.resize(lobe_.size() * topology.num_vertices, 0.0f);
     }
 
     // terms  receives those of the bounces, unless nullptr
     BakedPose run(BounceTerms* terms) {
-        if (options_.transfer_error > 0.0) {
-            bake_to_target();
-        } else {
-            bake_at_once();
+        const size_t part = std::max<size_t>(1, kMaxSums / (4 * num_coefficients()));
+        for (size_t begin = 0; begin < topology_.num_vertices; begin += part) {
+            bake_part(begin, std::min<size_t>(topology_.num_vertices, begin + part));
         }
         if (options_.bounces > 0) bounce(terms);
         return finish();
@@ -97,103 +99,142 @@ class TransferBaker::PoseBake {
   private:
     struct Workspace {
         SplitTracer tracers[2];
-        std::vector<double> unoccluded;  // [C]
-        std::vector<double> estimates;   // [2][C]
+        std::vector<double> unoccluded;                // [C]
+        std::array<std::vector<double>, 2> estimates;  // [C]
 
         Workspace(const sh::BatchBasis& basis, size_t num_coefficients)
             : tracers{SplitTracer(basis), SplitTracer(basis)},
               unoccluded(num_coefficients),
-              estimates(2 * num_coefficients) {}
+              estimates{unoccluded, unoccluded} {}
+    };
+
+    // The next round of rays of a vertex.
+    struct NextRound {
+        uint32_t vertex;
+        const DirectionSampler* sampler;
     };
 
     size_t num_coefficients() const { return lobe_.size(); }
     bool has_normal(size_t v) const { return !pose_.normals[v].isZero(0.0f); }
 
-    // Traces another batch of a vertex's rays. Adds them up only if the result depends on their
-    // sums.
-    void shoot(size_t v, const DirectionSampler& batch, bool is_only_batch, Halves& halves,
-               Workspace& work) const {
-        const Vec3f& normal = pose_.normals[v];
+    double power() const { return error_power(options_.sampler); }
+
+    // Sets of N rays are averaged with weights N^power, so that each ray counts N^(power − 1).
+    double weight(const DirectionSampler& sampler) const {
+        return std::pow(2.0 * sampler.num_points(), power() - 1.0);
+    }
+
+    HalfKeys keys(size_t v, size_t round) const {
+        return half_keys(options_, p_, static_cast<uint32_t>(v), static_cast<uint32_t>(round));
+    }
+
+    // Traces another round of a vertex's rays. If it is the only one, rays that are all open or all
+    // occluded are not added up: mostly, nothing depends on their sums.
+    void shoot(const NextRound& next, size_t round, bool is_only_round, Halves& halves,
+               Workspace& work) {
+        const size_t v = next.vertex;
         const RayStart start = starts_[v];
         for (uint32_t h = 0; h < 2; ++h) {
-            const uint64_t key = half_key(options_, p_, static_cast<uint32_t>(v), h);
-            work.tracers[h].trace(scene_, start, normal, batch, key, halves[h]);
+            work.tracers[h].trace(scene_, start, pose_.normals[v], *next.sampler, keys(v, round), h,
+                                  halves[h]);
         }
-        const uint64_t num_rays = halves[0].num_rays + halves[1].num_rays;
-        const uint64_t num_occluded = halves[0].num_occluded + halves[1].num_occluded;
-        const bool has_closed_form = options_.sampler == SamplerKind::cosine;
-        const bool needs_no_sums =
-            is_only_batch && (num_occluded == num_rays || (num_occluded == 0 && has_closed_form));
-        if (needs_no_sums) return;
-        for (size_t h = 0; h < 2; ++h) work.tracers[h].add(halves[h]);
+        num_rays_[v] = halves[0].num_rays + halves[1].num_rays;
+        num_occluded_[v] = halves[0].num_occluded + halves[1].num_occluded;
+        num_points_[v] += next.sampler->num_points();
+        information_[v] += std::pow(2.0 * next.sampler->num_points(), power());
+        const bool all_alike = num_occluded_[v] == 0 || num_occluded_[v] == num_rays_[v];
+        if (is_only_round && all_alike) return;
+        for (size_t h = 0; h < 2; ++h) work.tracers[h].add(weight(*next.sampler), halves[h]);
     }
 
     // Writes the estimates of both halves from their present sums.
-    void estimate(size_t v, const Halves& halves, Workspace& work) {
+    void estimate(const NextRound& next, size_t round, Halves& halves, Workspace& work) {
+        const size_t v = next.vertex;
+        const bool has_closed_form = options_.sampler == SamplerKind::cosine;
         std::span<const double> unoccluded;
-        if (options_.sampler == SamplerKind::cosine) {
+        double c = 0.0;
+        if (has_closed_form) {
             sh::evaluate_basis(static_cast<int>(options_.bands), pose_.normals[v].cast<double>(),
                                std::span(work.unoccluded));
             for (size_t i = 0; i < num_coefficients(); ++i) work.unoccluded[i] *= lobe_[i];
             unoccluded = work.unoccluded;
+            c = open_fraction_around(neighbours_, v, num_rays_, num_occluded_);
         }
-        estimate_split(std::span<const SplitEstimate, 2>(halves), unoccluded, work.estimates);
+        if (has_closed_form && num_occluded_[v] == 0 && c == 1.0) {
+            for (auto& half : work.estimates) half = work.unoccluded;
+        } else if (num_occluded_[v] == num_rays_[v] && c == 0.0) {
+            for (auto& half : work.estimates) std::fill(half.begin(), half.end(), 0.0);
+        } else {
+            for (uint32_t h = 0; h < 2; ++h) {
+                if (halves[h].num_points == 0.0) {
+                    work.tracers[h].assume(pose_.normals[v], *next.sampler, keys(v, round), h,
+                                           num_occluded_[v] > 0);
+                    work.tracers[h].add(weight(*next.sampler), halves[h]);
+                }
+                estimate_half(halves[h], unoccluded, c, work.estimates[h]);
+            }
+        }
         double energy = 0.0;
         for (size_t i = 0; i < num_coefficients(); ++i) {
-            const double a = work.estimates[i];
-            const double b = work.estimates[num_coefficients() + i];
+            const double a = work.estimates[0][i];
+            const double b = work.estimates[1][i];
             halves_[0][i * topology_.num_vertices + v] = static_cast<float>(a);
             halves_[1][i * topology_.num_vertices + v] = static_cast<float>(b);
-            energy += 0.25 * (a - b) * (a - b);
+            energy += (a - b) * (a - b);
         }
-        noise_energy_[v] = energy;
-        ++num_batches_[v];
-        num_rays_[v] = halves[0].num_rays + halves[1].num_rays;
-        num_occluded_[v] = halves[0].num_occluded + halves[1].num_occluded;
+        const double scale = 0.5 * baker_.samplers_.first().noise_scale();
+        noise_energy_[v] = scale * scale * energy;
     }
 
-    void bake_at_once() {
-        parallel_for(topology_.num_vertices, kVerticesPerPiece, [&](size_t begin, size_t end) {
-            Workspace work(baker_.basis_, num_coefficients());
-            for (size_t v = begin; v < end; ++v) {
-                if (!has_normal(v)) continue;
-                Halves halves{SplitEstimate(num_coefficients()), SplitEstimate(num_coefficients())};
-                shoot(v, *baker_.batches_[0], true, halves, work);
-                estimate(v, halves, work);
-            }
-        });
-    }
-
-    void bake_to_target() {
-        const size_t part = std::max<size_t>(1, kMaxSums / (4 * num_coefficients()));
-        for (size_t begin = 0; begin < topology_.num_vertices; begin += part) {
-            bake_part_to_target(begin, std::min<size_t>(topology_.num_vertices, begin + part));
-        }
-    }
-
-    void bake_part_to_target(size_t begin, size_t end) {
-        const double target = options_.transfer_error * open_transfer_norm(options_.bands);
-        const double power = error_power(options_.sampler);
-        std::vector<uint32_t> active;
+    void bake_part(size_t begin, size_t end) {
+        const bool has_target = options_.transfer_error > 0.0;
+        std::vector<NextRound> next;
         for (size_t v = begin; v < end; ++v) {
-            if (has_normal(v)) active.push_back(static_cast<uint32_t>(v));
+            if (has_normal(v)) {
+                next.push_back({static_cast<uint32_t>(v), &baker_.samplers_.first()});
+            }
         }
         std::vector<Halves> sums(end - begin, Halves{SplitEstimate(num_coefficients()),
                                                      SplitEstimate(num_coefficients())});
-        for (const auto& batch : baker_.batches_) {
-            if (active.empty()) break;
-            parallel_for(active.size(), kVerticesPerPiece, [&](size_t first, size_t last) {
+        const auto for_each_next = [&](const auto& run) {
+            parallel_for(next.size(), kVerticesPerPiece, [&](size_t first, size_t last) {
                 Workspace work(baker_.basis_, num_coefficients());
-                for (size_t j = first; j < last; ++j) {
-                    Halves& halves = sums[active[j] - begin];
-                    shoot(active[j], *batch, false, halves, work);
-                    estimate(active[j], halves, work);
-                }
+                for (size_t j = first; j < last; ++j)
+                    run(next[j], sums[next[j].vertex - begin], work);
             });
-            active = above_noise_target(topology_, noise_energy_, num_rays_, power, target * target,
-                                        active);
+        };
+        for (size_t round = 0; !next.empty(); ++round) {
+            rounds_.resize(std::max(rounds_.size(), round + 1));
+            rounds_[round].resize(topology_.num_vertices, nullptr);
+            for (const NextRound& n : next) rounds_[round][n.vertex] = n.sampler;
+            for_each_next([&](const NextRound& n, Halves& halves, Workspace& work) {
+                shoot(n, round, !has_target, halves, work);
+            });
+            for_each_next([&](const NextRound& n, Halves& halves, Workspace& work) {
+                estimate(n, round, halves, work);
+            });
+            if (!has_target) break;
+            next = next_rounds(next);
         }
-        num_above_target_ += static_cast<uint32_t>(active.size());
+    }
+
+    // The rounds of those vertices that are above the noise target and may have more rays.
+    std::vector<NextRound> next_rounds(const std::vector<NextRound>& done) {
+        const double target = options_.transfer_error * open_transfer_norm(options_.bands);
+        std::vector<uint32_t> vertices(done.size());
+        for (size_t j = 0; j < done.size(); ++j) vertices[j] = done[j].vertex;
+        std::vector<NextRound> next;
+        for (const RayDemand& demand : above_noise_target(neighbours_, noise_energy_, information_,
+                                                          power(), target * target, vertices)) {
+            const uint32_t points =
+                points_of_round(0.5 * demand.rays, num_points_[demand.vertex], options_.rays / 2);
+            if (points > 0) {
+                next.push_back({demand.vertex, &baker_.samplers_.of(points)});
+            } else {
+                ++num_above_target_;
+            }
+        }
+        return next;
     }
 
     // Adds bounced light to the estimates of the halves, by the same rays.
@@ -218,10 +259,12 @@ class TransferBaker::PoseBake {
             const Vec3f& normal = pose_.normals[v];
             const auto vertex = static_cast<uint32_t>(v);
             const RayStart start = starts_[v];
-            const uint64_t key = half_key(options_, p_, vertex, static_cast<uint32_t>(half));
             HitTracer tracer(scene_, topology, positions);
-            for (size_t b = 0; b < num_batches_[v]; ++b) {
-                tracer.trace(vertex, start, normal, *baker_.batches_[b], key);
+            for (size_t round = 0; round < rounds_.size(); ++round) {
+                const DirectionSampler* sampler = rounds_[round][v];
+                if (sampler == nullptr) break;
+                tracer.trace(vertex, start, normal, *sampler, keys(v, round),
+                             static_cast<uint32_t>(half), weight(*sampler));
             }
             num_back_hits[half][v] = tracer.num_back_hits();
             tracer.end(row);
@@ -234,16 +277,17 @@ class TransferBaker::PoseBake {
     }
 
     // Turns the estimates of the halves into transfer (their mean) and noise (half their
-    // difference).
+    // difference, scaled).
     BakedPose finish() {
         BakedPose baked;
         baked.positions = to_planes(pose_.positions);
         baked.normals = to_planes(pose_.normals);
+        const auto noise_scale = static_cast<float>(0.5 * baker_.samplers_.first().noise_scale());
         for (size_t r = 0; r < halves_[0].size(); ++r) {
             const float a = halves_[0][r];
             const float b = halves_[1][r];
             halves_[0][r] = 0.5f * (a + b);
-            halves_[1][r] = 0.5f * (a - b);
+            halves_[1][r] = noise_scale * (a - b);
         }
         baked.transfer = std::move(halves_[0]);
         baked.noise = std::move(halves_[1]);
@@ -272,21 +316,39 @@ class TransferBaker::PoseBake {
     const RayScene scene_;
     const RayStarts starts_;
     const std::vector<double> lobe_;  // [C]
+    const Neighbours neighbours_;
     // [planes][V] the estimates of both halves; of one channel until bounced light is added
     std::array<std::vector<float>, 2> halves_;
     std::vector<uint64_t> num_rays_;      // [V]
     std::vector<uint64_t> num_occluded_;  // [V]
-    std::vector<uint8_t> num_batches_;    // [V] of rays
+    std::vector<uint64_t> num_points_;    // [V] of a half
+    std::vector<double> information_;     // [V] noise_target.h
+    // [rounds][V] what made the directions; nullptr: the vertex needed no such round
+    std::vector<std::vector<const DirectionSampler*>> rounds_;
     uint64_t num_all_back_hits_ = 0;
-    std::vector<double> noise_energy_;  // [V] Σ_i (half the difference of the halves)²
+    std::vector<double> noise_energy_;  // [V] Σ_i noise²
     uint32_t num_above_target_ = 0;
 };
+
+TransferBaker::Samplers::Samplers(const BakeOptions& options)
+    : kind_(options.sampler), relation_(half_relation(options)) {
+    first_points_ = options.rays / 2;
+    if (options.transfer_error > 0.0) first_points_ = std::min(first_points_, kFirstPoints);
+    of(first_points_);
+}
+
+const DirectionSampler& TransferBaker::Samplers::of(uint32_t num_points) const {
+    const std::lock_guard lock(mutex_);
+    auto& sampler = by_size_[num_points];
+    if (sampler == nullptr) sampler = make_sampler(kind_, num_points, relation_);
+    return *sampler;
+}
 
 TransferBaker::TransferBaker(const BakeOptions& options, Albedo albedo, StillMesh still_mesh)
     : options_(options),
       albedo_(std::move(albedo)),
       still_mesh_(std::move(still_mesh)),
-      batches_(make_batches(options)),
+      samplers_(options),
       basis_(static_cast<int>(options.bands)) {
     PAIM_CHECK(options.rays >= 2 && options.rays % 2 == 0);
     PAIM_CHECK_LE(options.bounces, kMaxBounces);

@@ -4,7 +4,9 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "compressor/bake/bake_options.h"
@@ -20,15 +22,15 @@ namespace paim {
 
 // Raised whenever the same options give other bytes, so that results of different builds are not
 // mixed.
-constexpr uint32_t kBakerVersion = 5;
+constexpr uint32_t kBakerVersion = 6;
 
-// Every vertex traces its rays in two halves with random numbers of their own (split_estimate.h).
-// The mean of their estimates is the transfer. Half their difference is its noise: one draw with
-// the variance of the error, up to O(1/N²), and uncorrelated with it. With a fixed count all rays
-// of a vertex are traced at once. With a noise target they are traced in batches, each a third to a
-// half as large as all before it, until the vertex is below the target by the noise of its
-// neighbours (noise_target.h). Bounced light is added to the halves afterwards (bounces.h). The
-// target is for light straight from the sky.
+// Every vertex traces its rays in two halves, which are one set of directions (split_estimate.h,
+// cosine_directions.h). The mean of their estimates is the transfer. Half their difference, scaled
+// (DirectionSampler::noise_scale), is its noise: one draw with the variance of the error, and
+// uncorrelated with it. With a fixed count all rays of a vertex are traced at once. With a noise
+// target they are traced in rounds: a first one of 64 rays, then as many as the noise of the
+// neighbours asks for (noise_target.h). Bounced light is added to the halves afterwards
+// (bounces.h). The target is for light straight from the sky.
 class TransferBaker {
   public:
     // albedo      of the meshes to bake; only used if light bounces
@@ -53,12 +55,30 @@ class TransferBaker {
   private:
     class PoseBake;
 
+    // Sets of directions of different sizes, made when they are needed for the first time. Safe to
+    // use from several threads.
+    class Samplers {
+      public:
+        explicit Samplers(const BakeOptions& options);
+
+        // With this many points of a half.
+        const DirectionSampler& of(uint32_t num_points) const;
+        // That of the first round of every vertex.
+        const DirectionSampler& first() const { return *by_size_.at(first_points_); }
+
+      private:
+        SamplerKind kind_;
+        HalfRelation relation_;
+        uint32_t first_points_;
+        mutable std::mutex mutex_;
+        mutable std::map<uint32_t, std::unique_ptr<DirectionSampler>> by_size_;
+    };
+
     BakeOptions options_;
     Albedo albedo_;
     StillMesh still_mesh_;
     BounceTerms still_terms_;  // if light bounces
-    // The rays of a half come in batches, one sampler each; one batch if the count is fixed.
-    std::vector<std::unique_ptr<DirectionSampler>> batches_;
+    Samplers samplers_;
     sh::BatchBasis basis_;
 };
 

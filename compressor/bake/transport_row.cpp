@@ -6,15 +6,17 @@
 namespace paim {
 
 void HitTracer::trace(uint32_t vertex, const RayStart& start, const Vec3f& normal,
-                      const DirectionSampler& sampler, uint64_t key) {
-    sampler.generate(normal, key, rays_);
-    num_points_ += sampler.num_points();
+                      const DirectionSampler& sampler, const HalfKeys& keys, uint32_t half,
+                      double weight) {
+    sampler.generate(normal, keys, half, rays_);
+    num_points_ += weight * sampler.num_points();
     find_hits(start);
     for (size_t j = 0; j < hits_.size(); ++j) {
+        const float ray_weight = static_cast<float>(weight) * rays_.weights[j];
         if (start.fan != nullptr && start.fan->hides(direction(j))) {
-            shares_.push_back({vertex, rays_.weights[j]});
+            shares_.push_back({vertex, ray_weight});
         } else if (hits_[j].triangle != kNoTriangle) {
-            add_hit(hits_[j], j);
+            add_hit(hits_[j], j, ray_weight);
         }
     }
 }
@@ -37,7 +39,7 @@ void HitTracer::find_hits(const RayStart& start) {
     }
 }
 
-void HitTracer::add_hit(const Hit& hit, size_t ray) {
+void HitTracer::add_hit(const Hit& hit, size_t ray, float weight) {
     const Triangle& t = topology_.triangles[hit.triangle];
     const Vec3d a = positions_[t[0]].cast<double>();
     const Vec3d out =
@@ -46,7 +48,6 @@ void HitTracer::add_hit(const Hit& hit, size_t ray) {
         ++num_back_hits_;
         return;
     }
-    const float weight = rays_.weights[ray];
     shares_.push_back({t[0], weight * (1.0f - hit.u - hit.v)});
     shares_.push_back({t[1], weight * hit.u});
     shares_.push_back({t[2], weight * hit.v});
@@ -63,7 +64,7 @@ void HitTracer::end(TransportRow& row) {
         for (; j < shares_.size() && shares_[j].vertex == vertex; ++j) {
             sum += static_cast<double>(shares_[j].weight);
         }
-        row.push_back({vertex, static_cast<float>(sum / static_cast<double>(num_points_))});
+        row.push_back({vertex, static_cast<float>(sum / num_points_)});
     }
 }
 

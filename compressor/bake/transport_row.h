@@ -30,11 +30,12 @@ class HitTracer {
     HitTracer(const RayScene& scene, const Topology& topology, std::span<const Vec3f> positions)
         : scene_(scene), topology_(topology), positions_(positions) {}
 
-    // Adds a batch of rays of a vertex to the row. A triangle that is hit from behind blocks the
-    // ray and gives no light. A direction that the fan of the start hides meets the faces round the
-    // vertex at the vertex itself.
+    // Adds a round of rays of one half of a vertex to the row, each with a weight. A triangle that
+    // is hit from behind blocks the ray and gives no light. A direction that the fan of the start
+    // hides meets the faces round the vertex at the vertex itself.
     void trace(uint32_t vertex, const RayStart& start, const Vec3f& normal,
-               const DirectionSampler& sampler, uint64_t key);
+               const DirectionSampler& sampler, const HalfKeys& keys, uint32_t half,
+               double weight = 1.0);
 
     void end(TransportRow& row);
 
@@ -44,7 +45,7 @@ class HitTracer {
   private:
     Vec3d direction(size_t ray) const;
     void find_hits(const RayStart& start);
-    void add_hit(const Hit& hit, size_t ray);
+    void add_hit(const Hit& hit, size_t ray, float weight);
 
     const RayScene& scene_;
     const Topology& topology_;
@@ -52,7 +53,7 @@ class HitTracer {
     RaySet rays_;
     std::vector<Hit> hits_;          // [rays]
     std::vector<HitWeight> shares_;  // of the row, in the order of the rays
-    uint64_t num_points_ = 0;
+    double num_points_ = 0.0;        // times their weights
     uint32_t num_back_hits_ = 0;
 };
 

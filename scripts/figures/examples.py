@@ -42,18 +42,19 @@ class Examples:
 
     def transfer(self):
         rays = EightRays(self.data)
-        c_a, c_b = rays.c
+        c = rays.c
         a, b = rays.estimates[0][0], rays.estimates[1][0]
-        count = round(c_a * RAYS)
+        open_a, open_b = (count / RAYS for count in rays.num_open)
         return plain(
             f"""
-half A has {RAYS} rays, {count} of them open: c_A = {c_a}       half B: c_B = {c_b}
+of the neighbours' rays c = {c:.4f} are open
+half A has {RAYS} rays, {rays.num_open[0]} of them open       half B: {rays.num_open[1]}
 coefficient 0: λ₀ = 1, y₀ = {Y0:.4f}
 
-t_A = c_B λ₀ y₀ + (1/{RAYS}) Σ (Vis − c_B) y₀ = {c_b} · {Y0:.4f} + ({c_a} − {c_b}) · {Y0:.4f} = {a:.4f}
-t_B = c_A λ₀ y₀ + (1/{RAYS}) Σ (Vis − c_A) y₀ = {c_a} · {Y0:.4f} + ({c_b} − {c_a}) · {Y0:.4f} = {b:.4f}
-mean            (t_A + t_B) / 2 = {rays.mean[0]:.4f}     exact: {rays.exact[0]:.4f}
-half-difference (t_A − t_B) / 2 = {rays.half_difference[0]:.4f}     error: {number(rays.mean[0] - rays.exact[0])}
+t_A = c λ₀ y₀ + (1/{RAYS}) Σ (Vis − c) y₀ = {c:.4f} · {Y0:.4f} + ({open_a} − {c:.4f}) · {Y0:.4f} = {a:.4f}
+t_B = c λ₀ y₀ + (1/{RAYS}) Σ (Vis − c) y₀ = {c:.4f} · {Y0:.4f} + ({open_b} − {c:.4f}) · {Y0:.4f} = {b:.4f}
+mean  (t_A + t_B) / 2          = {rays.mean[0]:.4f}     exact: {rays.exact[0]:.4f}
+noise (t_A − t_B) / 2 / {rays.ratio:.2f} = {number(rays.noise[0])}    error: {number(rays.mean[0] - rays.exact[0])}
 """
         )
 
@@ -127,7 +128,7 @@ half-difference (t_A − t_B) / 2 = {rays.half_difference[0]:.4f}     error: {nu
         edge = (1 + math.sqrt((octopus.num_poses - 1) / nu)) ** 2
         report = self.report("auto")["transfer"]
         rows = []
-        for k in (0, 4, 8, 9, 10, 11, 46):
+        for k in (0, 4, 8, 10, 13, 14, 15, 46):
             signal = max(0.0, energy[k] - noise[k])
             rows.append(
                 [

@@ -1,5 +1,5 @@
-# The bake's directions, computed again: scrambled Sobol points, mapped to the disk, projected up.
-# Based on: compressor/bake/{sobol,cosine_directions}.* and paim/base/seed.h, which name the papers
+# The bake's directions, computed again: a spiral on the disk, projected up.
+# Based on: compressor/bake/{cosine_directions,direction_sampler}.* and paim/base/seed.h, which name the papers
 import math
 
 _MASK32, _MASK64 = 0xFFFFFFFF, 0xFFFFFFFFFFFFFFFF
@@ -19,48 +19,27 @@ def stream_key(seed, pose, vertex, part):
     return key
 
 
-def _reverse(x):
-    return int(f"{x:032b}"[::-1], 2)
-
-
-def _scramble(reversed_bits, seed):
-    """The Laine–Karras permutation, and the fraction in [0, 1) that it gives."""
-    x = reversed_bits
-    x ^= (x * 0x3D20ADEA) & _MASK32
-    x = (x + seed) & _MASK32
-    x = (x * ((seed >> 16) | 1)) & _MASK32
-    x ^= (x * 0x05526C56) & _MASK32
-    x ^= (x * 0x53A22864) & _MASK32
-    return (_reverse(x) >> 8) * 2.0**-24
-
-
-def _sobol(j):
-    """Reversed bits of both coordinates of point j."""
-    y, direction, bits = 0, 0x80000000, j
-    while bits:
-        if bits & 1:
-            y ^= direction
-        direction ^= direction >> 1
-        bits >>= 1
-    return j, _reverse(y)
-
-
-def disk_points(num_points, key):
-    """Points of the unit disk, uniform in area: cosine-distributed directions seen from above."""
+def disk_points(num_points, key, half):
+    """Points of the unit disk, uniform in area: cosine-distributed directions seen from above.
+    num_points is that of both halves."""
+    shift = ((key & _MASK32) >> 8) * 2.0**-24
+    turn = (key >> 40) * 2.0**-24
     points = []
-    for j in range(num_points):
-        x, y = _sobol(j)
-        a = 2.0 * _scramble(x, key & _MASK32) - 1.0
-        b = 2.0 * _scramble(y, key >> 32) - 1.0
-        radius, other = (a, b) if abs(a) > abs(b) else (b, a)
-        angle = math.pi / 4 * (other / radius if radius else 0.0)
-        along, across = radius * math.cos(angle), radius * math.sin(angle)
-        points.append((along, across) if abs(a) > abs(b) else (across, along))
+    for j in range(half ^ (key & 1), num_points, 2):
+        radius = math.sqrt((j + shift) / num_points)
+        angle = 2.0 * math.pi * (j / math.sqrt(2) + turn)
+        points.append((radius * math.cos(angle), radius * math.sin(angle)))
     return points
 
 
-def directions_about_y(num_points, key):
+def directions_about_y(num_points, key, half):
     """Directions about the normal (0, 1, 0), whose tangents are +X and −Z."""
     return [
-        (x, math.sqrt(max(0.0, 1.0 - x * x - y * y)), -y) for x, y in disk_points(num_points, key)
+        (x, math.sqrt(max(0.0, 1.0 - x * x - y * y)), -y)
+        for x, y in disk_points(num_points, key, half)
     ]
+
+
+def half_difference_ratio(num_points):
+    """That of direction_sampler.cpp, for 2 to 32 points."""
+    return 1.1 + (math.log2(num_points) - 1.0) / 4.0 * (1.42 - 1.1)

@@ -37,14 +37,18 @@ BakeOptions options(SamplerKind sampler, uint32_t rays, uint64_t seed) {
 TEST(BakeNoise, IsUnbiasedOnTheOctopus) {
     const PoseSet octopus = poses::make_octopus(1000, 1);
     EXPECT_LT(largest_z(octopus, SamplerKind::cosine, 64, 16), kLargestZ);
-    EXPECT_LT(largest_z(octopus, SamplerKind::cosine, 6, 16), kLargestZ);
+    const double few = largest_z(octopus, SamplerKind::cosine, 6, 16);
+    RecordProperty("z_of_6", std::to_string(few));
+    EXPECT_LT(few, kLargestZ);
     EXPECT_LT(largest_z(octopus, SamplerKind::uniform_sobol, 64, 16), kLargestZ);
 }
 
 TEST(BakeNoise, IsUnbiasedInTheBowl) {
     const PoseSet bowl = poses::make_pose_set(*poses::make_bowl_sequence(1000), 1);
     EXPECT_LT(largest_z(bowl, SamplerKind::cosine, 64, 16), kLargestZ);
-    EXPECT_LT(largest_z(bowl, SamplerKind::cosine, 6, 16), kLargestZ);
+    const double few = largest_z(bowl, SamplerKind::cosine, 6, 16);
+    RecordProperty("z_of_6", std::to_string(few));
+    EXPECT_LT(few, kLargestZ);
 }
 
 TEST(BakeNoise, FallsAsTheThreeQuarterPowerOfTheRays) {
@@ -228,14 +232,12 @@ TEST(BakeNoise, MeetsTheErrorAskedFor) {
         bake.transfer_error = target;
         const BakedMatrices baked = bake_matrices(octopus, bake, 1);
         const double error = (baked.transfer - reference.transfer).norm() / open;
-        // Batches grow by a third to a half, and errors fall by up to 1.5^0.75 with the last one:
-        // to
-        // 0.74 of the target, and to less at vertices that have hardly any noise. Observed: 0.76
-        // and
-        // 0.88 of the target.
+        // Sizes of rounds grow by a third to a half, and errors fall by up to 1.5^0.75 with what is
+        // too much: to 0.74 of the target, and to less at vertices that have hardly any noise, or for
+        // which the first 64 rays are more than enough. Observed: 0.58 and 0.87 of the target.
         RecordProperty(fmt::format("of_target_{}", target), std::to_string(error / target));
         EXPECT_LT(error, target);
-        EXPECT_GT(error, 0.6 * target);
+        EXPECT_GT(error, 0.5 * target);
         EXPECT_GT(baked.num_rays, 2 * rays_before);
         rays_before = baked.num_rays;
     }
@@ -253,9 +255,12 @@ TEST(BakeNoise, MeetsTheErrorAskedFor) {
     std::vector<uint32_t> all(1000);
     std::iota(all.begin(), all.end(), 0u);
     const double target_norm = bake.transfer_error * open_transfer_norm(5);
+    // Two rounds of 64 rays know less than one of 128.
+    const double power = error_power(SamplerKind::cosine);
+    for (double& energy : noise_energy) energy *= std::pow(2.0, power - 1.0);
     const size_t expected =
-        above_noise_target(octopus.topology(), noise_energy, std::vector<uint64_t>(1000, 128),
-                           error_power(SamplerKind::cosine), target_norm * target_norm, all)
+        above_noise_target(Neighbours(octopus.topology()), noise_energy,
+                           std::vector<double>(1000, 1.0), power, target_norm * target_norm, all)
             .size();
     RecordProperty("above_expected", std::to_string(expected));
     // A vertex is judged by its neighbours' noise, which six others are judged by too: counts

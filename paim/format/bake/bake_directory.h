@@ -57,7 +57,7 @@ struct BakedPose {
     std::vector<float> positions;  // [3][V] scene units
     std::vector<float> normals;    // [3][V]
     std::vector<float> transfer;   // [planes][V]
-    // [planes][V] half the difference of the two estimates whose mean is the transfer. It is one
+    // [planes][V] the scaled difference of the two estimates whose mean is the transfer. It is one
     // draw with the mean (0) and the variance of the transfer's error, and uncorrelated with it
     // (docs/algorithms/transfer.md). Files hold it as f16.
     std::vector<float> noise;
