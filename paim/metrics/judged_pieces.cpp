@@ -19,8 +19,8 @@ namespace {
 // Fewer have hardly a shape.
 constexpr std::ptrdiff_t kFewestVertices = 8;
 
-bool is_large(uint64_t num_vertices, uint64_t of_all) {
-    return num_vertices >= kSmallestPiece || 20 * num_vertices >= of_all;
+bool is_a_twentieth(uint64_t num_vertices, uint64_t of_all) {
+    return 20 * num_vertices >= of_all;
 }
 
 // Connected pieces, numbered from 1; 0 for all that are too small.
@@ -31,7 +31,8 @@ std::vector<uint32_t> large_pieces(const Topology& topology, size_t num_face_ver
     for (uint32_t j = 0; j < pieces.count; ++j) {
         const uint32_t size = pieces.num_vertices[j];
         const bool has_faces = size > 1;
-        if (has_faces && is_large(size, num_face_vertices)) number[j] = ++count;
+        const bool is_large = size >= kSmallestPiece || is_a_twentieth(size, num_face_vertices);
+        if (has_faces && is_large) number[j] = ++count;
     }
     std::vector<uint32_t> of_vertex(pieces.of_vertex.size());
     std::transform(pieces.of_vertex.begin(), pieces.of_vertex.end(), of_vertex.begin(),
@@ -72,7 +73,7 @@ JudgedPieces judged_pieces(const Topology& topology, std::span<const uint32_t> f
     for (const uint32_t v : face_vertices) {
         auto key = key_of(v);
         if (key.first == 0 && small_vertices < kFewestVertices) continue;
-        if (key.second != 0 && !is_large(sizes[key], face_vertices.size())) key.second = 0;
+        if (!is_a_twentieth(sizes[key], face_vertices.size())) key.second = 0;
         const auto [found, is_new] = numbers.emplace(key, judged.count);
         if (is_new) ++judged.count;
         judged.of_vertex[v] = found->second;

@@ -22,11 +22,11 @@ struct JudgedPieces {
 };
 
 // First, each connected piece is one, and all that are too small are one together, if they have at least
-// 8 vertices. Then vertices of
-// such a piece are told apart by the mean length of their edges: what is within a factor of four of
-// the median stays together, and so does each range of a factor of sixteen above and below. So a fine
-// figure is judged apart from a coarse ground that it is connected to. Ranges that are too small stay
-// with the median's.
+// 8 vertices. Then vertices of such a piece are told apart by the mean length of their edges: what is
+// within a factor of four of the median stays together, and so does each range of a factor of sixteen
+// above and below. So a fine figure is judged apart from a coarse ground that it is connected to.
+// Ranges of less than a twentieth of all vertices that have a face stay with the median's, so that
+// small details of a body, such as its nostrils, do not decide.
 // edge_lengths  [V] of a vertex's edges, scene units; 0: unknown, or none. Empty: all are alike
 JudgedPieces judged_pieces(const Topology& topology, std::span<const uint32_t> face_vertices,
                            std::span<const double> edge_lengths);

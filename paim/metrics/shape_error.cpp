@@ -173,8 +173,9 @@ void ShapeErrorMeter::add_normals(const Pose& pose, PieceSums& sums) const {
         const Vec3d baked = normal(pose.reference, t);
         const Vec3d decoded = normal(pose.positions, t);
         if (baked.isZero(0.0)) continue;
-        Sums& sum = sums_of(t[0], sums);
-        // A face that has lost its area has turned by as much as a face can without a direction.
+        Sums& sum = sums_of(std::min({t[0], t[1], t[2]}), sums);
+        // A face between two pieces counts for the same one however its corners are rotated, which files
+        // do. A face that has lost its area has turned by as much as a face can without a direction.
         sum.angle +=
             decoded.isZero(0.0)
                 ? 90.0
