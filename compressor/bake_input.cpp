@@ -83,7 +83,9 @@ void BakeInput::find_motion(const CompressOptions& options) {
     if (sequence_.num_poses() < 2) return;
     cli::Progress finding("finding the root motion", "poses", sequence_.num_poses(),
                           is_quiet(options));
-    root_motion_ = find_root_motion(sequence_, options.root_motion, [&] { finding.advance(); });
+    root_motion_ = find_root_motion(
+        sequence_, options.root_motion, [&] { finding.advance(); },
+        on_floor_ ? LocalOrigin::reference : LocalOrigin::centre);
     finding.finish();
 }
 

@@ -131,7 +131,7 @@ void say_if_dark(const BakeReader& reader) {
 void say_if_fewer_bands(const EncodeOptions& asked, const BakeReader& reader) {
     const uint32_t bands = reader.identity().layout.in_bands;
     if (asked.bands <= bands || asked.bands == EncodeOptions().bands) return;
-    fmt::print(stderr, "note: --bands {}: the bake has {}, all of them are kept\n", asked.bands,
+    fmt::print(stderr, "note: --bands {}: the bake has {}, which are all kept\n", asked.bands,
                bands);
 }
 

@@ -1,6 +1,7 @@
 // The C interface: checks arguments, keeps exceptions inside, copies into the caller's memory.
 #include "paim/paim.h"
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <limits>

@@ -55,9 +55,9 @@ typedef struct paim_part_info {
 typedef struct paim_root {
     double rotation[4];    /* unit quaternion w, x, y, z */
     double translation[3]; /* scene units */
-    uint32_t
-        num_following; /* vertices, from the first, that stand there; the others are a floor, whose
-                             * local coordinates are those of the scene */
+    /* Vertices, from the first, that follow this transform. The others are a floor, or have no face: their
+     * local coordinates are those of the scene. */
+    uint32_t num_following;
 } paim_root;
 
 /* How much of the file to use; larger numbers than it has mean all. paim_no_limits() sets every member

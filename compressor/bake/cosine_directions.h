@@ -50,7 +50,7 @@ class CosineDirections {
     // Padded with zeros.
     struct Part {
         std::vector<float> ring;          // j / n
-        std::vector<float> cosine, sine;  // of 2π j √2
+        std::vector<float> cosine, sine;  // of 2π j / √2
     };
 
     uint32_t num_points_;

@@ -49,8 +49,8 @@ uint32_t next_size(uint32_t points) {
 }
 
 // Points of a half of a vertex's next round: at least as many as wanted, and half of those traced
-// already, so that rounds are few; if that is more than the vertex may have, as many as there are
-// left. 0: too few are left.
+// already, so that rounds are few; if that is more than the vertex may have, the largest size that it
+// may. 0: fewer than the smallest size are left.
 uint32_t points_of_round(double wanted, uint64_t traced, uint64_t limit) {
     wanted = std::max(wanted, 0.5 * static_cast<double>(traced));
     const uint64_t left = limit - traced;

@@ -55,8 +55,7 @@ class TransferBaker {
   private:
     class PoseBake;
 
-    // Sets of directions of different sizes, made when they are needed for the first time. Safe to
-    // use from several threads.
+    // Sets of directions of different sizes, made when they are needed for the first time.
     class Samplers {
       public:
         explicit Samplers(const BakeOptions& options);

@@ -81,7 +81,7 @@ constexpr double kGeometryPerTransferError = 1.0 / 50.0;
 // by 5 % from their neighbours and faces may turn by 5 degrees.
 constexpr double kStedPerGeometryError = 50.0;
 constexpr double kNormalDegreesPerGeometryError = 5000.0;
-// At most: of surfaces whose edges, or faces, have nothing to do with what they were.
+// The largest such targets: a surface with these errors has nothing in common with the original.
 constexpr double kLargestSted = 1.0;
 constexpr double kLargestNormalAngle_deg = 90.0;
 

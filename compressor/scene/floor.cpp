@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <numeric>
 
 #include "compressor/scene/rigid_fit.h"
 #include "paim/base/check.h"
@@ -114,54 +115,86 @@ Floor::Floor(const Bounds& bounds, uint32_t max_vertices) {
 
 namespace {
 
-// Whether some vertices are so far from most of the others that they may be outliers.
-bool reaches_far(const Pose& pose, const Bounds& bounds, std::span<const uint32_t> vertices) {
+// Bounds of the vertices near most others, and numbers of vertices that are far from them in a pose.
+struct NearAndFar {
+    Bounds near;
+    std::vector<uint32_t> far;
+};
+
+NearAndFar near_and_far(const Pose& pose, std::span<const uint32_t> vertices) {
     constexpr double kSizes = 4.0;
+    NearAndFar result;
     std::vector<Vec3d> points;
     for (const uint32_t v : vertices) points.push_back(pose.positions[v].cast<double>());
-    return !points.empty() && double{bounds.diagonal()} > kSizes * size_of(points);
+    if (points.empty()) return result;
+    const std::vector<Vec3d> at_origin(points.size(), Vec3d::Zero());
+    const Vec3d centre = median_difference(at_origin, points);
+    const double farthest = kSizes * size_of(points);
+    for (size_t j = 0; j < vertices.size(); ++j) {
+        if ((points[j] - centre).stableNorm() > farthest) {
+            result.far.push_back(vertices[j]);
+        } else {
+            result.near.extend(pose.positions[vertices[j]]);
+        }
+    }
+    return result;
 }
 
-// Holds the positions of all poses.
-Bounds bounds_without_outliers(const PoseSource& source, std::span<const uint32_t> vertices) {
-    const uint32_t num_vertices = source.topology().num_vertices;
-    std::vector<std::vector<float>> planes(source.num_poses());
+// Bounds over all poses of vertices that are far from most others in some pose, without outliers.
+Bounds bounds_of_far(const PoseSource& source, const std::vector<uint32_t>& far) {
+    const auto count = static_cast<uint32_t>(far.size());
+    std::vector<std::vector<float>> planes(source.num_poses());  // [P][3][far]
     parallel_for(planes.size(), 1, [&](size_t p, size_t) {
-        planes[p] = to_planes(load_from_origin(source, static_cast<uint32_t>(p)).positions);
+        const Pose pose = load_from_origin(source, static_cast<uint32_t>(p));
+        std::vector<Vec3f> points;
+        for (const uint32_t v : far) points.push_back(pose.positions[v]);
+        planes[p] = to_planes(points);
     });
-    const auto read = [&](uint32_t p, uint64_t first, uint64_t count, float* rows) {
-        std::copy_n(planes[p].begin() + static_cast<ptrdiff_t>(first), count, rows);
-    };
-    const PositionOutliers outliers =
-        find_outliers(num_vertices, source.num_poses(), vertices, read);
-    Bounds all;
+    std::vector<uint32_t> all(count);
+    std::iota(all.begin(), all.end(), 0u);
+    const PositionOutliers outliers = find_outliers(
+        count, source.num_poses(), all,
+        [&](uint32_t p, uint64_t first, uint64_t num_rows, float* rows) {
+            std::copy_n(planes[p].begin() + static_cast<ptrdiff_t>(first), num_rows, rows);
+        });
+    Bounds bounds;
     for (uint32_t p = 0; p < source.num_poses(); ++p) {
-        outliers.replace(p, num_vertices, 0, planes[p]);
-        all.extend(bounds_of_vertices(planes[p], vertices));
+        outliers.replace(p, count, 0, planes[p]);
+        bounds.extend(bounds_of_vertices(planes[p], all));
     }
-    return all;
+    return bounds;
 }
 
 }  // namespace
 
 Bounds bounds_of(const PoseSource& source, const std::function<void()>& on_pose) {
     const std::vector<uint32_t> vertices = face_vertices(source.topology());
-    Bounds all;
-    bool far = false;
+    Bounds all, near;
+    std::vector<bool> is_far(source.topology().num_vertices, false);
     std::mutex mutex;
     parallel_for(source.num_poses(), 1, [&](size_t p, size_t) {
         const Pose pose = load_from_origin(source, static_cast<uint32_t>(p));
         Bounds bounds;
         for (const uint32_t v : vertices) bounds.extend(pose.positions[v]);
-        const bool may_have_outliers = reaches_far(pose, bounds, vertices);
+        const NearAndFar of_pose = near_and_far(pose, vertices);
         {
             const std::lock_guard lock(mutex);  // a minimum does not depend on the order
             all.extend(bounds);
-            far = far || may_have_outliers;
+            near.extend(of_pose.near);
+            for (const uint32_t v : of_pose.far) is_far[v] = true;
         }
         if (on_pose) on_pose();
     });
-    return far ? bounds_without_outliers(source, vertices) : all;
+    std::vector<uint32_t> far;
+    for (const uint32_t v : vertices) {
+        if (is_far[v]) far.push_back(v);
+    }
+    if (far.empty()) return all;
+    // So many are no outliers, but much of the mesh.
+    constexpr uint64_t kMostBytes = uint64_t{256} << 20;
+    if (uint64_t{far.size()} * source.num_poses() * sizeof(Vec3f) > kMostBytes) return all;
+    near.extend(bounds_of_far(source, far));
+    return near;
 }
 
 PosesOnFloor::PosesOnFloor(const PoseSource& source, const Bounds& bounds,

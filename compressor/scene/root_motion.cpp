@@ -198,7 +198,8 @@ void take_out_jumps(const Reference& reference, RootMotion& motion) {
 }
 
 // From the origin of the sequence, in few digits.
-RigidTransform rounded(const RigidTransform& root, const Reference& reference) {
+RigidTransform rounded(const RigidTransform& root, const Reference& reference,
+                       LocalOrigin local_origin) {
     const auto to_multiples = [](const Vec3d& numbers, double unit) {
         return Vec3d((numbers / unit).array().round().matrix() * unit);
     };
@@ -213,7 +214,9 @@ RigidTransform rounded(const RigidTransform& root, const Reference& reference) {
     result.rotation = rotation_of(turn);
     const double size = reference.size > 0.0 ? reference.size : 1.0;
     const double unit = std::ldexp(kRotationUnit_rad, std::ilogb(size));
-    result.translation = to_multiples(root.translation + reference.centre, unit);
+    Vec3d translation = root.translation + reference.centre;
+    if (local_origin == LocalOrigin::reference) translation -= result.rotation * reference.centre;
+    result.translation = to_multiples(translation, unit);
     return result;
 }
 
@@ -237,7 +240,7 @@ size_t choose(RootMotionChoice choice, const Variants& variants, bool turns) {
 }  // namespace
 
 RootMotion find_root_motion(const PoseSource& source, RootMotionChoice choice,
-                            const std::function<void()>& on_pose) {
+                            const std::function<void()>& on_pose, LocalOrigin local_origin) {
     const uint32_t num_poses = source.num_poses();
     if (choice == RootMotionChoice::none || num_poses < 2) return {};
     const Reference reference = first_pose_of_size(source);
@@ -261,7 +264,7 @@ RootMotion find_root_motion(const PoseSource& source, RootMotionChoice choice,
     const size_t chosen = choose(choice, variants, turns);
     if (chosen == 0) return {};
     take_out_jumps(reference, motions[chosen]);
-    for (RigidTransform& root : motions[chosen]) root = rounded(root, reference);
+    for (RigidTransform& root : motions[chosen]) root = rounded(root, reference, local_origin);
     return std::move(motions[chosen]);
 }
 

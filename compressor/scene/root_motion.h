@@ -17,8 +17,15 @@ enum class RootMotionChoice : uint32_t {
     rigid,        // positions and rotations
 };
 
+// Where local coordinates begin.
+enum class LocalOrigin : uint32_t {
+    centre,     // at the centre of the body
+    reference,  // so that the pose that the others are fitted to is where it is in the scene. With a
+                // floor, whose local coordinates are those of the scene, bounds stay what they are
+};
+
 // Fits vertices of faces of every pose, 5,000 at most, to those of the first one that has a size.
-// Local coordinates are those of that pose from its centre. What is taken out is what leaves the
+// What is taken out is what leaves the
 // fewest principal components that matter (a thousandth of the body's size). Of two that leave as
 // many it is the simpler one, unless the other leaves less than half of the squared distances from
 // the mean. Rotations are taken out only if one of them is by 15 degrees or more: smaller ones
@@ -29,6 +36,7 @@ enum class RootMotionChoice : uint32_t {
 // returns  [P]; empty if the choice, or this rule, takes nothing out
 // on_pose  called after each pose, from several threads at once
 RootMotion find_root_motion(const PoseSource& source, RootMotionChoice choice,
-                            const std::function<void()>& on_pose = {});
+                            const std::function<void()>& on_pose = {},
+                            LocalOrigin local_origin = LocalOrigin::centre);
 
 }  // namespace paim

@@ -30,7 +30,7 @@ struct CodedMesh {
     CodedTransfer transfer;  // of layout.num_planes() planes, in local axes
     RootMotion root_motion;  // from local coordinates to the scene, [P] or empty
     // How many vertices, from the first, follow the root motion. The others are a floor, which keeps
-    // its place; their triangles come after all others.
+    // its place, or have no face. Triangles of the floor come after all others.
     uint32_t num_following = kAllVertices;
 
     // 1 for a still part. An attribute with a single pose has the same values at all times.

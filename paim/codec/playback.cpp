@@ -1,6 +1,7 @@
 // Plays an asset on the CPU.
 #include "paim/codec/playback.h"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -15,10 +16,14 @@ namespace paim {
 
 namespace {
 
-// The centre of the bounding box of the mean positions, of vertices that a face has.
+// The centre of the bounding box of the mean positions, of vertices that a face has. A floor does not
+// count under a body that moves, as the body is what light is for.
 Vec3f centre_of(const CodedMesh& mesh) {
     if (mesh.topology.num_vertices == 0) return Vec3f::Zero();
-    return bounds_of_vertices(mesh.positions.mean_floats(), face_vertices(mesh.topology)).center();
+    std::vector<uint32_t> vertices = face_vertices(mesh.topology);
+    const auto floor = std::lower_bound(vertices.begin(), vertices.end(), mesh.num_following);
+    if (floor != vertices.begin()) vertices.erase(floor, vertices.end());
+    return bounds_of_vertices(mesh.positions.mean_floats(), vertices).center();
 }
 
 }  // namespace

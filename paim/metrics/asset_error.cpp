@@ -125,7 +125,7 @@ PartMeter::PartMeter(const Asset& asset, size_t number, const BakeReader& bake,
       outliers_((outliers ? *outliers : find_outliers(baked_)).reordered(old_vertex_)),
       shape_(asset.parts[number].topology, sample_poses()) {}
 
-// Evenly among all.
+// Baked positions of some poses, spread evenly over all, without outliers.
 std::vector<std::vector<float>> PartMeter::sample_poses() const {
     const uint32_t num_poses = baked_.num_poses();
     std::vector<std::vector<float>> samples(std::min(num_poses, kPosesMeasured));

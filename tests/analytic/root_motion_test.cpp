@@ -50,7 +50,8 @@ class RootMotionRoad : public testing::Test {
         options.bounces = bounces;
         bake_sequence(
             source, options, "faces", path, 0, kPoses - 1, [](uint32_t) {}, surroundings,
-            find_root_motion(body ? *body : source, choice));
+            find_root_motion(body ? *body : source, choice, {},
+                             body ? LocalOrigin::reference : LocalOrigin::centre));
         return BakeReader(path);
     }
 

@@ -152,7 +152,7 @@ TEST_F(Options, FewerBandsAreTheFirstPlanes) {
     const ToolResult more =
         compress({"encode", path("x.bake"), "-o", path("9.paim"), "--bands", "9"});
     expect_success(more);
-    EXPECT_TRUE(contains(more.err, "note: --bands 9: the bake has 5, all of them are kept"))
+    EXPECT_TRUE(contains(more.err, "note: --bands 9: the bake has 5, which are all kept"))
         << more.err;
     EXPECT_EQ(describe(path("9.paim"))["bands"], 5);
 

@@ -23,7 +23,8 @@ class RootMotionTool : public ToolTest {
     // A tube 2 units tall that walks 5 units along x from pose to pose. Its upper half swings by 0.3
     // along z.
     // bad_pose  in which the first vertex is far away; -1: none
-    void write_walk(const std::string& folder, int bad_pose) const {
+    // start     of the path along x
+    void write_walk(const std::string& folder, int bad_pose, double start = 0.0) const {
         std::filesystem::create_directory(directory_ / folder);
         for (int p = 0; p < kPoses; ++p) {
             std::string text;
@@ -35,8 +36,9 @@ class RootMotionTool : public ToolTest {
                         continue;
                     }
                     const double angle = 2.0 * kPi * segment / kSegments;
-                    text += fmt::format("v {:.9f} {:.9f} {:.9f}\n", 5.0 * p + 0.2 * std::sin(angle),
-                                        y, 0.2 * std::cos(angle) + swing(p, y));
+                    text += fmt::format("v {:.9f} {:.9f} {:.9f}\n",
+                                        start + 5.0 * p + 0.2 * std::sin(angle), y,
+                                        0.2 * std::cos(angle) + swing(p, y));
                 }
             }
             for (int ring = 0; ring + 1 < kRings; ++ring) {
@@ -134,6 +136,22 @@ TEST_F(RootMotionTool, LeavesAFloorInItsPlace) {
             EXPECT_NEAR(ground.upper.x(), 52.4, 0.5) << p;
         }
     }
+}
+
+// Errors are relative to the diagonal of body and floor, wherever they are in the scene.
+TEST_F(RootMotionTool, MeasuresABodyOnAFloorAsInTheScene) {
+    write_walk("away", -1, 300.0);
+    std::vector<double> diagonals;
+    for (const char* const choice : {"none", "translation"}) {
+        const json report =
+            make(choice, {"--floor", "--floor-vertices", "300", "--root-motion", choice}, "away");
+        const json measured = report["encode"]["measured"];
+        diagonals.push_back(measured["position_rms"].get<double>() /
+                            measured["position_relative_rms"].get<double>());
+    }
+    // The floor's: 65 units along x, 25 along z.
+    EXPECT_NEAR(diagonals[0], 70.0, 5.0);
+    EXPECT_NEAR(diagonals[1], diagonals[0], 1.0);
 }
 
 TEST_F(RootMotionTool, LeavesPosesAsTheyAreIfAsked) {

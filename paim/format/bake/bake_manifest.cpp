@@ -53,6 +53,10 @@ std::string shown(const RootMotion& motion) {
     return fmt::format("one of checksum {}", hex(checksum));
 }
 
+std::string count_or_all(uint32_t count) {
+    return count == kAllVertices ? "all" : std::to_string(count);
+}
+
 // The first difference of two lists of the same length, in words; empty if there is none.
 std::string first_difference(const char* what, const std::vector<BakeIdentity::Source>& there,
                              const std::vector<BakeIdentity::Source>& wanted) {
@@ -205,7 +209,8 @@ std::string first_difference(const BakeIdentity& there, const BakeIdentity& want
           differ("poses", there.num_poses(), wanted.num_poses()),
           differ("origin", shown(there.origin), shown(wanted.origin)),
           differ("root motion", shown(there.root_motion), shown(wanted.root_motion)),
-          differ("vertices that follow the root motion", there.num_following, wanted.num_following),
+          differ("vertices that follow the root motion", count_or_all(there.num_following),
+                 count_or_all(wanted.num_following)),
           differ("static files", there.still_meshes.size(), wanted.still_meshes.size()),
           differ("checksum of faces and albedo", hex(there.mesh_xxh3), hex(wanted.mesh_xxh3))}) {
         if (!difference.empty()) return difference;

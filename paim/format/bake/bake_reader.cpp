@@ -11,6 +11,7 @@
 #include "paim/format/bake/bake_manifest.h"
 #include "paim/format/container/mesh_sections.h"
 #include "paim/format/container/metadata.h"
+#include "paim/format/container/root_numbers.h"
 #include "paim/format/container/sections.h"
 
 namespace paim {
@@ -96,6 +97,7 @@ BakeReader::BakeReader(std::filesystem::path directory) : directory_(std::move(d
     if (mesh_checksum(topology_, albedo_) != identity_.mesh_xxh3) {
         throw_bad_input("{}: not the mesh that the manifest names", mesh.name());
     }
+    check_floor(topology_, identity_.num_following, mesh.name());
     if (!identity_.still_meshes.empty()) {
         still_mesh_ = read_bake_still_mesh(directory_, identity_checksum_, identity_.layout);
     }

@@ -1,6 +1,7 @@
 // A root motion as numbers of a file.
 #include "paim/format/container/root_numbers.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -53,6 +54,16 @@ RootMotion root_motion_of(const std::vector<double>& numbers, const std::string&
         motion[p] = {rotation_of(vector), {n[3], n[4], n[5]}};
     }
     return motion;
+}
+
+void check_floor(const Topology& topology, uint32_t num_following, const std::string& file) {
+    const std::vector<Triangle>& triangles = topology.triangles;
+    for (size_t j = topology.num_triangles_before(num_following); j < triangles.size(); ++j) {
+        if (std::ranges::min(triangles[j]) >= num_following) continue;
+        throw_bad_input(
+            "{}: triangle {} follows the root motion, expected it before those of the floor", file,
+            j);
+    }
 }
 
 }  // namespace paim

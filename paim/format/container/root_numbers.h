@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "paim/mesh/root_motion.h"
+#include "paim/mesh/topology.h"
 
 namespace paim {
 
@@ -20,5 +21,9 @@ std::vector<double> root_numbers(const RootMotion& motion);
 // Errors (bad input): a rotation of more than half a turn, a translation beyond the range of floats,
 // numbers that are not finite.
 RootMotion root_motion_of(const std::vector<double>& numbers, const std::string& file);
+
+// Triangles of vertices from num_following on, a floor, come after all others.
+// Error (bad input): they do not, or a triangle has vertices of both.
+void check_floor(const Topology& topology, uint32_t num_following, const std::string& file);
 
 }  // namespace paim

@@ -12,6 +12,7 @@
 #include "paim/codec/section_row.h"
 #include "paim/format/container/mesh_sections.h"
 #include "paim/format/container/metadata.h"
+#include "paim/format/container/root_numbers.h"
 #include "paim/format/container/sections.h"
 #include "paim/format/paim/paim_metadata.h"
 #include "paim/format/paim/paim_read.h"
@@ -106,7 +107,8 @@ CodedMesh start_moving(const Metadata& metadata) {
     const std::string kind = metadata.text("transfer_kind");
     if (kind != kDiffuse) mesh.root_motion.resize(num_poses);
     if (kind == kDiffuseLocalOnFloor) {
-        mesh.num_following = metadata.integer("num_following", 0, mesh.topology.num_vertices);
+        mesh.num_following =
+            metadata.integer("num_following", 0, std::max(1u, mesh.topology.num_vertices) - 1);
     }
     mesh.transfer = start_transfer(metadata);
     const uint32_t num_points = mesh.transfer->start(mesh.topology.num_vertices);
@@ -146,18 +148,6 @@ void read_indices(const Metadata& metadata, Attribute attribute, uint32_t num_co
     if (!matrix.singular_indices.empty()) matrix.singular_indices.resize(matrix.num_components);
 }
 
-// Players draw the triangles of the floor after all others.
-void check_floor(const ContainerReader& reader, const CodedMesh& mesh) {
-    const std::vector<Triangle>& triangles = mesh.topology.triangles;
-    const size_t first = mesh.topology.num_triangles_before(mesh.num_following);
-    for (size_t j = first; j < triangles.size(); ++j) {
-        if (std::ranges::min(triangles[j]) >= mesh.num_following) continue;
-        throw_bad_input(
-            "{}: triangle {} follows the root motion, expected it before those of the floor",
-            reader.name(), j);
-    }
-}
-
 Extent extent_of(const ReadOptions& options) {
     return options.prefix ? Extent::prefix : Extent::whole;
 }
@@ -182,7 +172,7 @@ Asset read_asset(const ContainerReader& reader) {
     const uint32_t geometry_components = positions.num_components;
     const uint32_t transfer_components = transfer.num_components;
     read_sections(reader, {prefix.geometry_components, prefix.transfer_components}, asset);
-    check_floor(reader, asset.moving());
+    check_floor(asset.moving().topology, asset.moving().num_following, reader.name());
     read_indices(metadata, Attribute::geometry, geometry_components, positions);
     read_indices(metadata, Attribute::transfer, transfer_components, transfer);
     asset.complete = positions.num_components == geometry_components &&

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
+#include <algorithm>
 
 #include "paim/mesh/face_vertices.h"
 
@@ -56,6 +56,15 @@ TEST(JudgedPieces, AreToldApartByTheLengthsOfTheirEdges) {
     EXPECT_EQ(count(49, 1.0), 1u);   // too few
     EXPECT_EQ(count(50, 1.0), 2u);   // a twentieth
     EXPECT_EQ(count(200, 0.0), 1u);  // unknown
+    // A hundred vertices are enough for a connected piece, not for a range.
+    EXPECT_EQ(judged(strip(4000),
+                     [] {
+                         std::vector<double> many(4000, 8.0);
+                         std::fill_n(many.begin(), 150, 1.0);
+                         return many;
+                     }())
+                  .count,
+              1u);
     EXPECT_EQ(judged(topology, lengths).of_vertex[0], judged(topology, lengths).of_vertex[999]);
 }
 

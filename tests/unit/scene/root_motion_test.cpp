@@ -223,6 +223,26 @@ TEST(FindRootMotion, FollowsNoSmallTurns) {
     EXPECT_TRUE(find_root_motion(rocking(30.0), RootMotionChoice::automatic)[1].turns());
 }
 
+// With a floor the first pose stays where it is, and others are there in local coordinates, too.
+TEST(FindRootMotion, MayKeepTheReferenceInItsPlace) {
+    const PoseSet spin = animated([](uint32_t p, const Vec3d& point) {
+        return Vec3d(turned(p, point) + Vec3d(300 + 2.0 * p, 0, -70));
+    });
+    const RootMotion motion =
+        find_root_motion(spin, RootMotionChoice::automatic, {}, LocalOrigin::reference);
+    ASSERT_EQ(motion.size(), 8u);
+    EXPECT_TRUE(motion[0].is_identity());
+    const Pose first = spin.load_pose(0);
+    for (uint32_t p = 0; p < 8; ++p) {
+        const Pose pose = spin.load_pose(p);
+        for (size_t v = 0; v < 60; ++v) {
+            const Vec3d local = motion[p].to_local(pose.positions[v].cast<double>());
+            // Rotations of 2^-22, 300 units away, and floats of 300.
+            EXPECT_LT((local - first.positions[v].cast<double>()).norm(), 5e-4) << p;
+        }
+    }
+}
+
 TEST(FindRootMotion, NeedsNoSizeInAnyPose) {
     const PoseSet grows = animated([](uint32_t p, const Vec3d& point) {
         return Vec3d(0.1 * p * (point - Vec3d(0.5, 1.0, 1.5)));
