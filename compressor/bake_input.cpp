@@ -65,14 +65,15 @@ BakeInput::BakeInput(const CompressOptions& options)
     print_warnings(sequence_.warnings());
     print_warnings(mesh_warnings(topology_));
     std::tie(first_pose_, last_pose_) = parse_pose_range(options.poses, sequence_.num_poses());
+    find_motion(options);
     if (options.floor) add_floor(options);
     for (const std::string& file : options.statics) add_still_mesh(options, file);
-    find_motion(options);
 }
 
 void BakeInput::add_floor(const CompressOptions& options) {
     cli::Progress measuring("measuring", "poses", sequence_.num_poses(), is_quiet(options));
-    const Bounds bounds = bounds_of(sequence_, [&] { measuring.advance(); });
+    const Bounds bounds = bounds_of(
+        sequence_, [&] { measuring.advance(); }, root_motion_);
     measuring.finish();
     on_floor_.emplace(sequence_, bounds, *options.floor);
     surroundings_.floor = on_floor_->description();
@@ -85,7 +86,7 @@ void BakeInput::find_motion(const CompressOptions& options) {
                           is_quiet(options));
     root_motion_ = find_root_motion(
         sequence_, options.root_motion, [&] { finding.advance(); },
-        on_floor_ ? LocalOrigin::reference : LocalOrigin::centre);
+        options.floor ? LocalOrigin::reference : LocalOrigin::centre);
     finding.finish();
 }
 

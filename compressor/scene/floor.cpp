@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
-#include <mutex>
 #include <numeric>
 
 #include "compressor/scene/rigid_fit.h"
@@ -115,86 +115,154 @@ Floor::Floor(const Bounds& bounds, uint32_t max_vertices) {
 
 namespace {
 
-// Bounds of the vertices near most others, and numbers of vertices that are far from them in a pose.
-struct NearAndFar {
-    Bounds near;
-    std::vector<uint32_t> far;
+// Where most vertices of a pose are, in local coordinates.
+struct Middle {
+    Vec3d centre = Vec3d::Zero();
+    double size = 0.0;      // about the diagonal
+    double farthest = 0.0;  // distance of a vertex from the centre
 };
 
-NearAndFar near_and_far(const Pose& pose, std::span<const uint32_t> vertices) {
-    constexpr double kSizes = 4.0;
-    NearAndFar result;
-    std::vector<Vec3d> points;
-    for (const uint32_t v : vertices) points.push_back(pose.positions[v].cast<double>());
-    if (points.empty()) return result;
-    const std::vector<Vec3d> at_origin(points.size(), Vec3d::Zero());
-    const Vec3d centre = median_difference(at_origin, points);
-    const double farthest = kSizes * size_of(points);
-    for (size_t j = 0; j < vertices.size(); ++j) {
-        if ((points[j] - centre).stableNorm() > farthest) {
-            result.far.push_back(vertices[j]);
-        } else {
-            result.near.extend(pose.positions[vertices[j]]);
-        }
-    }
-    return result;
-}
+// The sphere in which most vertices of all poses are, in local coordinates. What is farther off may be
+// an outlier.
+struct UsualPlace {
+    Vec3d centre = Vec3d::Zero();
+    double radius = 0.0;
+};
 
-// Bounds over all poses of vertices that are far from most others in some pose, without outliers.
-Bounds bounds_of_far(const PoseSource& source, const std::vector<uint32_t>& far) {
-    const auto count = static_cast<uint32_t>(far.size());
-    std::vector<std::vector<float>> planes(source.num_poses());  // [P][3][far]
-    parallel_for(planes.size(), 1, [&](size_t p, size_t) {
-        const Pose pose = load_from_origin(source, static_cast<uint32_t>(p));
-        std::vector<Vec3f> points;
-        for (const uint32_t v : far) points.push_back(pose.positions[v]);
-        planes[p] = to_planes(points);
-    });
-    std::vector<uint32_t> all(count);
-    std::iota(all.begin(), all.end(), 0u);
-    const PositionOutliers outliers = find_outliers(
-        count, source.num_poses(), all,
-        [&](uint32_t p, uint64_t first, uint64_t num_rows, float* rows) {
-            std::copy_n(planes[p].begin() + static_cast<ptrdiff_t>(first), num_rows, rows);
+class PoseBounds {
+  public:
+    PoseBounds(const PoseSource& source, const RootMotion& root_motion)
+        : source_(source), root_motion_(root_motion), vertices_(face_vertices(source.topology())) {}
+
+    Bounds find(const std::function<void()>& on_pose) const {
+        std::vector<Middle> middles(source_.num_poses());
+        std::vector<Bounds> bounds(middles.size());
+        parallel_for(middles.size(), 1, [&](size_t p, size_t) {
+            const std::vector<Vec3f> points = load(p, vertices_);
+            bounds[p].extend(points);
+            middles[p] = middle_of(p, points);
+            if (on_pose) on_pose();
         });
-    Bounds bounds;
-    for (uint32_t p = 0; p < source.num_poses(); ++p) {
-        outliers.replace(p, count, 0, planes[p]);
-        bounds.extend(bounds_of_vertices(planes[p], all));
+        Bounds all;
+        for (const Bounds& of_pose : bounds) all.extend(of_pose);
+        if (vertices_.empty()) return all;
+        const UsualPlace usual = usual_place(middles);
+        const std::vector<uint32_t> far = far_from(usual, middles);
+        // So many are no outliers, but much of the mesh.
+        constexpr uint64_t kMostBytes = uint64_t{256} << 20;
+        if (far.empty() || uint64_t{far.size()} * middles.size() * sizeof(Vec3f) > kMostBytes) {
+            return all;
+        }
+        // Some others say how large the mesh is.
+        constexpr size_t kMostOthers = 1000;
+        const size_t step = vertices_.size() / kMostOthers + 1;
+        std::vector<uint32_t> some, tracked, near;
+        for (size_t k = 0; k < vertices_.size(); k += step) some.push_back(vertices_[k]);
+        std::set_union(far.begin(), far.end(), some.begin(), some.end(),
+                       std::back_inserter(tracked));
+        std::set_difference(vertices_.begin(), vertices_.end(), tracked.begin(), tracked.end(),
+                            std::back_inserter(near));
+        return without_outliers(near, tracked);
     }
-    return bounds;
-}
+
+  private:
+    std::vector<Vec3f> load(size_t p, std::span<const uint32_t> vertices) const {
+        const Pose pose = load_from_origin(source_, static_cast<uint32_t>(p));
+        std::vector<Vec3f> points;
+        for (const uint32_t v : vertices) points.push_back(pose.positions[v]);
+        return points;
+    }
+    Vec3d to_local(size_t p, const Vec3f& point) const {
+        return root_at(root_motion_, static_cast<double>(p)).to_local(point.cast<double>());
+    }
+
+    Middle middle_of(size_t p, std::span<const Vec3f> points) const {
+        Middle middle;
+        if (points.empty()) return middle;
+        std::vector<Vec3d> local;
+        for (const Vec3f& point : points) local.push_back(to_local(p, point));
+        const std::vector<Vec3d> at_origin(local.size(), Vec3d::Zero());
+        middle.centre = median_difference(at_origin, local);
+        middle.size = size_of(local);
+        for (const Vec3d& point : local) {
+            middle.farthest = std::max(middle.farthest, (point - middle.centre).stableNorm());
+        }
+        return middle;
+    }
+
+    static UsualPlace usual_place(std::span<const Middle> middles) {
+        constexpr double kSizes = 4.0;
+        std::vector<Vec3d> centres;
+        UsualPlace usual;
+        for (const Middle& middle : middles) {
+            centres.push_back(middle.centre);
+            usual.radius = std::max(usual.radius, kSizes * middle.size);
+        }
+        const std::vector<Vec3d> at_origin(centres.size(), Vec3d::Zero());
+        usual.centre = median_difference(at_origin, centres);
+        return usual;
+    }
+
+    // Ascending. Reads poses again if one of them reaches beyond that place.
+    std::vector<uint32_t> far_from(const UsualPlace& usual, std::span<const Middle> middles) const {
+        std::vector<bool> is_far(source_.topology().num_vertices, false);
+        for (size_t p = 0; p < middles.size(); ++p) {
+            const double reach =
+                (middles[p].centre - usual.centre).stableNorm() + middles[p].farthest;
+            if (reach <= usual.radius) continue;
+            const std::vector<Vec3f> points = load(p, vertices_);
+            for (size_t j = 0; j < points.size(); ++j) {
+                if ((to_local(p, points[j]) - usual.centre).stableNorm() > usual.radius) {
+                    is_far[vertices_[j]] = true;
+                }
+            }
+        }
+        std::vector<uint32_t> far;
+        for (const uint32_t v : vertices_) {
+            if (is_far[v]) far.push_back(v);
+        }
+        return far;
+    }
+
+    // Bounds of both. Outliers are looked for among the tracked vertices.
+    Bounds without_outliers(std::span<const uint32_t> near,
+                            std::span<const uint32_t> tracked) const {
+        const auto count = static_cast<uint32_t>(tracked.size());
+        std::vector<std::vector<float>> planes(source_.num_poses());  // [P][3][tracked], local
+        std::vector<Bounds> bounds(planes.size());
+        parallel_for(planes.size(), 1, [&](size_t p, size_t) {
+            bounds[p].extend(load(p, near));
+            std::vector<Vec3f> points = load(p, tracked);
+            for (Vec3f& point : points) point = to_local(p, point).cast<float>();
+            planes[p] = to_planes(points);
+        });
+        std::vector<uint32_t> all(count);
+        std::iota(all.begin(), all.end(), 0u);
+        const PositionOutliers outliers = find_outliers(
+            count, source_.num_poses(), all,
+            [&](uint32_t p, uint64_t first, uint64_t num_rows, float* rows) {
+                std::copy_n(planes[p].begin() + static_cast<ptrdiff_t>(first), num_rows, rows);
+            });
+        Bounds result;
+        for (uint32_t p = 0; p < source_.num_poses(); ++p) {
+            outliers.replace(p, count, 0, planes[p]);
+            move_to_scene(root_at(root_motion_, p), planes[p]);
+            bounds[p].extend(bounds_of_vertices(planes[p], all));
+            result.extend(bounds[p]);
+        }
+        return result;
+    }
+
+    const PoseSource& source_;
+    const RootMotion& root_motion_;
+    const std::vector<uint32_t> vertices_;
+};
 
 }  // namespace
 
-Bounds bounds_of(const PoseSource& source, const std::function<void()>& on_pose) {
-    const std::vector<uint32_t> vertices = face_vertices(source.topology());
-    Bounds all, near;
-    std::vector<bool> is_far(source.topology().num_vertices, false);
-    std::mutex mutex;
-    parallel_for(source.num_poses(), 1, [&](size_t p, size_t) {
-        const Pose pose = load_from_origin(source, static_cast<uint32_t>(p));
-        Bounds bounds;
-        for (const uint32_t v : vertices) bounds.extend(pose.positions[v]);
-        const NearAndFar of_pose = near_and_far(pose, vertices);
-        {
-            const std::lock_guard lock(mutex);  // a minimum does not depend on the order
-            all.extend(bounds);
-            near.extend(of_pose.near);
-            for (const uint32_t v : of_pose.far) is_far[v] = true;
-        }
-        if (on_pose) on_pose();
-    });
-    std::vector<uint32_t> far;
-    for (const uint32_t v : vertices) {
-        if (is_far[v]) far.push_back(v);
-    }
-    if (far.empty()) return all;
-    // So many are no outliers, but much of the mesh.
-    constexpr uint64_t kMostBytes = uint64_t{256} << 20;
-    if (uint64_t{far.size()} * source.num_poses() * sizeof(Vec3f) > kMostBytes) return all;
-    near.extend(bounds_of_far(source, far));
-    return near;
+Bounds bounds_of(const PoseSource& source, const std::function<void()>& on_pose,
+                 const RootMotion& root_motion) {
+    return PoseBounds(source, root_motion).find(on_pose);
 }
 
 PosesOnFloor::PosesOnFloor(const PoseSource& source, const Bounds& bounds,

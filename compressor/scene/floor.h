@@ -7,6 +7,7 @@
 
 #include "paim/mesh/bounds.h"
 #include "paim/mesh/pose_source.h"
+#include "paim/mesh/root_motion.h"
 
 namespace paim {
 
@@ -32,10 +33,13 @@ struct Floor {
 };
 
 // Bounds over all poses of the vertices of triangles. Vertices without triangles do not count,
-// because they cannot be seen, and neither do outliers (mesh/outliers.h). Each pose is read once, or
-// twice if there may be outliers.
-// on_pose  called after each pose, from several threads at once
-Bounds bounds_of(const PoseSource& source, const std::function<void()>& on_pose = {});
+// because they cannot be seen, and neither do outliers (mesh/outliers.h), which are found in local
+// coordinates, so that a path hides none. Each pose is read once, or three times if there may be
+// outliers.
+// on_pose      called once after each pose, from several threads at once
+// root_motion  of the source, [P] or empty
+Bounds bounds_of(const PoseSource& source, const std::function<void()>& on_pose = {},
+                 const RootMotion& root_motion = {});
 
 // The poses of a source with a floor. The floor's vertices and triangles follow those of the source
 // and are the same in every pose, so that they are lit, shadowed and compressed with the others.

@@ -109,6 +109,11 @@ TEST_F(OutlierTool, LeavesTheFloorAlone) {
     EXPECT_EQ(BakeReader(bad).identity().floor, BakeReader(clean).identity().floor);
     expect_success(compress({"encode", bad, "-o", path("x.paim")}));
     EXPECT_LT(sequence_bounds(read_paim(path("x.paim"))).diagonal(), 10.0f);
+    // The whole body is elsewhere in one pose.
+    std::map<std::pair<int, int>, std::string> jump;
+    for (int v = 0; v < 88; ++v) jump[{4, v}] = fmt::format("v {} -1000 {}\n", v % 8, v / 8);
+    const std::string jumped = bake_bad_tube("jumped", jump, floor);
+    EXPECT_EQ(BakeReader(jumped).identity().floor, BakeReader(clean).identity().floor);
 }
 
 }  // namespace

@@ -24,7 +24,8 @@ class RootMotionTool : public ToolTest {
     // along z.
     // bad_pose  in which the first vertex is far away; -1: none
     // start     of the path along x
-    void write_walk(const std::string& folder, int bad_pose, double start = 0.0) const {
+    void write_walk(const std::string& folder, int bad_pose, double start = 0.0,
+                    const std::string& bad_vertex = "v 5000 4000 0\n") const {
         std::filesystem::create_directory(directory_ / folder);
         for (int p = 0; p < kPoses; ++p) {
             std::string text;
@@ -32,7 +33,7 @@ class RootMotionTool : public ToolTest {
                 const double y = 0.25 * ring;
                 for (int segment = 0; segment < kSegments; ++segment) {
                     if (p == bad_pose && ring == 0 && segment == 0) {
-                        text += "v 5000 4000 0\n";
+                        text += bad_vertex;
                         continue;
                     }
                     const double angle = 2.0 * kPi * segment / kSegments;
@@ -136,6 +137,13 @@ TEST_F(RootMotionTool, LeavesAFloorInItsPlace) {
             EXPECT_NEAR(ground.upper.x(), 52.4, 0.5) << p;
         }
     }
+}
+
+// A path hides no outlier from the floor.
+TEST_F(RootMotionTool, LeavesAnOutlierBelowTheFloorOfAWalk) {
+    write_walk("low", 4, 0.0, "v 20 -60 0\n");
+    const Arguments floor{"--floor", "--floor-vertices", "100"};
+    EXPECT_EQ(make("low", floor, "low")["bake"]["floor"], make("clean", floor)["bake"]["floor"]);
 }
 
 // Errors are relative to the diagonal of body and floor, wherever they are in the scene.

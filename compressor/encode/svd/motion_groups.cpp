@@ -97,19 +97,13 @@ std::vector<uint32_t> motion_groups(const Topology& topology, const RowSource& r
         });
         small.resize(std::min<size_t>(small.size(), kMostCompared));
         const SmallPieces compared(pieces, small, rows);
-        // Grows one group at a time.
         for (size_t j = 0; j < small.size(); ++j) {
             if (group_of[small[j]] != 0) continue;
             const uint32_t group = next++;
             group_of[small[j]] = group;
-            std::vector<size_t> to_visit{j};
-            while (!to_visit.empty()) {
-                const size_t a = to_visit.back();
-                to_visit.pop_back();
-                for (size_t b = 0; b < small.size(); ++b) {
-                    if (group_of[small[b]] != 0 || !compared.move_together(a, b)) continue;
-                    group_of[small[b]] = group;
-                    to_visit.push_back(b);
+            for (size_t k = j + 1; k < small.size(); ++k) {
+                if (group_of[small[k]] == 0 && compared.move_together(j, k)) {
+                    group_of[small[k]] = group;
                 }
             }
         }

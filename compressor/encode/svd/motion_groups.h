@@ -10,11 +10,12 @@
 namespace paim {
 
 // A group for each connected piece that has a twentieth of all vertices with faces or more, such as a
-// floor. Smaller pieces are in one group if they move together, such as the parts of a robot: the
-// distance between the centres of two of them changes by no more than the larger one is large (RMS over
-// the poses; a piece is twice as large as its vertices are from its centre, RMS), or others link
-// them. So the walkers of a crowd are groups of their own. Of small pieces, the 256 that have the most
-// vertices are compared; all others are one group, number 0.
+// floor. Smaller pieces are taken by their numbers of vertices, most first. Each that has no group yet
+// begins one, and all pieces that move together with it join, such as the parts of a robot with its
+// body: the distance between their centres changes by no more than the larger one of the two is large
+// (RMS over the poses; a piece is twice as large as its vertices are from its centre, RMS). So the
+// walkers of a crowd that walk apart are groups of their own. 256 small pieces are compared; all others
+// are one group, number 0.
 // rows     planes x, y and z of V rows each; read once if there is more than one small piece
 // returns  [V] numbers of groups, from 0 without gaps but for 0
 std::vector<uint32_t> motion_groups(const Topology& topology, const RowSource& rows);
