@@ -189,8 +189,7 @@ void apply(const BakeArguments& arguments, CompressOptions& options) {
     apply_noise_target(arguments, options);
     if (arguments.rays) options.bake.rays = *arguments.rays;
     if (options.bake.rays % 2 != 0) {
-        throw_usage("--rays: expected an even number (two halves), got {}",
-                    options.bake.rays);
+        throw_usage("--rays: expected an even number (two halves), got {}", options.bake.rays);
     }
 }
 

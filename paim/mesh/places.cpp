@@ -37,7 +37,7 @@ std::vector<uint32_t> first_with_equal_key(size_t n, const Hash& hash, const Equ
 
 template <typename Vector>
 std::vector<uint32_t> find_places(std::span<const Vector> positions,
-                                 std::span<const uint32_t> within) {
+                                  std::span<const uint32_t> within) {
     if (!within.empty()) PAIM_CHECK_EQ(within.size(), positions.size());
     const auto hash = [&](uint32_t v) {
         uint64_t bits = within.empty() ? 0 : within[v];
