@@ -57,4 +57,9 @@ void keep_vertices(std::vector<float>& planes, uint32_t num_vertices,
     planes.resize(kept);
 }
 
+size_t num_below(uint32_t end, std::span<const uint32_t> vertices) {
+    return static_cast<size_t>(std::lower_bound(vertices.begin(), vertices.end(), end) -
+                               vertices.begin());
+}
+
 }  // namespace paim

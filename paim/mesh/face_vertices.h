@@ -18,6 +18,9 @@ std::vector<uint32_t> face_vertices(const Topology& topology);
 // The vertices that face_vertices() leaves out, ascending.
 std::vector<uint32_t> isolated_vertices(const Topology& topology);
 
+// How many of the vertices, which are ascending, are below `end`.
+size_t num_below(uint32_t end, std::span<const uint32_t> vertices);
+
 // Bounds of these vertices.
 // planes  [3][V] x, y and z
 Bounds bounds_of_vertices(std::span<const float> planes, std::span<const uint32_t> vertices);

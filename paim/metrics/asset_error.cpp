@@ -123,6 +123,7 @@ PartMeter::PartMeter(const Asset& asset, size_t number, const BakeReader& bake,
       baked_(bake, number),
       old_vertex_(check_same_part(asset, number, bake, baked_)),
       outliers_((outliers ? *outliers : find_outliers(baked_)).reordered(old_vertex_)),
+      num_following_(asset.parts[number].num_following),
       shape_(asset.parts[number].topology, sample_poses()) {}
 
 // Baked positions of some poses, spread evenly over all, without outliers.
@@ -146,6 +147,7 @@ void PartMeter::read_baked(uint32_t p, std::vector<float>& planes) const {
 SurfaceError PartMeter::surface(const LowRank& positions) const {
     SurfaceError error;
     ShapeErrorMeter shape(shape_);
+    const size_t num_sized = num_below(num_following_, shape_.face_vertices);
     const uint32_t num_poses = baked_.num_poses();
     std::vector<ShapeErrorMeter::Pose> poses(std::min(num_poses, kPosesMeasured));
     for (uint32_t first = 0; first < num_poses; first += kPosesMeasured) {
@@ -165,7 +167,7 @@ SurfaceError PartMeter::surface(const LowRank& positions) const {
                 keep_vertices(*planes, baked_.num_vertices(), shape_.face_vertices);
             }
             error.geometry.add(poses[j].positions, poses[j].reference,
-                               static_cast<uint32_t>(first + j));
+                               static_cast<uint32_t>(first + j), num_sized);
         }
     }
     DistanceError& distance = error.geometry.distance;

@@ -66,6 +66,7 @@ class PartMeter {
     BakedPart baked_;
     std::vector<uint32_t> old_vertex_;  // [V] the vertex of the bake for each vertex of the file
     PositionOutliers outliers_;         // by vertices of the file
+    uint32_t num_following_;            // vertices of the file, from the first
     ShapeNeighbours shape_;
 };
 

@@ -43,11 +43,12 @@ double GeometryError::e_rms() const {
 }
 
 void GeometryError::add(std::span<const float> positions, std::span<const float> reference,
-                        uint32_t pose) {
+                        uint32_t pose, size_t num_sized) {
     PAIM_CHECK_EQ(reference.size() % 3, 0u);
     distance.add(positions, reference, pose);
     const size_t count = reference.size() / 3;
     if (count == 0) return;
+    if (num_sized == 0 || num_sized > count) num_sized = count;
     double extent_squared = 0.0;
     for (size_t axis = 0; axis < 3; ++axis) {
         const auto plane = reference.subspan(axis * count, count);
@@ -58,7 +59,8 @@ void GeometryError::add(std::span<const float> positions, std::span<const float>
             const double centred = static_cast<double>(x) - mean;
             centred_squared_sum += centred * centred;
         }
-        const auto [lowest, highest] = std::minmax_element(plane.begin(), plane.end());
+        const auto [lowest, highest] =
+            std::minmax_element(plane.begin(), plane.begin() + static_cast<ptrdiff_t>(num_sized));
         const double extent = static_cast<double>(*highest) - static_cast<double>(*lowest);
         extent_squared += extent * extent;
     }

@@ -4,6 +4,7 @@
 //           O'Sullivan, Fast and Efficient Skinning of Animated Meshes, 2010
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -32,7 +33,10 @@ struct GeometryError {
     double e_rms() const;
 
     // positions, reference  [3][V] planes x, y, z, the same length (checked)
-    void add(std::span<const float> positions, std::span<const float> reference, uint32_t pose);
+    // num_sized             how many points, from the first, the diagonal is of: a floor under a body
+    //                       that travels says nothing of the body's size. 0, or too many: all
+    void add(std::span<const float> positions, std::span<const float> reference, uint32_t pose,
+             size_t num_sized = 0);
 };
 
 }  // namespace paim

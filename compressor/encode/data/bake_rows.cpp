@@ -53,6 +53,7 @@ PoseDiagonals pose_diagonals(const BakeReader& bake, const PositionOutliers& out
                              const std::vector<uint32_t>& vertices) {
     std::vector<double> diagonals;
     const uint32_t num_vertices = bake.identity().num_vertices;
+    const size_t num_sized = num_below(bake.identity().num_following, vertices);
     std::vector<float> positions;
     for (uint32_t p = 0; p < bake.num_poses(); ++p) {
         positions.resize(size_t{3} * num_vertices);
@@ -60,7 +61,7 @@ PoseDiagonals pose_diagonals(const BakeReader& bake, const PositionOutliers& out
         outliers.replace(p, num_vertices, 0, positions);
         keep_vertices(positions, num_vertices, vertices);
         GeometryError pose;
-        pose.add(positions, positions, p);
+        pose.add(positions, positions, p, num_sized);
         diagonals.push_back(pose.diagonal);
     }
     std::sort(diagonals.begin(), diagonals.end());
