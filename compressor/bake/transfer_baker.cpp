@@ -188,11 +188,10 @@ class TransferBaker::PoseBake {
 
     void bake_part(size_t begin, size_t end) {
         const bool has_target = options_.transfer_error > 0.0;
+        const DirectionSampler* const first_sampler = &baker_.samplers_.first();
         std::vector<NextRound> next;
         for (size_t v = begin; v < end; ++v) {
-            if (has_normal(v)) {
-                next.push_back({static_cast<uint32_t>(v), &baker_.samplers_.first()});
-            }
+            if (has_normal(v)) next.push_back({static_cast<uint32_t>(v), first_sampler});
         }
         std::vector<Halves> sums(end - begin, Halves{SplitEstimate(num_coefficients()),
                                                      SplitEstimate(num_coefficients())});
@@ -334,7 +333,6 @@ TransferBaker::Samplers::Samplers(const BakeOptions& options)
     : kind_(options.sampler), relation_(half_relation(options)) {
     first_points_ = options.rays / 2;
     if (options.transfer_error > 0.0) first_points_ = std::min(first_points_, kFirstPoints);
-    of(first_points_);
 }
 
 const DirectionSampler& TransferBaker::Samplers::of(uint32_t num_points) const {

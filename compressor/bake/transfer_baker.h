@@ -55,7 +55,8 @@ class TransferBaker {
   private:
     class PoseBake;
 
-    // Sets of directions of different sizes, made when they are needed for the first time.
+    // Sets of directions of different sizes, made when they are needed for the first time. Safe to
+    // use from several threads.
     class Samplers {
       public:
         explicit Samplers(const BakeOptions& options);
@@ -63,7 +64,7 @@ class TransferBaker {
         // With this many points of a half.
         const DirectionSampler& of(uint32_t num_points) const;
         // That of the first round of every vertex.
-        const DirectionSampler& first() const { return *by_size_.at(first_points_); }
+        const DirectionSampler& first() const { return of(first_points_); }
 
       private:
         SamplerKind kind_;

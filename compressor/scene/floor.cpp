@@ -138,7 +138,7 @@ class PoseBounds {
         std::vector<Middle> middles(source_.num_poses());
         std::vector<Bounds> bounds(middles.size());
         parallel_for(middles.size(), 1, [&](size_t p, size_t) {
-            const std::vector<Vec3f> points = load(p, vertices_);
+            const std::vector<Vec3f> points = points_of(load(p), vertices_);
             bounds[p].extend(points);
             middles[p] = middle_of(p, points);
             if (on_pose) on_pose();
@@ -166,8 +166,8 @@ class PoseBounds {
     }
 
   private:
-    std::vector<Vec3f> load(size_t p, std::span<const uint32_t> vertices) const {
-        const Pose pose = load_from_origin(source_, static_cast<uint32_t>(p));
+    Pose load(size_t p) const { return load_from_origin(source_, static_cast<uint32_t>(p)); }
+    static std::vector<Vec3f> points_of(const Pose& pose, std::span<const uint32_t> vertices) {
         std::vector<Vec3f> points;
         for (const uint32_t v : vertices) points.push_back(pose.positions[v]);
         return points;
@@ -181,8 +181,7 @@ class PoseBounds {
         if (points.empty()) return middle;
         std::vector<Vec3d> local;
         for (const Vec3f& point : points) local.push_back(to_local(p, point));
-        const std::vector<Vec3d> at_origin(local.size(), Vec3d::Zero());
-        middle.centre = median_difference(at_origin, local);
+        middle.centre = median_point(local);
         middle.size = size_of(local);
         for (const Vec3d& point : local) {
             middle.farthest = std::max(middle.farthest, (point - middle.centre).stableNorm());
@@ -198,8 +197,7 @@ class PoseBounds {
             centres.push_back(middle.centre);
             usual.radius = std::max(usual.radius, kSizes * middle.size);
         }
-        const std::vector<Vec3d> at_origin(centres.size(), Vec3d::Zero());
-        usual.centre = median_difference(at_origin, centres);
+        usual.centre = median_point(centres);
         return usual;
     }
 
@@ -210,7 +208,7 @@ class PoseBounds {
             const double reach =
                 (middles[p].centre - usual.centre).stableNorm() + middles[p].farthest;
             if (reach <= usual.radius) continue;
-            const std::vector<Vec3f> points = load(p, vertices_);
+            const std::vector<Vec3f> points = points_of(load(p), vertices_);
             for (size_t j = 0; j < points.size(); ++j) {
                 if ((to_local(p, points[j]) - usual.centre).stableNorm() > usual.radius) {
                     is_far[vertices_[j]] = true;
@@ -231,8 +229,9 @@ class PoseBounds {
         std::vector<std::vector<float>> planes(source_.num_poses());  // [P][3][tracked], local
         std::vector<Bounds> bounds(planes.size());
         parallel_for(planes.size(), 1, [&](size_t p, size_t) {
-            bounds[p].extend(load(p, near));
-            std::vector<Vec3f> points = load(p, tracked);
+            const Pose pose = load(p);
+            bounds[p].extend(points_of(pose, near));
+            std::vector<Vec3f> points = points_of(pose, tracked);
             for (Vec3f& point : points) point = to_local(p, point).cast<float>();
             planes[p] = to_planes(points);
         });

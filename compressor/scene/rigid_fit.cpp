@@ -24,9 +24,12 @@ Vec3d median_difference(std::span<const Vec3d> from, std::span<const Vec3d> to) 
     return result;
 }
 
+Vec3d median_point(std::span<const Vec3d> points) {
+    return median_difference(std::vector<Vec3d>(points.size(), Vec3d::Zero()), points);
+}
+
 double size_of(std::span<const Vec3d> points) {
-    const std::vector<Vec3d> at_origin(points.size(), Vec3d::Zero());
-    const Vec3d centre = median_difference(at_origin, points);
+    const Vec3d centre = median_point(points);
     std::vector<double> distances;
     for (const Vec3d& point : points) distances.push_back((point - centre).stableNorm());
     // Of points that are spread evenly in a box, the median lies at a quarter of its diagonal.

@@ -13,6 +13,9 @@ namespace paim {
 // Of to − from, each coordinate by itself. At least one point.
 Vec3d median_difference(std::span<const Vec3d> from, std::span<const Vec3d> to);
 
+// Of points, each coordinate by itself. At least one point.
+Vec3d median_point(std::span<const Vec3d> points);
+
 // About the diagonal of a body: four times the median distance from the median point. At least one
 // point.
 double size_of(std::span<const Vec3d> points);

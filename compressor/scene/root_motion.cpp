@@ -54,8 +54,7 @@ Reference reference_of_pose(const PoseSource& source, uint32_t p) {
     reference.points = points_of(source, p, reference);
     if (reference.points.empty()) return reference;
     // Medians, so that an outlier in this pose changes neither.
-    const std::vector<Vec3d> at_origin(reference.points.size(), Vec3d::Zero());
-    reference.centre = median_difference(at_origin, reference.points);
+    reference.centre = median_point(reference.points);
     reference.size = size_of(reference.points);
     for (Vec3d& point : reference.points) point -= reference.centre;
     return reference;
@@ -167,8 +166,7 @@ double largest_turn_deg(const RootMotion& motion) {
 void take_out_jumps(const Reference& reference, RootMotion& motion) {
     std::vector<Vec3d> places;
     for (const RigidTransform& root : motion) places.push_back(root.translation);
-    const std::vector<Vec3d> at_origin(places.size(), Vec3d::Zero());
-    const Vec3d median = median_difference(at_origin, places);
+    const Vec3d median = median_point(places);
     std::vector<double> distances;
     for (const Vec3d& place : places) distances.push_back((place - median).norm());
     std::vector<double> sorted = distances;

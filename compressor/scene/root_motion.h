@@ -25,9 +25,8 @@ enum class LocalOrigin : uint32_t {
 };
 
 // Fits vertices of faces of every pose, 5,000 at most, to those of the first one that has a size.
-// What is taken out is what leaves the
-// fewest principal components that matter (a thousandth of the body's size). Of two that leave as
-// many it is the simpler one, unless the other leaves less than half of the squared distances from
+// What is taken out is what leaves the fewest principal components that matter (a thousandth of the
+// body's size). Of two that leave as many it is the simpler one, unless the other leaves less than half of the squared distances from
 // the mean. Rotations are taken out only if one of them is by 15 degrees or more: smaller ones
 // follow the shape, and hardly turn transfer. An outlier counts as if it were only as far as the
 // body is large, and a pose that jumps away from the path and back is no step of it. Reads every

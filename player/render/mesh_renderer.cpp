@@ -58,13 +58,9 @@ void MeshRenderer::upload_triangles() {
 
 void MeshRenderer::draw(const Frame& frame, const LightCoefficients& light, float aspect) {
     const RigidTransform root = root_at(mesh_.root_motion, frame.time);
-    const size_t num_triangles = mesh_.topology.triangles.size();
-    if (root.is_identity()) {
-        draw_triangles(0, num_triangles, root, frame, light, aspect);
-        return;
-    }
     draw_triangles(0, num_following_triangles_, root, frame, light, aspect);
-    draw_triangles(num_following_triangles_, num_triangles, {}, frame, light, aspect);
+    draw_triangles(num_following_triangles_, mesh_.topology.triangles.size(), {}, frame, light,
+                   aspect);
 }
 
 void MeshRenderer::draw_triangles(size_t first, size_t last, const RigidTransform& root,

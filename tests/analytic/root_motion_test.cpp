@@ -40,6 +40,18 @@ RigidTransform walk(uint32_t p) {
             Vec3d(20.0 * p, 0.1 * p, -7.0 * p)};
 }
 
+// With a vertex behind all others that no face has, at the same place of the scene in all poses.
+PoseSet with_isolated_vertex(const PoseSet& body) {
+    Topology topology = body.topology();
+    ++topology.num_vertices;
+    std::vector<std::vector<Vec3f>> positions;
+    for (uint32_t p = 0; p < kPoses; ++p) {
+        positions.push_back(body.load_pose(p).positions);
+        positions.back().push_back(Vec3f(70, -30, 5));
+    }
+    return PoseSet(topology, positions);
+}
+
 class RootMotionRoad : public testing::Test {
   protected:
     BakeReader bake(const PoseSource& source, RootMotionChoice choice, const std::string& name,
@@ -188,20 +200,14 @@ TEST_F(RootMotionRoad, BakesATravellerAsOnTheSpot) {
 // A vertex without faces goes along with the body, and costs no component.
 TEST_F(RootMotionRoad, LeavesIsolatedVerticesAtRest) {
     const PoseSet body = moved(&walk);
-    Topology topology = body.topology();
-    const uint32_t isolated = topology.num_vertices++;
-    std::vector<std::vector<Vec3f>> positions;
-    for (uint32_t p = 0; p < kPoses; ++p) {
-        positions.push_back(body.load_pose(p).positions);
-        positions.back().push_back(Vec3f(70, -30, 5));
-    }
     const BakeReader reader =
-        bake(PoseSet(topology, positions), RootMotionChoice::automatic, "i.bake");
+        bake(with_isolated_vertex(body), RootMotionChoice::automatic, "i.bake");
+    const uint32_t isolated = body.topology().num_vertices;
     ASSERT_EQ(reader.identity().root_motion.size(), kPoses);
     for (uint32_t p = 0; p < kPoses; ++p) {
         for (size_t axis = 0; axis < 3; ++axis) {
             const auto at = [&](uint32_t pose) {
-                return reader.read_pose(pose).positions[axis * topology.num_vertices + isolated];
+                return reader.read_pose(pose).positions[axis * (isolated + 1) + isolated];
             };
             EXPECT_EQ(at(p), at(0)) << p;
             EXPECT_LT(std::abs(at(p)), 5.0f);
@@ -227,17 +233,10 @@ TEST_F(RootMotionRoad, ShowsTheSamePictureOnAFloor) {
 // Files for a target have vertices in another order, isolated ones last.
 TEST_F(RootMotionRoad, KeepsTheFloorBehindTheBodyInFiles) {
     const PoseSet walking = moved(&walk);
-    Topology topology = walking.topology();
-    ++topology.num_vertices;
-    std::vector<std::vector<Vec3f>> positions;
-    for (uint32_t p = 0; p < kPoses; ++p) {
-        positions.push_back(walking.load_pose(p).positions);
-        positions.back().push_back(Vec3f(70, -30, 5));
-    }
-    const PoseSet body(topology, positions);
+    const PoseSet body = with_isolated_vertex(walking);
     const PosesOnFloor on_floor(body, bounds_of(body), {300, Vec3f::Constant(0.8f)});
     const BakeReader reader = bake(on_floor, RootMotionChoice::automatic, "f.bake", {}, 0, &body);
-    ASSERT_EQ(reader.identity().num_following, topology.num_vertices);
+    ASSERT_EQ(reader.identity().num_following, body.topology().num_vertices);
     EncodeTarget target;
     target.transfer_error = 0.25;
     encode_to_target(reader, {}, target, directory_ / "t.paim");

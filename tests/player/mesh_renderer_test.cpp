@@ -61,6 +61,17 @@ void expect_equal(const Image& expected, const Image& image) {
     EXPECT_LE(difference.fraction_off, 0.005);
 }
 
+// Pictures of these times, in poses, are those of the reference.
+void expect_drawn_at(std::initializer_list<double> times, const Asset& asset) {
+    const LightCoefficients light = make_test_light(5);
+    MeshRenderer renderer(asset.moving(), {});
+    for (const double time : times) {
+        SCOPED_TRACE(time);
+        const Frame frame = make_frame(asset, time);
+        expect_equal(reference(asset, frame, light), draw(renderer, frame, light));
+    }
+}
+
 class MeshRendererTest : public testing::TestWithParam<gl::Api> {
   protected:
     MeshRendererTest() : context_(gl::make_headless_context(GetParam())) {
@@ -220,13 +231,7 @@ TEST_P(MeshRendererTest, UploadsIntegersAsTheyAre) {
 
 TEST_P(MeshRendererTest, DrawsFractionalPoses) {
     const Asset asset = make_test_asset({});
-    const LightCoefficients light = make_test_light(5);
-    MeshRenderer renderer(asset.moving(), {});
-    for (const double time : {0.0, 0.25, 1.5, 2.999, 3.0, 3.9}) {
-        SCOPED_TRACE(time);
-        const Frame frame = make_frame(asset, time);
-        expect_equal(reference(asset, frame, light), draw(renderer, frame, light));
-    }
+    expect_drawn_at({0.0, 0.25, 1.5, 2.999, 3.0, 3.9}, asset);
 }
 
 TEST_P(MeshRendererTest, MovesAndTurnsBodies) {
@@ -240,13 +245,7 @@ TEST_P(MeshRendererTest, MovesAndTurnsBodies) {
         for (uint32_t p = 0; p < asset.num_poses(); ++p) {
             motion[p] = {rotation_of(p * Vec3d(0.3, 0.8, -0.2)), p * Vec3d(0.2, -0.1, 0.4)};
         }
-        const LightCoefficients light = make_test_light(5);
-        MeshRenderer renderer(asset.moving(), {});
-        for (const double time : {0.0, 1.0, 2.5, 5.0}) {
-            SCOPED_TRACE(time);
-            const Frame frame = make_frame(asset, time);
-            expect_equal(reference(asset, frame, light), draw(renderer, frame, light));
-        }
+        expect_drawn_at({0.0, 1.0, 2.5, 5.0}, asset);
     }
 }
 
@@ -268,13 +267,7 @@ TEST_P(MeshRendererTest, LeavesAFloorInItsPlace) {
             mesh.root_motion[p] = {rotation_of(p * Vec3d(0.3, 0.8, -0.2)),
                                    p * Vec3d(0.2, 0.1, 0.1)};
         }
-        const LightCoefficients light = make_test_light(5);
-        MeshRenderer renderer(asset.moving(), {});
-        for (const double time : {0.0, 1.0, 2.5, 5.0}) {
-            SCOPED_TRACE(time);
-            const Frame frame = make_frame(asset, time);
-            expect_equal(reference(asset, frame, light), draw(renderer, frame, light));
-        }
+        expect_drawn_at({0.0, 1.0, 2.5, 5.0}, asset);
     }
 }
 
