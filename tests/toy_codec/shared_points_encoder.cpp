@@ -34,11 +34,11 @@ class Encoder : public TransferEncoder {
     explicit Encoder(const TransferSearchTask& task) : problem_(task.problem) {}
 
     // All components, with the largest step.
-    void add_codings(double most_error, std::optional<uint32_t> decode_cost,
-                     std::vector<TransferCoding>& codings) override {
+    void add_codings(const CodingRequest& request, std::vector<TransferCoding>& codings) override {
         TransferCoding coding;
         coding.quantiser = {1.0, problem_.transfer.num_components(), problem_.plane_weight};
-        coding.quantiser.step = largest_step(problem_.transfer, coding.quantiser, most_error);
+        coding.quantiser.step =
+            largest_step(problem_.transfer, coding.quantiser, request.most_error);
         if (coding.quantiser.step == 0.0) return;
         coding.settings = std::make_shared<Settings>();
         const CodedTransfer transfer =
@@ -49,7 +49,7 @@ class Encoder : public TransferEncoder {
         coding.candidate.bytes = stored_bytes(transfer->matrix, PlanePredictor(), Effort::fast);
         coding.candidate.multiply_adds =
             static_cast<uint32_t>(transfer->cost(problem_.layout, {}, true).per_vertex());
-        if (decode_cost && coding.candidate.multiply_adds > *decode_cost) return;
+        if (request.decode_cost && coding.candidate.multiply_adds > *request.decode_cost) return;
         codings.push_back(std::move(coding));
     }
 

@@ -13,6 +13,23 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::MatrixXf;
 
+namespace {
+
+// Of components_by_passes().
+constexpr int kPasses = 3;
+
+}  // namespace
+
+uint32_t max_gram_members(uint64_t num_dimensions, uint64_t num_components) {
+    // n members of d dimensions and L iterated directions: n² d for the Gram matrix and some three
+    // steps of 2 n² L each, against 4 n d L a pass.
+    constexpr uint64_t kLargest = 2048;  // 34 MB
+    const auto iterated =
+        static_cast<uint64_t>(iterated_directions(static_cast<Index>(num_components), kLargest));
+    return static_cast<uint32_t>(std::min(
+        kLargest, 4 * kPasses * num_dimensions * iterated / (num_dimensions + 6 * iterated)));
+}
+
 Eigen::RowVectorXd member_mean(const MatrixXf& plane, std::span<const uint32_t> members) {
     Eigen::RowVectorXd mean(plane.cols());
     for (Index c = 0; c < plane.cols(); ++c) {
@@ -34,9 +51,36 @@ MatrixXd member_rows(const MatrixXf& plane, std::span<const uint32_t> members,
     return rows;
 }
 
-void components_by_grams(const PointSource& points, const ClusterMembers& members,
-                         std::span<const uint32_t> clusters, uint32_t num_components,
-                         uint64_t gram_bytes, uint64_t seed, std::vector<ClusterComponents>& out) {
+namespace {
+
+// As many directions as are iterated for `wanted`: the left vectors of the projected members, the
+// largest first, and random ones where that is more than dimensions.
+MatrixXd projected_start(const MatrixXf& projected, std::span<const uint32_t> members, Index wanted,
+                         uint64_t key) {
+    const Index count = iterated_directions(wanted, static_cast<Index>(members.size()));
+    MatrixXd rows(static_cast<Index>(members.size()), projected.rows());
+    for (Index m = 0; m < rows.rows(); ++m) {
+        rows.row(m) = projected.col(members[static_cast<size_t>(m)]).cast<double>().transpose();
+    }
+    const Index known = std::min(count, rows.cols());
+    RandomStream random(key);
+    MatrixXd start =
+        MatrixXd::NullaryExpr(rows.rows(), count, [&] { return random.uniform() - 0.5; });
+    // Points that are all zero are projected to no dimension, where there is nothing to solve for.
+    if (known == 0) return orthonormal_basis(start);
+    const Eigen::RowVectorXd mean = rows.colwise().mean();
+    rows.rowwise() -= mean;
+    const Eigenpairs all = all_eigenpairs(rows.transpose() * rows);
+    start.leftCols(known) = rows * all.vectors.leftCols(known);
+    return orthonormal_basis(start);
+}
+
+}  // namespace
+
+void components_by_grams(const PointSource& points, const MatrixXf& projected,
+                         const ClusterMembers& members, std::span<const uint32_t> clusters,
+                         uint32_t num_components, uint64_t gram_bytes, uint64_t seed,
+                         std::vector<ClusterComponents>& out) {
     MatrixXf plane(static_cast<Index>(points.num_points()),
                    static_cast<Index>(points.num_columns()));
     while (!clusters.empty()) {
@@ -64,41 +108,27 @@ void components_by_grams(const PointSource& points, const ClusterMembers& member
             gram.triangularView<Eigen::StrictlyUpper>() = gram.transpose();
             ClusterComponents& of = out[clusters[g]];
             of.energy = gram.trace();
-            of.pairs = top_eigenpairs(gram, static_cast<Index>(num_components),
-                                      stream_key(seed, clusters[g], 2));
+            const auto wanted = static_cast<Index>(num_components);
+            of.pairs = top_eigenpairs(gram, wanted,
+                                      projected_start(projected, members.of(clusters[g]), wanted,
+                                                      stream_key(seed, clusters[g], 2)));
             gram.resize(0, 0);
         });
         clusters = clusters.subspan(count);
     }
 }
 
-uint64_t gram_scratch_bytes(uint64_t num_members, uint64_t num_columns, uint64_t num_components) {
-    return (num_members + 3) * num_columns * sizeof(double) +
+uint64_t gram_scratch_bytes(uint64_t num_members, uint64_t num_columns, uint64_t num_dimensions,
+                            uint64_t num_components) {
+    // Either rows of a plane, or the start of an iteration with its temporaries.
+    const auto start = static_cast<uint64_t>(iterated_directions(static_cast<Index>(num_components),
+                                                                 static_cast<Index>(num_members))) +
+                       2 * num_dimensions;
+    return (num_members * std::max(num_columns, start) + 3 * num_columns) * sizeof(double) +
            top_eigenpairs_scratch_bytes(num_members, num_components);
 }
 
 namespace {
-
-// Left vectors of the projected members, the largest first; random where there are more than
-// dimensions.
-MatrixXd projected_start(const MatrixXf& projected, std::span<const uint32_t> members, Index count,
-                         uint64_t key) {
-    MatrixXd rows(static_cast<Index>(members.size()), projected.rows());
-    for (Index m = 0; m < rows.rows(); ++m) {
-        rows.row(m) = projected.col(members[static_cast<size_t>(m)]).cast<double>().transpose();
-    }
-    const Index known = std::min(count, rows.cols());
-    RandomStream random(key);
-    MatrixXd start =
-        MatrixXd::NullaryExpr(rows.rows(), count, [&] { return random.uniform() - 0.5; });
-    // Points that are all zero are projected to no dimension, where there is nothing to solve for.
-    if (known == 0) return orthonormal_basis(start);
-    const Eigen::RowVectorXd mean = rows.colwise().mean();
-    rows.rowwise() -= mean;
-    const Eigenpairs all = all_eigenpairs(rows.transpose() * rows);
-    start.leftCols(known) = rows * all.vectors.leftCols(known);
-    return orthonormal_basis(start);
-}
 
 // Calls body(first, rows) for the rows of a plane of a cluster's members, some at a time.
 template <typename Body>
@@ -125,7 +155,6 @@ void components_by_passes(const PointSource& points, const MatrixXf& projected,
                           uint32_t num_components, uint64_t seed,
                           std::vector<ClusterComponents>& out) {
     if (clusters.empty()) return;
-    constexpr int kPasses = 3;
     const auto wanted = static_cast<Index>(num_components);
     MatrixXf plane(static_cast<Index>(points.num_points()),
                    static_cast<Index>(points.num_columns()));
@@ -133,9 +162,7 @@ void components_by_passes(const PointSource& points, const MatrixXf& projected,
     std::vector<double> energy(clusters.size());
     parallel_for(clusters.size(), 1, [&](size_t g, size_t) {
         const auto own = members.of(clusters[g]);
-        q[g] = projected_start(projected, own,
-                               iterated_directions(wanted, static_cast<Index>(own.size())),
-                               stream_key(seed, clusters[g], 2));
+        q[g] = projected_start(projected, own, wanted, stream_key(seed, clusters[g], 2));
     });
     for (int pass = 0; pass < kPasses; ++pass) {
         for (size_t g = 0; g < clusters.size(); ++g) {

@@ -25,20 +25,27 @@ Eigen::MatrixXd member_rows(const Eigen::MatrixXf& plane, std::span<const uint32
                             const Eigen::RowVectorXd& mean);
 Eigen::RowVectorXd member_mean(const Eigen::MatrixXf& plane, std::span<const uint32_t> members);
 
+// The most members of a cluster whose Gram matrix is cheaper than passes over its points.
+uint32_t max_gram_members(uint64_t num_dimensions, uint64_t num_components);
+
 // Members whose rows are gathered at once.
 constexpr size_t kRowsGathered = 1024;
 
 // Through their Gram matrices n_c x n_c, in double, in as many passes as keep those below
 // gram_bytes (one cluster at least). Squaring the condition number is fine here: components below
 // 10^-7 of a cluster's first are far below anything that is stored.
-// clusters  which of them; out [clusters of members], those written
-void components_by_grams(const PointSource& points, const ClusterMembers& members,
-                         std::span<const uint32_t> clusters, uint32_t num_components,
-                         uint64_t gram_bytes, uint64_t seed, std::vector<ClusterComponents>& out);
+// projected  [d][V] where the iteration starts
+// clusters   which of them; out [clusters of members], those written
+void components_by_grams(const PointSource& points, const Eigen::MatrixXf& projected,
+                         const ClusterMembers& members, std::span<const uint32_t> clusters,
+                         uint32_t num_components, uint64_t gram_bytes, uint64_t seed,
+                         std::vector<ClusterComponents>& out);
 
 // Memory of components_by_grams() on one thread for a cluster of n_c members, in addition to the
-// Gram matrices: its rows of a plane, its eigenvectors and a few rows of the plane's width.
-uint64_t gram_scratch_bytes(uint64_t num_members, uint64_t num_columns, uint64_t num_components);
+// Gram matrices: its rows of a plane or where an iteration starts, its eigenvectors and a few rows of
+// the plane's width.
+uint64_t gram_scratch_bytes(uint64_t num_members, uint64_t num_columns, uint64_t num_dimensions,
+                            uint64_t num_components);
 
 // For clusters whose Gram matrices would be too large: subspace iteration in which each step is a
 // pass over the planes, X (Xᵀ Q). It starts from the principal directions of the projected points,

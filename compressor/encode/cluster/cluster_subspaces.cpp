@@ -105,6 +105,15 @@ ClusterSubspaces ClusterSubspaces::with_components(uint32_t num_components) cons
     return other;
 }
 
+ClusterSubspaces ClusterSubspaces::means() const {
+    ClusterSubspaces other(columns_.rows(), num_clusters_, 0);
+    const Index step = static_cast<Index>(num_components_) + 1;
+    for (uint32_t c = 0; c < num_clusters_; ++c) {
+        other.set_mean(c, columns_.col(static_cast<Index>(c) * step));
+    }
+    return other;
+}
+
 float ClusterSubspaces::leverage(uint32_t c, const Eigen::Ref<const VectorXf>& x) const {
     const Index first = static_cast<Index>(c) * static_cast<Index>(num_components_ + 1);
     const auto count = static_cast<Index>(num_components_);

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "compressor/encode/cluster/cluster_members.h"
-#include "compressor/encode/cluster/clustering.h"
 
 namespace paim {
 
@@ -30,6 +29,9 @@ class ClusterSubspaces {
 
     // With room for more directions, which the next fit finds.
     ClusterSubspaces with_components(uint32_t num_components) const;
+
+    // The means alone.
+    ClusterSubspaces means() const;
 
     // How much of the cluster's own fit its member x is, 0 … 1, as the last fit left it:
     // 1/size + Σ_k (b_k · (x − mean))² / Σ over members. 0 before any fit.
@@ -59,20 +61,5 @@ class ClusterSubspaces {
     // [clusters (K + 1)] 1 / size, then 1 / sum of squares along each direction; 0 where unknown
     Eigen::VectorXf inverse_spread_;
 };
-
-// Moves each point to the cluster whose subspace is nearest; of equals to the first. The squared
-// distance to its own cluster counts 1/(1 − leverage) times: by that much the cluster's error falls
-// when it leaves, for a fit always leans towards its own members (Hartigan and Wong, Algorithm AS
-// 136: A K-Means Clustering Algorithm, 1979, where directions are none and leverage is 1/size; Cook
-// and Weisberg, Residuals and Influence in Regression, 1982).
-// cluster  [V] in: where they are, for the neighbours' sake; out: where they belong
-// neighbour_cost  squared distance that each neighbour in another cluster adds; graph if not 0
-// squared_distance [V] out: to that subspace, without what neighbours cost
-void assign_points(const Eigen::MatrixXf& points, const ClusterSubspaces& subspaces,
-                   float neighbour_cost, const PointGraph* graph, std::vector<uint32_t>& cluster,
-                   std::vector<float>& squared_distance);
-
-// Memory of assign_points() on one thread.
-uint64_t assignment_scratch_bytes(uint64_t num_clusters);
 
 }  // namespace paim

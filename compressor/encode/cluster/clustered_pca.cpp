@@ -55,12 +55,13 @@ ClusteredPca analyse(const PointSource& points, const MatrixXf& projected,
     pca.coefficients = MatrixXf::Zero(points.num_points(), pca.num_components);
     if (pca.num_clusters == 0) return pca;
     std::vector<uint32_t> small, large;
+    const uint32_t most = max_gram_members(points.num_dimensions(), pca.num_components);
     for (uint32_t c = 0; c < pca.num_clusters; ++c) {
         pca.size.push_back(members.size(c));
-        (members.size(c) <= kMaxGramMembers ? small : large).push_back(c);
+        (members.size(c) <= most ? small : large).push_back(c);
     }
     std::vector<ClusterComponents> components(pca.num_clusters);
-    components_by_grams(points, members, small, pca.num_components,
+    components_by_grams(points, projected, members, small, pca.num_components,
                         spare_gram_bytes(points, options), options.seed, components);
     components_by_passes(points, projected, members, large, pca.num_components, options.seed,
                          components);
@@ -81,27 +82,20 @@ double ClusteredPca::squared_error(uint32_t count) const {
     return sum;
 }
 
-ClusteredPca components_of_clusters(const PointSource& points, const Clustering& clustering,
-                                    const ClusteringOptions& options) {
-    PAIM_CHECK_EQ(clustering.cluster.size(), points.num_points());
-    check_memory(points, options, "clustered PCA");
-    // Only what is too large for a Gram matrix starts from the projection.
-    const ClusterMembers members(clustering.cluster, clustering.num_clusters);
-    bool large = false;
-    for (size_t c = 0; c < clustering.num_clusters; ++c) {
-        large = large || members.size(c) > kMaxGramMembers;
-    }
-    return analyse(
-        points, large ? project_points(points, options.num_dimensions(), options.seed) : MatrixXf(),
-        clustering, options);
+ClusteredPca clustered_pca(const PointSource& points, const MatrixXf& projected,
+                           const ClusteringOptions& options, const std::string& what) {
+    PAIM_CHECK_EQ(static_cast<uint64_t>(projected.cols()), uint64_t{points.num_points()});
+    check_memory(points, options, what);
+    if (points.num_points() == 0) return analyse(points, {}, {}, options);
+    return analyse(points, projected, cluster_points(projected, options), options);
 }
 
 ClusteredPca clustered_pca(const PointSource& points, const ClusteringOptions& options,
-                           const PointGraph* graph, const std::string& what) {
+                           const std::string& what) {
     check_memory(points, options, what);
-    if (points.num_points() == 0) return analyse(points, {}, {}, options);
-    const MatrixXf projected = project_points(points, options.num_dimensions(), options.seed);
-    return analyse(points, projected, cluster_points(projected, options, graph), options);
+    if (points.num_points() == 0) return clustered_pca(points, MatrixXf(), options, what);
+    return clustered_pca(points, project_points(points, options.num_dimensions(), options.seed),
+                         options, what);
 }
 
 void for_each_basis_plane(

@@ -42,12 +42,12 @@ struct ClusteredPca {
 // any memory.
 // Error (unsupported) naming `what` if options.memory_bytes is not enough.
 ClusteredPca clustered_pca(const PointSource& points, const ClusteringOptions& options,
-                           const PointGraph* graph = nullptr,
                            const std::string& what = "clustered PCA");
 
-// The components of clusters that are known, in full dimension.
-ClusteredPca components_of_clusters(const PointSource& points, const Clustering& clustering,
-                                    const ClusteringOptions& options);
+// The same of points that are projected already, by project_points() to options.num_dimensions().
+ClusteredPca clustered_pca(const PointSource& points, const Eigen::MatrixXf& projected,
+                           const ClusteringOptions& options,
+                           const std::string& what = "clustered PCA");
 
 // One pass over the planes, in order. rows [clusters (K + 1)][n]: row c (K + 1) is the mean of
 // cluster c in this plane, row c (K + 1) + 1 + k its component k, so that
@@ -60,9 +60,5 @@ void for_each_basis_plane(
 
 // The least memory that clustered_pca() needs, an upper bound for this many threads.
 uint64_t clustered_pca_memory_bytes(const PointSource& points, const ClusteringOptions& options);
-
-// Clusters of more points than this are analysed by streamed subspace iteration, others by their
-// Gram matrix.
-constexpr uint32_t kMaxGramMembers = 2048;
 
 }  // namespace paim

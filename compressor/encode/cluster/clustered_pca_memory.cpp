@@ -14,12 +14,14 @@ namespace paim {
 namespace {
 
 // Of the largest cluster that is analysed by its Gram matrix.
-uint64_t most_members(const PointSource& points) {
-    return std::min(points.num_points(), kMaxGramMembers);
+uint64_t most_members(const PointSource& points, const ClusteringOptions& options) {
+    return std::min(points.num_points(),
+                    max_gram_members(points.num_dimensions(), options.max_components));
 }
 
-uint64_t largest_gram_bytes(const PointSource& points) {
-    return most_members(points) * most_members(points) * sizeof(double);
+uint64_t largest_gram_bytes(const PointSource& points, const ClusteringOptions& options) {
+    const uint64_t members = most_members(points, options);
+    return members * members * sizeof(double);
 }
 
 // Points and dimensions of anything that can be read are far below 2^28, so that products of two of
@@ -43,25 +45,26 @@ uint64_t total_bytes(const PointSource& points, const ClusteringOptions& options
     // Vectors are doubles before they become coefficients; members are sorted by cluster.
     const uint64_t result = ClusteredPca::held_bytes(num_points, clusters, components) +
                             num_points * (components * sizeof(double) + sizeof(uint32_t));
-    const uint64_t passes =
-        num_points > kMaxGramMembers ? passes_scratch_bytes(num_points, dimensions, components) : 0;
-    const uint64_t analysing =
-        projected + plane + result + gram_bytes + passes +
-        threads * gram_scratch_bytes(most_members(points), columns, components);
+    const uint64_t passes = num_points > most_members(points, options)
+                                ? passes_scratch_bytes(num_points, dimensions, components)
+                                : 0;
+    const uint64_t analysing = projected + plane + result + gram_bytes + passes +
+                               threads * gram_scratch_bytes(most_members(points, options), columns,
+                                                            dimensions, components);
     return with_memory_slack(std::max({projecting, clustering, analysing}));
 }
 
 }  // namespace
 
 uint64_t clustered_pca_memory_bytes(const PointSource& points, const ClusteringOptions& options) {
-    return total_bytes(points, options, largest_gram_bytes(points));
+    return total_bytes(points, options, largest_gram_bytes(points, options));
 }
 
 uint64_t spare_gram_bytes(const PointSource& points, const ClusteringOptions& options) {
     const uint64_t others = total_bytes(points, options, 0);
     const uint64_t spare =
         options.memory_bytes > others ? without_memory_slack(options.memory_bytes - others) : 0;
-    return std::max(spare, largest_gram_bytes(points));
+    return std::max(spare, largest_gram_bytes(points, options));
 }
 
 void check_memory(const PointSource& points, const ClusteringOptions& options,

@@ -4,33 +4,37 @@
 
 #include <algorithm>
 
+#include "compressor/encode/cluster/cluster_assignment.h"
 #include "compressor/encode/cluster/cluster_members.h"
 #include "compressor/encode/cluster/cluster_seeding.h"
 #include "compressor/encode/cluster/cluster_subspaces.h"
+#include "paim/base/seed.h"
 
 namespace paim {
 
 namespace {
 
+// After the first round points move between near clusters alone; which those are is found again every
+// so many affine rounds. docs/results/clusters.md has what fewer and more give.
+constexpr uint32_t kNumNeighbours = 32;
+constexpr uint64_t kRoundsANeighbourhood = 4;
+
 class Rounds {
   public:
-    Rounds(const Eigen::MatrixXf& points, const ClusteringOptions& options, const PointGraph* graph)
-        : points_(points),
-          options_(options),
-          graph_(options.coherence > 0.0f ? graph : nullptr),
-          cluster_(static_cast<size_t>(points.cols()), 0) {}
+    Rounds(const Eigen::MatrixXf& points, uint64_t seed)
+        : points_(points), seed_(seed), cluster_(static_cast<size_t>(points.cols()), 0) {}
 
     // Assigns points to the subspaces and fits those to them. False if no point moved.
-    bool run(ClusterSubspaces& subspaces) {
+    bool run(ClusterSubspaces& subspaces, const ClusterNeighbours& neighbours) {
         const std::vector<uint32_t> before = cluster_;
-        assign_points(points_, subspaces, neighbour_cost(), graph_, cluster_, distance_);
+        assign_points(points_, subspaces, neighbours, cluster_, distance_);
         fill_empty_clusters(points_, distance_, subspaces.num_clusters(), cluster_);
         fit(subspaces);
         return before != cluster_;
     }
 
     void fit(ClusterSubspaces& subspaces) const {
-        subspaces.fit(points_, ClusterMembers(cluster_, subspaces.num_clusters()), options_.seed);
+        subspaces.fit(points_, ClusterMembers(cluster_, subspaces.num_clusters()), seed_);
     }
 
     Clustering result(uint32_t num_clusters) {
@@ -39,27 +43,15 @@ class Rounds {
     }
 
   private:
-    // None in the first round, when nobody is anywhere yet.
-    float neighbour_cost() const {
-        if (graph_ == nullptr || distance_.empty()) return 0.0f;
-        double sum = 0.0;
-        for (const float d : distance_) sum += static_cast<double>(d);
-        return options_.coherence * static_cast<float>(sum / static_cast<double>(distance_.size()));
-    }
-
     const Eigen::MatrixXf& points_;
-    const ClusteringOptions& options_;
-    const PointGraph* graph_;
+    const uint64_t seed_;
     std::vector<uint32_t> cluster_;  // [V]
     std::vector<float> distance_;    // [V] squared, of the last assignment
 };
 
-}  // namespace
-
-Clustering cluster_points(const Eigen::MatrixXf& points, const ClusteringOptions& options,
-                          const PointGraph* graph) {
-    const auto num_clusters =
-        static_cast<uint32_t>(std::clamp<Eigen::Index>(options.num_clusters, 1, points.cols()));
+// Subspaces that grow to all components while points move between them.
+ClusterSubspaces find_subspaces(const Eigen::MatrixXf& points, const ClusteringOptions& options,
+                                uint32_t num_clusters, Rounds& rounds) {
     ClusterSubspaces subspaces(points.rows(), num_clusters, 0);
     const std::vector<uint32_t> seeds = seed_clusters(points, num_clusters, options.seed);
     for (uint32_t c = 0; c < num_clusters; ++c) {
@@ -67,10 +59,11 @@ Clustering cluster_points(const Eigen::MatrixXf& points, const ClusteringOptions
         const uint32_t v = c < seeds.size() ? seeds[c] : seeds[0];
         subspaces.set_mean(c, points.col(static_cast<Eigen::Index>(v)));
     }
-    Rounds rounds(points, options, graph);
-    bool moved = rounds.run(subspaces);
+    ClusterNeighbours neighbours(num_clusters);
+    bool moved = rounds.run(subspaces, neighbours);
     for (uint32_t round = 1; round < options.mean_rounds && moved; ++round) {
-        moved = rounds.run(subspaces);
+        if (round == 1) neighbours = ClusterNeighbours(subspaces, kNumNeighbours);
+        moved = rounds.run(subspaces, neighbours);
     }
     const uint64_t most = std::min<uint64_t>(options.assumed_components,
                                              static_cast<uint64_t>(points.rows() + 1) / 2);
@@ -83,7 +76,58 @@ Clustering cluster_points(const Eigen::MatrixXf& points, const ClusteringOptions
         } else if (!moved && components == most) {
             break;
         }
-        moved = rounds.run(subspaces);
+        if (round % kRoundsANeighbourhood == 0) {
+            neighbours = ClusterNeighbours(subspaces, kNumNeighbours);
+        }
+        moved = rounds.run(subspaces, neighbours);
+    }
+    return subspaces;
+}
+
+// Of many points so many are enough to find the clusters; the others then join them.
+size_t num_sampled(size_t num_points, uint32_t num_clusters) {
+    constexpr size_t kFewest = 32768, kPerCluster = 128;
+    const size_t enough = std::max(kFewest, kPerCluster * num_clusters);
+    return num_points > enough + enough / 2 ? enough : num_points;
+}
+
+// One point at random of each of `count` pieces.
+Eigen::MatrixXf sample(const Eigen::MatrixXf& points, size_t count, uint64_t seed) {
+    const auto num_points = static_cast<uint64_t>(points.cols());
+    Eigen::MatrixXf some(points.rows(), static_cast<Eigen::Index>(count));
+    for (size_t n = 0; n < count; ++n) {
+        const uint64_t first = n * num_points / count, end = (n + 1) * num_points / count;
+        some.col(static_cast<Eigen::Index>(n)) = points.col(
+            static_cast<Eigen::Index>(first + stream_key(seed, n, count) % (end - first)));
+    }
+    return some;
+}
+
+// Moves all points to the clusters of some, first to the nearest mean.
+void join(ClusterSubspaces& subspaces, Rounds& rounds) {
+    constexpr int kRounds = 6;
+    ClusterSubspaces means = subspaces.means();
+    rounds.run(means, ClusterNeighbours(means.num_clusters()));
+    for (int round = 0; round < kRounds; ++round) {
+        rounds.run(subspaces, ClusterNeighbours(subspaces, kNumNeighbours));
+    }
+}
+
+}  // namespace
+
+Clustering cluster_points(const Eigen::MatrixXf& points, const ClusteringOptions& options) {
+    const auto num_points = static_cast<size_t>(points.cols());
+    const auto num_clusters =
+        static_cast<uint32_t>(std::clamp<size_t>(options.num_clusters, 1, num_points));
+    Rounds rounds(points, options.seed);
+    const size_t count = num_sampled(num_points, num_clusters);
+    if (count == num_points) {
+        find_subspaces(points, options, num_clusters, rounds);
+    } else {
+        const Eigen::MatrixXf some = sample(points, count, options.seed);
+        Rounds rounds_of_some(some, options.seed);
+        ClusterSubspaces subspaces = find_subspaces(some, options, num_clusters, rounds_of_some);
+        join(subspaces, rounds);
     }
     return rounds.result(num_clusters);
 }
@@ -95,10 +139,13 @@ uint64_t clustering_scratch_bytes(uint64_t num_points, uint64_t num_dimensions,
     const uint64_t clusters =
         std::clamp<uint64_t>(options.num_clusters, 1, std::max<uint64_t>(1, num_points));
     const uint64_t at_work =
-        std::max(assignment_scratch_bytes(clusters),
+        std::max(assignment_scratch_bytes(clusters, num_dimensions),
                  ClusterSubspaces::fit_scratch_bytes(num_dimensions, options.assumed_components));
+    const uint64_t sampled = num_sampled(num_points, static_cast<uint32_t>(clusters));
     return ClusterSubspaces::held_bytes(num_dimensions, clusters, options.assumed_components) +
-           num_points * kBytesAPoint + num_threads * at_work;
+           ClusterNeighbours::held_bytes(clusters, kNumNeighbours) + num_points * kBytesAPoint +
+           (sampled < num_points ? sampled * (kBytesAPoint + num_dimensions * sizeof(float)) : 0) +
+           num_threads * at_work;
 }
 
 }  // namespace paim

@@ -14,12 +14,6 @@
 
 namespace paim {
 
-// Which points are neighbours: of point v those at [first[v], first[v + 1]).
-struct PointGraph {
-    std::vector<uint32_t> first;      // [V + 1]
-    std::vector<uint32_t> neighbour;  // each edge twice
-};
-
 struct ClusteringOptions {
     uint32_t num_clusters = 256;
     uint32_t assumed_components = 8;  // of the affine subspaces that points are assigned to
@@ -28,9 +22,6 @@ struct ClusteringOptions {
     uint32_t mean_rounds = 4;     // by distance to the clusters' means, at least 1
     uint32_t affine_rounds = 32;  // by distance to affine subspaces of 1 … assumed components
     uint32_t projection = 64;     // dimensions to cluster in, at least; see num_dimensions()
-    // Cost of each neighbour in another cluster, in mean squared distances of a point to its
-    // cluster. 0: no regard to neighbours.
-    float coherence = 0.0f;
     uint64_t memory_bytes = 1'000'000'000;
 
     // Dimensions that points are projected to: twice the dimension of a cluster's subspace, because
@@ -43,14 +34,15 @@ struct Clustering {
     std::vector<uint32_t> cluster;  // [V]
 };
 
+// Many points, more than 49,152 and 192 a cluster, are clustered by a sample of two thirds of that, and
+// then join its clusters.
 // points  [d][V], a column a point
 // Fewer clusters than asked for come back if there are fewer different points. Subspaces take at
 // most half of the d dimensions.
-Clustering cluster_points(const Eigen::MatrixXf& points, const ClusteringOptions& options,
-                          const PointGraph* graph = nullptr);
+Clustering cluster_points(const Eigen::MatrixXf& points, const ClusteringOptions& options);
 
-// Memory of cluster_points() for points [d][V]: subspaces, numbers and distances of the points, and
-// on each thread the points at work.
+// Memory of cluster_points() for points [d][V]: subspaces, numbers and distances of the points, the
+// sample of many, and on each thread the points at work.
 uint64_t clustering_scratch_bytes(uint64_t num_points, uint64_t num_dimensions,
                                   const ClusteringOptions& options, uint64_t num_threads);
 

@@ -6,8 +6,7 @@
 #include <Eigen/QR>
 
 #include <algorithm>
-
-#include "paim/base/seed.h"
+#include <utility>
 
 namespace paim {
 
@@ -37,7 +36,7 @@ Eigenpairs ritz_pairs(const MatrixXd& q, const MatrixXd& gram_q, Index wanted) {
     return {all.values.head(wanted).cwiseMax(0.0), q * all.vectors.leftCols(wanted)};
 }
 
-Eigenpairs top_eigenpairs(const MatrixXd& gram, Index wanted, uint64_t key) {
+Eigenpairs top_eigenpairs(const MatrixXd& gram, Index wanted, MatrixXd start) {
     const Index n = gram.rows();
     wanted = std::min(wanted, n);
     const Index iterated = iterated_directions(wanted, n);
@@ -46,18 +45,19 @@ Eigenpairs top_eigenpairs(const MatrixXd& gram, Index wanted, uint64_t key) {
         const Eigenpairs all = all_eigenpairs(gram);
         return {all.values.head(wanted).cwiseMax(0.0), all.vectors.leftCols(wanted)};
     }
-    constexpr int kMaxSteps = 200, kStepsACheck = 2;
-    RandomStream random(key);
-    MatrixXd q = MatrixXd::NullaryExpr(n, iterated, [&] { return random.uniform() - 0.5; });
-    q = orthonormal_basis(q);
-    Eigenpairs pairs;
-    double sum = 0.0;
-    for (int step = 0; step < kMaxSteps; step += kStepsACheck) {
-        for (int s = 0; s < kStepsACheck; ++s) q = orthonormal_basis(gram * q);
-        pairs = ritz_pairs(q, gram * q, wanted);
+    constexpr int kMaxSteps = 200;
+    constexpr double kOfWhatIsLeft = 1e-4, kOfAll = 0x1p-40;
+    const double all = gram.trace();
+    MatrixXd q = std::move(start);
+    MatrixXd gram_q = gram * q;
+    Eigenpairs pairs = ritz_pairs(q, gram_q, wanted);
+    for (int step = 0; step < kMaxSteps; ++step) {
+        const double sum = pairs.values.sum();
+        q = orthonormal_basis(gram_q);
+        gram_q.noalias() = gram * q;
+        pairs = ritz_pairs(q, gram_q, wanted);
         const double next = pairs.values.sum();
-        if (next - sum <= 0x1p-40 * gram.trace()) break;
-        sum = next;
+        if (next - sum <= std::max(kOfAll * all, kOfWhatIsLeft * (all - next))) break;
     }
     return pairs;
 }

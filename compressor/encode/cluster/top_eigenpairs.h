@@ -1,6 +1,6 @@
 // The largest eigenvalues of a Gram matrix, with their eigenvectors.
 // Based on: Rutishauser, Simultaneous Iteration Method for Symmetric Matrices, 1970; Halko,
-//           Martinsson and Tropp 2011 (the random start, and more directions than are wanted)
+//           Martinsson and Tropp 2011 (more directions than are wanted)
 #pragma once
 
 #include <Eigen/Core>
@@ -28,12 +28,13 @@ Eigenpairs ritz_pairs(const Eigen::MatrixXd& q, const Eigen::MatrixXd& gram_q, E
 // An orthonormal basis of the span of columns, as many of them.
 Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns);
 
-// gram  [n][n] symmetric, positive semidefinite, both halves filled
-// Small matrices are decomposed whole. Others are iterated until the sum of the wanted values grows
-// by less than 2^-40 of the trace a step: what is found is orthonormal and its values are exact
-// for it (v · G v), so that energies add up, converged or not. Values are at least 0.
-// key  of the random start
-Eigenpairs top_eigenpairs(const Eigen::MatrixXd& gram, Eigen::Index wanted, uint64_t key);
+// gram   [n][n] symmetric, positive semidefinite, both halves filled
+// start  [n][iterated_directions()] orthonormal columns, the nearer to the eigenvectors the better
+// Small matrices are decomposed whole. Others are iterated until a step gains less than 10^-4 of
+// what the wanted values leave of the trace, or 2^-40 of all. What is found is orthonormal and its
+// values are exact for it (v · G v), so that energies add up, converged or not. Values are at least
+// 0.
+Eigenpairs top_eigenpairs(const Eigen::MatrixXd& gram, Eigen::Index wanted, Eigen::MatrixXd start);
 
 // Memory of top_eigenpairs() in addition to the matrix: of a small one its decomposition, of others
 // the iterated directions and their products.

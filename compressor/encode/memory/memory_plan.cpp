@@ -13,6 +13,7 @@
 #include "compressor/encode/svd/vertex_motion.h"
 #include "paim/base/error.h"
 #include "paim/base/parallel.h"
+#include "paim/codec/low_rank.h"
 #include "paim/format/bake/bake_directory.h"
 #include "paim/mesh/outliers.h"
 

@@ -7,6 +7,6 @@ namespace paim {
 
 // Values that steps are tried on, up to twice as many: few enough that a step is found in a moment,
 // enough that it is the right one.
-constexpr size_t kSampledValues = 2'000'000;
+constexpr size_t kSampledValues = 1'000'000;
 
 }  // namespace paim

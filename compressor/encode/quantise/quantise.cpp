@@ -4,8 +4,11 @@
 #include <Eigen/Cholesky>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
+#include "compressor/encode/quantise/largest_step.h"
 #include "paim/base/check.h"
 #include "paim/base/error.h"
 #include "paim/base/parallel.h"
@@ -28,12 +31,47 @@ float plane_step(const Quantiser& quantiser, uint32_t plane) {
     return static_cast<float>(quantiser.step / std::sqrt(quantiser.plane_weight[plane]));
 }
 
+// To the nearest integer, of equals to the even one, as std::nearbyint() does for values below 2^22,
+// which all are that fit in 16 bits; without a call, so that loops over values are vectors.
+float nearest(float value) {
+    constexpr float kNoFraction = 12582912.0f;  // 1.5 · 2^23: floats from here on are integers
+    return (value + kNoFraction) - kNoFraction;
+}
+
 // In steps.
 float round_mean(float value) {
-    return std::nearbyint(value);
+    return nearest(value);
 }
 float round_component(float value) {
-    return std::abs(value) < kDeadZone ? 0.0f : std::nearbyint(value);
+    return std::abs(value) < kDeadZone ? 0.0f : nearest(value);
+}
+
+// What rounding leaves of values, in squares of steps.
+template <typename Round>
+double left_by_rounding(std::span<const float> values, float step, Round&& round) {
+    // Sums side by side, which vectors hold; as floats for so many values, then as doubles.
+    constexpr size_t kSums = 8, kSummed = 1024;
+    const float per_step = 1.0f / step;
+    double sum = 0.0;
+    size_t n = 0;
+    while (n + kSums <= values.size()) {
+        std::array<float, kSums> squares{};
+        for (const size_t end = std::min(values.size(), n + kSummed); n + kSums <= end;
+             n += kSums) {
+            for (size_t i = 0; i < kSums; ++i) {
+                const float value = values[n + i] * per_step;
+                const float left = value - round(value);
+                squares[i] += left * left;
+            }
+        }
+        for (const float square : squares) sum += static_cast<double>(square);
+    }
+    for (; n < values.size(); ++n) {
+        const float value = values[n] * per_step;
+        const auto left = static_cast<double>(value - round(value));
+        sum += left * left;
+    }
+    return sum;
 }
 
 // What the least squares need of the integers, Ĉ [rows][K], and the floats, [m − m̂, C]; rows are
@@ -186,6 +224,24 @@ double quantised_error(const ScaledFactors& factors, const Quantiser& quantiser)
     return quantiser.step * quantiser.step * factors.num_poses() * in_steps;
 }
 
+double rounding_error(const ScaledFactors& factors, const Quantiser& quantiser) {
+    std::vector<double> planes(factors.num_planes);
+    parallel_for(planes.size(), 1, [&](size_t j, size_t) {
+        const auto plane = static_cast<uint32_t>(j);
+        const float step = plane_step(quantiser, plane);
+        planes[j] = left_by_rounding(factors.plane(factors.mean, plane), step, round_mean);
+        for (uint32_t k = 0; k < factors.num_components(); ++k) {
+            const auto values = factors.plane(factors.components[k], plane);
+            planes[j] += k < quantiser.num_components
+                             ? left_by_rounding(values, step, round_component)
+                             : left_by_rounding(values, step, [](float) { return 0.0f; });
+        }
+    });
+    double sum = 0.0;
+    for (const double plane : planes) sum += plane;
+    return quantiser.step * quantiser.step * factors.num_poses() * sum;
+}
+
 uint64_t least_squares_bytes(uint64_t num_planes, uint64_t num_components, uint64_t num_threads) {
     const uint64_t columns = 2 * num_components + 2;
     // The sum, its copy with the ridge, the decomposition and the solution.
@@ -214,24 +270,14 @@ double smallest_step(const ScaledFactors& factors, const Quantiser& quantiser,
 }
 
 double largest_step(const ScaledFactors& factors, Quantiser quantiser, double most) {
-    return largest_step(smallest_step(factors, quantiser, Precision::i16), [&](double step) {
+    const auto with_step = [&](double step) -> const Quantiser& {
         quantiser.step = step;
-        return quantised_error(factors, quantiser) <= most;
-    });
-}
-
-double largest_step(double smallest, const std::function<bool(double)>& good) {
-    if (smallest == 0.0) return 1.0;  // nothing but zeros
-    if (!good(smallest)) return 0.0;
-    double low = smallest;
-    double high = largest_integer(Precision::i16) * smallest;
-    if (good(high)) return high;
-    constexpr double kClose = 1.005;
-    while (high > kClose * low) {
-        const double middle = std::sqrt(low * high);
-        (good(middle) ? low : high) = middle;
-    }
-    return low;
+        return quantiser;
+    };
+    return largest_step(
+        smallest_step(factors, quantiser, Precision::i16), most,
+        [&](double step) { return rounding_error(factors, with_step(step)); },
+        [&](double step) { return quantised_error(factors, with_step(step)); });
 }
 
 }  // namespace paim

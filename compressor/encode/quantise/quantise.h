@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 #include "compressor/encode/quantise/scaled_factors.h"
@@ -31,17 +30,16 @@ LowRank quantise(const ScaledFactors& factors, const Quantiser& quantiser);
 // Weighted squared error of such a matrix over all rows and poses, without the rounding of weights.
 double quantised_error(const ScaledFactors& factors, const Quantiser& quantiser);
 
+// The same if weights were not fitted: a little more, and much sooner known.
+double rounding_error(const ScaledFactors& factors, const Quantiser& quantiser);
+
 // Memory of the least squares of K components in quantise() and quantised_error(): the normal
 // equations of each plane and of all, and on each thread the points at work.
 uint64_t least_squares_bytes(uint64_t num_planes, uint64_t num_components, uint64_t num_threads);
 
-// The largest step with which the error is at most `most`; 0 if there is none down to 2⁻¹⁵ of the
-// largest value. quantiser.step is ignored.
+// The largest step with which the error is at most `most` (largest_step.h); 0 if there is none down
+// to 2⁻¹⁵ of the largest value. quantiser.step is ignored.
 double largest_step(const ScaledFactors& factors, Quantiser quantiser, double most);
-
-// The same for any error that grows with the step: the largest one that is good, from `smallest` to
-// the one of which the largest value is one; 0 if not even the smallest is.
-double largest_step(double smallest, const std::function<bool(double)>& good);
 
 // The smallest step with which every value fits, mean included.
 double smallest_step(const ScaledFactors& factors, const Quantiser& quantiser, Precision precision);

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "compressor/encode/svd/projected_blocks.h"
 #include "paim/base/check.h"
+#include "paim/base/seed.h"
 
 namespace paim {
 
@@ -53,20 +55,21 @@ ScaledFactors read_factors(const RowSource& rows, const PrincipalComponents& com
 
 namespace {
 
-// Every stride-th of the first points.
-ScaledFactors some_points(const ScaledFactors& factors, size_t num_points, size_t stride) {
+// These points alone.
+ScaledFactors some_points(const ScaledFactors& factors, std::span<const uint32_t> points) {
     const auto thin = [&](const std::vector<float>& from) {
         std::vector<float> to;
+        to.reserve(points.size() * factors.num_planes);
         for (uint32_t j = 0; j < factors.num_planes; ++j) {
             const auto plane = factors.plane(from, j);
-            for (size_t n = 0; n < num_points; n += stride) to.push_back(plane[n]);
+            for (const uint32_t n : points) to.push_back(plane[n]);
         }
         return to;
     };
     ScaledFactors few;
     few.num_planes = factors.num_planes;
     few.mean = thin(factors.mean);
-    few.num_points = static_cast<uint32_t>(few.mean.size() / factors.num_planes);
+    few.num_points = static_cast<uint32_t>(points.size());
     for (const auto& component : factors.components) few.components.push_back(thin(component));
     few.weights = factors.weights;
     few.singular_values = factors.singular_values;
@@ -79,12 +82,27 @@ ScaledFactors sample(const ScaledFactors& factors, size_t num_values) {
     const size_t all = factors.mean.size() * (factors.components.size() + 1);
     const size_t stride =
         std::clamp<size_t>(all / std::max<size_t>(1, num_values), 1, factors.num_points);
-    return some_points(factors, factors.num_points, stride);
+    // Not every n-th point: rows of bases repeat, a mean and its components.
+    std::vector<uint32_t> points;
+    for (size_t first = 0; first < factors.num_points; first += stride) {
+        const size_t some = std::min(stride, factors.num_points - first);
+        points.push_back(static_cast<uint32_t>(first + mix_bits(first) % some));
+    }
+    return some_points(factors, points);
+}
+
+ScaledFactors first_components(ScaledFactors factors, uint32_t num_components) {
+    PAIM_CHECK_LE(num_components, factors.num_components());
+    factors.components.resize(num_components);
+    factors.weights.conservativeResize(num_components, Eigen::NoChange);
+    return factors;
 }
 
 ScaledFactors first_points(const ScaledFactors& factors, uint32_t num_points) {
     PAIM_CHECK_LE(num_points, factors.num_points);
-    return some_points(factors, num_points, 1);
+    std::vector<uint32_t> points(num_points);
+    std::iota(points.begin(), points.end(), 0u);
+    return some_points(factors, points);
 }
 
 }  // namespace paim

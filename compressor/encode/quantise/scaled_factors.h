@@ -37,9 +37,12 @@ ScaledFactors read_factors(const RowSource& rows, const PrincipalComponents& com
                            uint32_t num_components, const Shrinkage* shrinkage,
                            std::span<const uint32_t> old_vertex, uint32_t num_in_flight);
 
-// Every n-th point, so that about `num_values` of all values are left: what searches try settings
-// on.
+// One of every n points, at random, so that about `num_values` of all values are left: what
+// searches try settings on.
 ScaledFactors sample(const ScaledFactors& factors, size_t num_values);
+
+// The first components alone.
+ScaledFactors first_components(ScaledFactors factors, uint32_t num_components);
 
 // The first points alone.
 ScaledFactors first_points(const ScaledFactors& factors, uint32_t num_points);

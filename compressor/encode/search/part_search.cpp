@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <set>
 
 #include "compressor/encode/memory/search_limits.h"
 #include "compressor/encode/search/matrix_cost.h"
+#include "compressor/encode/search/search_outwards.h"
 
 namespace paim {
 
@@ -49,21 +51,28 @@ std::vector<PartChoice> part_choices(const ScaledFactors& factors,
         while (k < factors.num_components() && tails[k] > share * most_error) ++k;
         counts.insert(std::clamp(k, std::min(least_components, most_components), most_components));
     }
-    std::vector<PartChoice> choices;
-    for (const uint32_t count : counts) {
-        if (tails[count] > most_error) continue;
-        PartChoice choice;
-        choice.quantiser = {1.0, count, plane_weight};
-        choice.quantiser.step = largest_step(few, choice.quantiser, sampled * most_error);
-        if (choice.quantiser.step == 0.0) continue;
-        choice.quantiser.step = std::max(choice.quantiser.step,
-                                         smallest_step(factors, choice.quantiser, Precision::i16));
-        const LowRank matrix = quantise(factors, choice.quantiser);
-        choice.num_components = matrix.num_components;
-        choice.bytes = stored_bytes(matrix, predictor, Effort::fast);
-        choices.push_back(std::move(choice));
-    }
-    return choices;
+    const std::vector<uint32_t> ascending(counts.begin(), counts.end());
+    std::map<uint32_t, PartChoice> choices;
+    search_outwards(
+        ascending.size(), ascending.size() / 2, [&](size_t n) -> std::optional<uint64_t> {
+            const uint32_t count = ascending[n];
+            if (tails[count] > most_error) return std::nullopt;
+            PartChoice choice;
+            choice.quantiser = {1.0, count, plane_weight};
+            // What is dropped is known of all points.
+            choice.quantiser.step = largest_step(first_components(few, count), choice.quantiser,
+                                                 sampled * (most_error - tails[count]));
+            if (choice.quantiser.step == 0.0) return std::nullopt;
+            choice.quantiser.step = std::max(
+                choice.quantiser.step, smallest_step(factors, choice.quantiser, Precision::i16));
+            const LowRank matrix = quantise(factors, choice.quantiser);
+            choice.num_components = matrix.num_components;
+            choice.bytes = stored_bytes(matrix, predictor, Effort::fast);
+            return choices.emplace(count, std::move(choice)).first->second.bytes;
+        });
+    std::vector<PartChoice> result;
+    for (auto& [count, choice] : choices) result.push_back(std::move(choice));
+    return result;
 }
 
 std::optional<PartChoice> cheapest_part(std::vector<PartChoice> choices) {

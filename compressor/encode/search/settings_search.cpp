@@ -18,15 +18,18 @@ std::optional<Coding> CodingSearch::choose(const Targets& targets,
         return std::nullopt;
     }
     Coding coding{std::move(*positions), {}};
-    const std::vector<TransferCoding> codings = search_.codings(transfer_budget(targets.transfer));
-    std::optional<uint64_t> most;
+    const double budget = transfer_budget(targets.transfer);
+    const std::vector<TransferCoding> codings = search_.codings(budget);
+    CodingLimits limits;
+    // What saves bytes is not to play more slowly than what saves none.
+    limits.multiply_adds = plain_multiply_adds(problem_, budget);
     if (target_.size_bytes && target_.transfer_error) {
         const uint64_t rest = coding.positions.bytes + estimated_overhead_bytes();
-        most = *target_.size_bytes > rest ? *target_.size_bytes - rest : 0;
+        limits.bytes = *target_.size_bytes > rest ? *target_.size_bytes - rest : 0;
     }
-    const TransferCoding* best = best_coding(codings, target_.preference, most);
+    const TransferCoding* best = best_coding(codings, target_.preference, limits);
     // What seems too large may still fit once it is squeezed.
-    if (best == nullptr) best = best_coding(codings, Preference::size, {});
+    if (best == nullptr) best = best_coding(codings, Preference::size);
     if (best == nullptr) {
         reason = missed_transfer(targets.transfer);
         return std::nullopt;

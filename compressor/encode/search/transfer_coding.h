@@ -39,10 +39,16 @@ struct TransferCoding {
     std::shared_ptr<CodecSettings> settings;
 };
 
-// The best by preference: fewest bytes, or within 1 % of that fewer multiply-adds; or fewest
-// multiply-adds and of these fewest bytes. Nothing if there are none.
-// most_bytes  only those that are not larger are looked at
+// What a coding may take.
+struct CodingLimits {
+    std::optional<uint64_t> bytes = {};
+    // Not asked of anything where no coding within `bytes` is as cheap.
+    std::optional<uint32_t> multiply_adds = {};
+};
+
+// The best within the limits, by preference: fewest bytes, or within 1 % of that fewer
+// multiply-adds; or fewest multiply-adds and of these fewest bytes. Nothing if there are none.
 const TransferCoding* best_coding(const std::vector<TransferCoding>& codings, Preference preference,
-                                  std::optional<uint64_t> most_bytes);
+                                  CodingLimits limits = {});
 
 }  // namespace paim

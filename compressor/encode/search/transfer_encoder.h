@@ -20,14 +20,22 @@ struct TransferSearchTask {
     const EncodeTarget& target;
 };
 
+// What codings are asked for.
+struct CodingRequest {
+    // Weighted squares over rows and poses, against the factors.
+    double most_error = 0.0;
+    // Multiply-adds a vertex and frame that are allowed.
+    std::optional<uint32_t> decode_cost = {};
+    // What the best of them will be chosen by. Codings that are clearly worse need not be tried.
+    Preference preference = Preference::size;
+};
+
 class TransferEncoder {
   public:
     virtual ~TransferEncoder() = default;
 
     // Adds all codings that were tried, meet the error and are cheap enough to decode.
-    // most_error   weighted squares over rows and poses, against the factors
-    // decode_cost  multiply-adds a vertex and frame that are allowed
-    virtual void add_codings(double most_error, std::optional<uint32_t> decode_cost,
+    virtual void add_codings(const CodingRequest& request,
                              std::vector<TransferCoding>& codings) = 0;
 };
 

@@ -2,29 +2,32 @@
 #include "compressor/encode/search/transfer_search.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
+
+#include "compressor/encode/search/part_search.h"
+#include "paim/codec/codecs.h"
 
 namespace paim {
 
 TransferSearch::TransferSearch(const EncodeProblem& problem, const EncodeOptions& options,
                                const EncodeTarget& target)
-    : bands_(problem.layout.in_bands), decode_cost_(target.decode_cost) {
+    : bands_(problem.layout.in_bands),
+      preference_(target.preference),
+      decode_cost_(target.decode_cost) {
     for (const TransferEncoderType* type : encoders_to_try(target.codec, options.precision)) {
         encoders_.push_back(type->make({problem, options, target}));
     }
 }
 
-std::vector<TransferCoding> TransferSearch::codings(double most_error,
-                                                    std::optional<uint32_t> decode_cost) {
+std::vector<TransferCoding> TransferSearch::codings(const CodingRequest& request) {
     std::vector<TransferCoding> codings;
-    for (const auto& encoder : encoders_) encoder->add_codings(most_error, decode_cost, codings);
+    for (const auto& encoder : encoders_) encoder->add_codings(request, codings);
     for (TransferCoding& coding : codings) coding.candidate.bands = bands_;
     return codings;
 }
 
 std::optional<uint32_t> TransferSearch::least_multiply_adds(double most_error) {
-    const std::vector<TransferCoding> all = codings(most_error, std::nullopt);
+    const std::vector<TransferCoding> all = codings({most_error, std::nullopt, Preference::speed});
     const auto cheapest =
         std::min_element(all.begin(), all.end(), [](const auto& a, const auto& b) {
             return a.candidate.multiply_adds < b.candidate.multiply_adds;
@@ -33,25 +36,42 @@ std::optional<uint32_t> TransferSearch::least_multiply_adds(double most_error) {
     return cheapest->candidate.multiply_adds;
 }
 
+uint32_t plain_multiply_adds(const EncodeProblem& problem, double most_error) {
+    const std::vector<double> tails = tail_errors(problem.transfer, problem.plane_weight);
+    LowRank matrix;
+    matrix.num_points = problem.transfer.num_points;
+    matrix.num_planes = problem.transfer.num_planes;
+    while (matrix.num_components + 1 < tails.size() && tails[matrix.num_components] > most_error) {
+        ++matrix.num_components;
+    }
+    const CodedTransfer plain = plain_transfer(std::move(matrix));
+    return static_cast<uint32_t>(plain->cost(problem.layout, {}, true).per_vertex());
+}
+
 const TransferCoding* best_coding(const std::vector<TransferCoding>& codings, Preference preference,
-                                  std::optional<uint64_t> most_bytes) {
-    uint64_t limit = most_bytes.value_or(std::numeric_limits<uint64_t>::max());
-    if (preference == Preference::size) {
-        uint64_t fewest = limit;
-        for (const TransferCoding& coding : codings) {
-            fewest = std::min(fewest, coding.candidate.bytes);
-        }
-        limit = std::min(limit, fewest + fewest / 100);
-    }
-    const TransferCoding* best = nullptr;
-    const auto cost = [](const TransferCoding& coding) {
-        return std::pair(coding.candidate.multiply_adds, coding.candidate.bytes);
-    };
+                                  CodingLimits limits) {
+    std::vector<const TransferCoding*> allowed;
     for (const TransferCoding& coding : codings) {
-        if (coding.candidate.bytes > limit) continue;
-        if (best == nullptr || cost(coding) < cost(*best)) best = &coding;
+        if (!limits.bytes || coding.candidate.bytes <= *limits.bytes) allowed.push_back(&coding);
     }
-    return best;
+    const auto is_dear = [&](const TransferCoding* coding) {
+        return limits.multiply_adds && coding->candidate.multiply_adds > *limits.multiply_adds;
+    };
+    if (!std::all_of(allowed.begin(), allowed.end(), is_dear)) std::erase_if(allowed, is_dear);
+    if (allowed.empty()) return nullptr;
+    if (preference == Preference::size) {
+        uint64_t fewest = allowed[0]->candidate.bytes;
+        for (const TransferCoding* coding : allowed) {
+            fewest = std::min(fewest, coding->candidate.bytes);
+        }
+        std::erase_if(allowed, [&](const TransferCoding* coding) {
+            return coding->candidate.bytes > fewest + fewest / 100;
+        });
+    }
+    return *std::min_element(allowed.begin(), allowed.end(), [](const auto* a, const auto* b) {
+        return std::pair(a->candidate.multiply_adds, a->candidate.bytes) <
+               std::pair(b->candidate.multiply_adds, b->candidate.bytes);
+    });
 }
 
 }  // namespace paim

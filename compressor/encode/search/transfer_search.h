@@ -10,6 +10,11 @@
 
 namespace paim {
 
+// Multiply-adds a vertex and frame, under coloured light, of the plainest storage that meets the
+// error: components as floats, as few as do.
+// most_error  as for codings()
+uint32_t plain_multiply_adds(const EncodeProblem& problem, double most_error);
+
 class TransferSearch {
   public:
     TransferSearch(const EncodeProblem& problem, const EncodeOptions& options,
@@ -19,16 +24,17 @@ class TransferSearch {
     // may hold memory until the next call, and codings of an earlier call have to be gone by then.
     // most_error  weighted squares over rows and poses, against the factors
     std::vector<TransferCoding> codings(double most_error) {
-        return codings(most_error, decode_cost_);
+        return codings({most_error, decode_cost_, preference_});
     }
 
     // Of all that meet the error at any decode cost; nothing if nothing does. As long as codings().
     std::optional<uint32_t> least_multiply_adds(double most_error);
 
   private:
-    std::vector<TransferCoding> codings(double most_error, std::optional<uint32_t> decode_cost);
+    std::vector<TransferCoding> codings(const CodingRequest& request);
 
     const uint32_t bands_;
+    const Preference preference_;
     const std::optional<uint32_t> decode_cost_;
     std::vector<std::unique_ptr<TransferEncoder>> encoders_;
 };

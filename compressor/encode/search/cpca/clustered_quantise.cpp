@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compressor/encode/memory/search_limits.h"
+#include "compressor/encode/quantise/largest_step.h"
 #include "paim/base/error.h"
 
 namespace paim {
@@ -21,6 +23,22 @@ double coefficient_step(const ClusteredFactors& clustered, Index cluster, Index 
 
 double rounded(double coefficient, double step) {
     return step > 0.0 ? std::nearbyint(coefficient / step) : 0.0;
+}
+
+// Weighted squared error of rounded coefficients, over all vertices and poses.
+double coefficient_error(const ClusteredFactors& clustered, const Quantiser& quantiser) {
+    const ClusteredPca& pca = *clustered.pca;
+    double sum = 0.0;
+    for (Index j = 0; j < clustered.norms.cols(); ++j) {
+        for (size_t v = 0; v < pca.cluster.size(); ++v) {
+            const auto c = static_cast<Index>(pca.cluster[v]);
+            const double step = coefficient_step(clustered, c, j, quantiser.step);
+            const auto exact = static_cast<double>(pca.coefficients(static_cast<Index>(v), j));
+            const double error = (exact - step * rounded(exact, step)) * clustered.norms(c, j);
+            sum += error * error;
+        }
+    }
+    return clustered.bases.num_poses() * sum;
 }
 
 StoredValues fewest_bits(const std::vector<double>& integers) {
@@ -119,19 +137,8 @@ ClusteredMatrix quantise_clusters(const ClusteredFactors& clustered, const Quant
 }
 
 double clustered_error(const ClusteredFactors& clustered, const Quantiser& quantiser) {
-    const ClusteredPca& pca = *clustered.pca;
-    double of_coefficients = 0.0;
-    for (Index j = 0; j < clustered.norms.cols(); ++j) {
-        for (size_t v = 0; v < pca.cluster.size(); ++v) {
-            const auto c = static_cast<Index>(pca.cluster[v]);
-            const double step = coefficient_step(clustered, c, j, quantiser.step);
-            const auto exact = static_cast<double>(pca.coefficients(static_cast<Index>(v), j));
-            const double error = (exact - step * rounded(exact, step)) * clustered.norms(c, j);
-            of_coefficients += error * error;
-        }
-    }
     return clustered.truncated + quantised_error(clustered.bases, quantiser) +
-           clustered.bases.num_poses() * of_coefficients;
+           coefficient_error(clustered, quantiser);
 }
 
 double smallest_step(const ClusteredFactors& clustered, const Quantiser& quantiser) {
@@ -151,10 +158,21 @@ double smallest_step(const ClusteredFactors& clustered, const Quantiser& quantis
 }
 
 double largest_step(const ClusteredFactors& clustered, Quantiser quantiser, double most) {
-    return largest_step(smallest_step(clustered, quantiser), [&](double step) {
-        quantiser.step = step;
-        return clustered_error(clustered, quantiser) <= most;
-    });
+    const ScaledFactors few = sample(clustered.bases, kSampledValues);
+    const double sampled = static_cast<double>(few.num_points) / clustered.bases.num_points;
+    const auto error = [&](double of_few) {
+        return clustered.truncated + of_few / sampled + coefficient_error(clustered, quantiser);
+    };
+    return largest_step(
+        smallest_step(clustered, quantiser), most,
+        [&](double step) {
+            quantiser.step = step;
+            return error(rounding_error(few, quantiser));
+        },
+        [&](double step) {
+            quantiser.step = step;
+            return error(quantised_error(few, quantiser));
+        });
 }
 
 }  // namespace paim

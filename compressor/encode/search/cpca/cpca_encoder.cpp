@@ -2,15 +2,19 @@
 #include "compressor/encode/search/cpca/cpca_encoder.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <set>
 #include <utility>
 
+#include "compressor/encode/cluster/point_projection.h"
 #include "compressor/encode/search/cpca/clustered_quantise.h"
 #include "compressor/encode/search/cpca/cpca_memory.h"
 #include "compressor/encode/search/matrix_cost.h"
+#include "compressor/encode/search/search_outwards.h"
 #include "paim/codec/cpca/cpca_transfer.h"
 
 namespace paim {
@@ -24,6 +28,25 @@ uint64_t stored_bytes(const VertexClusters& clusters, const PlanePredictor& vert
     columns.mean = std::vector<int16_t>(clusters.cluster.begin(), clusters.cluster.end());
     columns.components = clusters.coefficients;
     return stored_bytes(columns, vertices, Effort::fast) + clusters.scales.size() * sizeof(float);
+}
+
+// Numbers of clusters that are tried, ascending.
+std::vector<uint32_t> cluster_counts(uint32_t num_vertices) {
+    const auto most = static_cast<uint32_t>(most_clusters(num_vertices));
+    std::vector<uint32_t> counts;
+    for (const uint32_t count : kClusterCounts) {
+        if (counts.empty() || counts.back() < most) counts.push_back(std::min(count, most));
+    }
+    return counts;
+}
+
+// Where among them the smallest files are most often: at about as many clusters as vertices in each.
+size_t usual_place(const std::vector<uint32_t>& counts, uint32_t num_vertices) {
+    const double usual = std::sqrt(static_cast<double>(num_vertices));
+    const auto nearest = std::min_element(counts.begin(), counts.end(), [&](double a, double b) {
+        return std::abs(std::log(a / usual)) < std::abs(std::log(b / usual));
+    });
+    return static_cast<size_t>(nearest - counts.begin());
 }
 
 // As CpcaTransfer::numbers() has them.
@@ -65,50 +88,62 @@ class CpcaSettings : public CodecSettings {
 
 class CpcaEncoder : public TransferEncoder {
   public:
-    explicit CpcaEncoder(const TransferSearchTask& task) : task_(task), problem_(task.problem) {}
+    explicit CpcaEncoder(const TransferSearchTask& task)
+        : problem_(task.problem),
+          cluster_counts_(cluster_counts(problem_.transfer.num_points)),
+          start_(usual_place(cluster_counts_, problem_.transfer.num_points)) {}
 
-    void add_codings(double most_error, std::optional<uint32_t> decode_cost,
-                     std::vector<TransferCoding>& codings) override {
+    void add_codings(const CodingRequest& request, std::vector<TransferCoding>& codings) override {
         kept_bytes_ = 0;
-        decode_cost_ = decode_cost;
-        // Once more clusters have made files this much larger, they go on doing so.
-        constexpr double kPastTheSmallest = 1.3;
-        const auto most = static_cast<uint32_t>(most_clusters(problem_.transfer.num_points));
-        const auto fewest_bytes = [&](size_t first) {
-            uint64_t fewest = std::numeric_limits<uint64_t>::max();
-            for (size_t j = first; j < codings.size(); ++j) {
-                fewest = std::min(fewest, codings[j].candidate.bytes);
+        request_ = request;
+        std::vector<TransferCoding> found;
+        const auto fewest_bytes = [&](size_t n) -> std::optional<uint64_t> {
+            const size_t before = found.size();
+            add_clusters(cluster_counts_[n], found);
+            std::optional<uint64_t> fewest;
+            for (size_t j = before; j < found.size(); ++j) {
+                fewest =
+                    std::min(fewest.value_or(found[j].candidate.bytes), found[j].candidate.bytes);
             }
-            return static_cast<double>(fewest);
+            return fewest;
         };
-        const size_t first = codings.size();
-        uint32_t tried = 0;
-        for (const uint32_t count : kClusterCounts) {
-            if (std::min(count, most) == tried) break;
-            tried = std::min(count, most);
-            const size_t before = codings.size();
-            add_clusters(tried, most_error, codings);
-            if (task_.target.preference == Preference::size && codings.size() > before &&
-                fewest_bytes(before) > kPastTheSmallest * fewest_bytes(first)) {
-                break;
-            }
+        if (request.preference == Preference::size) {
+            start_ = search_outwards(cluster_counts_.size(), start_, fewest_bytes);
+        } else {
+            for (size_t n = 0; n < cluster_counts_.size(); ++n) fewest_bytes(n);
         }
+        std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
+            return a.candidate.number(kClusters) < b.candidate.number(kClusters);
+        });
+        std::move(found.begin(), found.end(), std::back_inserter(codings));
     }
 
   private:
-    std::shared_ptr<const ClusteredPca> clusters(uint32_t num_clusters,
-                                                 uint32_t subspace_dimension) {
-        std::shared_ptr<const ClusteredPca>& found = clusters_[{num_clusters, subspace_dimension}];
-        if (found) return found;
-        ClusteringOptions clustering;
-        clustering.num_clusters = num_clusters;
-        clustering.assumed_components = subspace_dimension;
-        clustering.max_components = kMaxSearchedComponents;
-        clustering.memory_bytes = problem_.spare_bytes - kept_bytes_;
-        const FactorPoints points(problem_.transfer, problem_.plane_weight);
-        found = std::make_shared<const ClusteredPca>(
-            clustered_pca(points, clustering, nullptr, problem_.bake.directory().string()));
-        return found;
+    // Clusters of one number, which stay for the next error.
+    struct Found {
+        std::shared_ptr<const ClusteredPca> pca;
+        uint32_t subspace_dimension = 0;
+        uint32_t needed = 0;  // components, at the last error that was asked for
+    };
+
+    // Unless that is what was found.
+    void cluster(uint32_t num_clusters, uint32_t subspace_dimension, Found& found) {
+        if (!found.pca || found.subspace_dimension != subspace_dimension) {
+            ClusteringOptions options;
+            options.num_clusters = num_clusters;
+            options.assumed_components = subspace_dimension;
+            options.max_components = searched_components(subspace_dimension);
+            options.memory_bytes = problem_.spare_bytes - kept_bytes_;
+            const FactorPoints points(problem_.transfer, problem_.plane_weight);
+            if (projected_.size() == 0) {
+                projected_ = project_points(points, options.num_dimensions(), options.seed);
+            }
+            found.pca.reset();  // first, so that there is memory
+            found.pca = std::make_shared<const ClusteredPca>(
+                clustered_pca(points, projected_, options, problem_.bake.directory().string()));
+            found.subspace_dimension = subspace_dimension;
+        }
+        found.needed = fewest_components(*found.pca, kUsualShare * request_.most_error);
     }
 
     // The fewest components that leave this share of the error.
@@ -119,51 +154,76 @@ class CpcaEncoder : public TransferEncoder {
         return k;
     }
 
-    // Points are assigned to subspaces of about as many components as will be kept.
-    std::shared_ptr<const ClusteredPca> choose_clusters(uint32_t num_clusters, double most_error) {
-        uint32_t dimension = kFirstAssumedComponents;
-        const uint32_t needed =
-            fewest_components(*clusters(num_clusters, dimension), kUsualShare * most_error);
-        if (needed > kMaxSearchedComponents) return nullptr;
-        if (needed > dimension + dimension / 2) {
-            dimension = kMaxAssumedComponents;
-        } else if (needed <= dimension / 2) {
-            dimension /= 2;
+    // How many components so many clusters will need, by what the nearest number of clusters did.
+    std::optional<double> expected_components(uint32_t num_clusters) const {
+        // Of usual animations, 0.55 … 0.7.
+        constexpr double kFall = 0.62;
+        std::optional<double> expected;
+        double nearest = std::numeric_limits<double>::infinity();
+        for (const auto& [count, found] : found_) {
+            const double ratio = std::log(static_cast<double>(num_clusters) / count);
+            if (found.needed == 0 || std::abs(ratio) >= nearest) continue;
+            nearest = std::abs(ratio);
+            expected = found.needed * std::exp(-kFall * ratio);
         }
-        return clusters(num_clusters, dimension);
+        return expected;
     }
 
-    void add_clusters(uint32_t num_clusters, double most_error,
-                      std::vector<TransferCoding>& codings) {
-        const std::shared_ptr<const ClusteredPca> pca = choose_clusters(num_clusters, most_error);
+    // Points are assigned to subspaces of about as many dimensions as components will be kept.
+    static uint32_t subspace_dimension(double needed) {
+        constexpr uint32_t kUsual = kUsualAssumedComponents;
+        if (needed > kUsual + kUsual / 2) return kMaxAssumedComponents;
+        return needed > kUsual / 2 ? kUsual : kUsual / 2;
+    }
+
+    // Nothing if the error takes more components than are tried.
+    std::shared_ptr<const ClusteredPca> choose_clusters(uint32_t num_clusters) {
+        const std::optional<double> expected = expected_components(num_clusters);
+        Found& found = found_[num_clusters];
+        cluster(num_clusters, subspace_dimension(expected.value_or(kUsualAssumedComponents)),
+                found);
+        // A guess is corrected, and an expectation that was far off.
+        if (!expected || found.needed > found.pca->num_components) {
+            cluster(num_clusters, subspace_dimension(found.needed), found);
+        }
+        return found.needed <= found.pca->num_components ? found.pca : nullptr;
+    }
+
+    void add_clusters(uint32_t num_clusters, std::vector<TransferCoding>& codings) {
+        const std::shared_ptr<const ClusteredPca> pca = choose_clusters(num_clusters);
         if (!pca) return;
         std::set<uint32_t> counts;
-        for (const double share : {0.9, kUsualShare, 0.3}) {
-            counts.insert(fewest_components(*pca, share * most_error));
+        for (const double share : kShares) {
+            // Few components and fine steps play fast, but make no small files.
+            if (share > kUsualShare && request_.preference == Preference::size &&
+                !request_.decode_cost) {
+                continue;
+            }
+            counts.insert(fewest_components(*pca, share * request_.most_error));
         }
         for (const uint32_t count : counts) {
-            if (count > kMaxSearchedComponents) continue;
+            if (count > pca->num_components) continue;
             // With many more rows of bases than vertices, which cost less as they are, it is slow
             // to find out that nothing is gained; up to twice as many may still play faster.
             if (uint64_t{pca->num_clusters} * (count + 1) >
                 2 * uint64_t{problem_.transfer.num_points}) {
                 continue;
             }
-            add_components(pca, count, most_error, codings);
+            add_components(pca, count, codings);
         }
     }
 
     void add_components(const std::shared_ptr<const ClusteredPca>& pca, uint32_t num_components,
-                        double most_error, std::vector<TransferCoding>& codings) {
+                        std::vector<TransferCoding>& codings) {
         const auto cost = static_cast<uint32_t>(
             cpca_cost(problem_.layout, pca->num_clusters, num_components, 0, true).per_vertex());
-        if (decode_cost_ && cost > *decode_cost_) return;
+        if (request_.decode_cost && cost > *request_.decode_cost) return;
         auto settings = std::make_shared<CpcaSettings>(pca, num_components);
         settings->hold(settings->make_bases(problem_));
         const ClusteredFactors& bases = settings->held();
         TransferCoding coding;
         coding.quantiser = {1.0, problem_.transfer.num_components(), problem_.plane_weight};
-        coding.quantiser.step = largest_step(bases, coding.quantiser, most_error);
+        coding.quantiser.step = largest_step(bases, coding.quantiser, request_.most_error);
         if (coding.quantiser.step == 0.0) return;
         const ClusteredMatrix quantised = quantise_clusters(bases, coding.quantiser);
         coding.candidate.codec = CpcaTransfer::kName;
@@ -181,7 +241,7 @@ class CpcaEncoder : public TransferEncoder {
     // Bases may be larger than the factors, so that only one candidate's are kept: most often the
     // chosen one's. Nothing but time depends on it.
     void keep_bases_of_best(std::vector<TransferCoding>& codings) {
-        const TransferCoding* best = best_coding(codings, task_.target.preference, {});
+        const TransferCoding* best = best_coding(codings, request_.preference);
         kept_bytes_ = 0;
         for (TransferCoding& coding : codings) {
             const uint64_t bytes = coding.settings->held_bytes();
@@ -194,14 +254,17 @@ class CpcaEncoder : public TransferEncoder {
         }
     }
 
+    // Of the error that truncation may take.
     static constexpr double kUsualShare = 0.6;
+    static constexpr std::array<double, 3> kShares{0.9, kUsualShare, 0.3};
 
-    const TransferSearchTask task_;
     const EncodeProblem& problem_;
-    std::optional<uint32_t> decode_cost_;
-    // By number of clusters and of dimensions that their subspaces were assumed to have.
-    std::map<std::pair<uint32_t, uint32_t>, std::shared_ptr<const ClusteredPca>> clusters_;
-    uint64_t kept_bytes_ = 0;  // of bases
+    const std::vector<uint32_t> cluster_counts_;  // ascending
+    size_t start_;                                // where the search for the smallest file begins
+    CodingRequest request_;
+    Eigen::MatrixXf projected_;        // points, once any were clustered
+    std::map<uint32_t, Found> found_;  // by number of clusters
+    uint64_t kept_bytes_ = 0;          // of bases
 };
 
 }  // namespace

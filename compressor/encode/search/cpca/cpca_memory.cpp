@@ -38,7 +38,8 @@ CodecMemory cpca_memory(const TargetSize& size) {
     // A point is a row of a basis. Codings of more rows than this are not tried.
     memory.num_points = std::min(2 * num_vertices, num_clusters * (kMaxSearchedComponents + 1));
     memory.kept_bytes = kMaxClusterings * ClusteredPca::held_bytes(num_vertices, num_clusters,
-                                                                   kMaxSearchedComponents);
+                                                                   kMaxSearchedComponents) +
+                        num_vertices * options.num_dimensions() * sizeof(float);
     memory.preparing_bytes = clustered_pca_memory_bytes(Dimensions(size), options);
     memory.coding_bytes = memory.num_points * size.num_planes *
                           (size.transfer_components + uint64_t{1}) * sizeof(float);

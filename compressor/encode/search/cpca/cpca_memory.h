@@ -13,15 +13,17 @@ namespace paim {
 constexpr uint32_t kMinPerCluster = 8;
 // Numbers of clusters that are tried, if there are enough vertices for them.
 constexpr std::array<uint32_t, 6> kClusterCounts{32, 64, 128, 256, 512, 1024};
-// Components of one cluster that are kept, at most.
-constexpr uint32_t kMaxSearchedComponents = 32;
-// Components of the subspaces that vertices are assigned to: at first these, then half or twice as
-// many if about that number of components will be kept.
-constexpr uint32_t kFirstAssumedComponents = 8;
-constexpr uint32_t kMaxAssumedComponents = 2 * kFirstAssumedComponents;
-// Clusterings that are kept: for each number of clusters that of the first and of the second
-// search.
-constexpr uint32_t kMaxClusterings = 2 * kClusterCounts.size();
+// Components of the subspaces that vertices are assigned to: these, or half or twice as many if
+// about that number of components will be kept.
+constexpr uint32_t kUsualAssumedComponents = 8;
+constexpr uint32_t kMaxAssumedComponents = 2 * kUsualAssumedComponents;
+// Components of one cluster that are known: enough for those that will be kept.
+constexpr uint32_t searched_components(uint32_t assumed) {
+    return 2 * assumed;
+}
+constexpr uint32_t kMaxSearchedComponents = searched_components(kMaxAssumedComponents);
+// Clusterings that are kept: one of each number of clusters.
+constexpr uint32_t kMaxClusterings = kClusterCounts.size();
 
 // The most clusters that are tried.
 constexpr uint64_t most_clusters(uint64_t num_vertices) {

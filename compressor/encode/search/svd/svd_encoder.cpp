@@ -33,20 +33,21 @@ class SvdEncoder : public TransferEncoder {
   public:
     explicit SvdEncoder(const TransferSearchTask& task) : task_(task) {}
 
-    void add_codings(double most_error, std::optional<uint32_t> decode_cost,
-                     std::vector<TransferCoding>& codings) override {
+    void add_codings(const CodingRequest& request, std::vector<TransferCoding>& codings) override {
         const auto add = [&](TransferCoding coding) {
             coding.candidate.codec = SvdTransfer::kName;
             coding.candidate.multiply_adds =
                 multiply_adds(task_.problem.layout, coding.candidate.components);
             coding.settings = std::make_shared<SvdSettings>();
-            if (decode_cost && coding.candidate.multiply_adds > *decode_cost) return;
+            if (request.decode_cost && coding.candidate.multiply_adds > *request.decode_cost) {
+                return;
+            }
             codings.push_back(std::move(coding));
         };
         if (is_integer(task_.options.precision)) {
-            add_integers(most_error, decode_cost, add);
+            add_integers(request, add);
         } else {
-            add(floats(most_error));
+            add(floats(request.most_error));
         }
     }
 
@@ -68,17 +69,17 @@ class SvdEncoder : public TransferEncoder {
     }
 
     template <typename Add>
-    void add_integers(double most_error, std::optional<uint32_t> decode_cost,
-                      const Add& add) const {
+    void add_integers(const CodingRequest& request, const Add& add) const {
         const EncodeProblem& problem = task_.problem;
         const auto is_cheap = [&](uint32_t num_components) {
-            return !decode_cost || multiply_adds(problem.layout, num_components) <= *decode_cost;
+            return !request.decode_cost ||
+                   multiply_adds(problem.layout, num_components) <= *request.decode_cost;
         };
         uint32_t most = problem.transfer.num_components();
         while (most > 0 && !is_cheap(most)) --most;
         if (!is_cheap(most)) return;
         for (PartChoice& choice :
-             part_choices(problem.transfer, problem.plane_weight, most_error, most,
+             part_choices(problem.transfer, problem.plane_weight, request.most_error, most,
                           problem.predictor, problem.num_face_vertices)) {
             TransferCoding coding;
             coding.quantiser = std::move(choice.quantiser);

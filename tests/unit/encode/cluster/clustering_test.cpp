@@ -9,6 +9,7 @@
 #include <cmath>
 #include <set>
 
+#include "compressor/encode/cluster/cluster_assignment.h"
 #include "compressor/encode/cluster/cluster_members.h"
 #include "compressor/encode/cluster/cluster_seeding.h"
 #include "compressor/encode/cluster/cluster_subspaces.h"
@@ -158,96 +159,85 @@ struct Assigned {
     std::vector<uint32_t> after;
     std::vector<float> distance;
 
-    Assigned(float neighbour_cost, const PointGraph* graph) {
+    // num_neighbours  of the clusters that points may go to
+    explicit Assigned(uint32_t num_neighbours) {
         for (uint32_t v = 0; v < 700; ++v) before.push_back(v % 7);
         subspaces.fit(points, ClusterMembers(before, 7), 1);
         after = before;
-        assign_points(points, subspaces, neighbour_cost, graph, after, distance);
+        assign_points(points, subspaces, ClusterNeighbours(subspaces, num_neighbours), after,
+                      distance);
     }
 
     // By definition, in double.
-    double squared_distance(Index v, Index c) const {
+    double squared_distance(const Eigen::VectorXf& point, Index c) const {
         const Eigen::MatrixXd columns = subspaces.columns().middleCols(3 * c, 3).cast<double>();
-        const Eigen::VectorXd x = points.col(v).cast<double>() - columns.col(0);
+        const Eigen::VectorXd x = point.cast<double>() - columns.col(0);
         return x.squaredNorm() - (columns.rightCols(2).transpose() * x).squaredNorm();
+    }
+    // What counts for point v.
+    double cost(Index v, uint32_t c) const {
+        const double own = 1.0 - subspaces.leverage(c, points.col(v));
+        return squared_distance(points.col(v), c) /
+               (c == before[static_cast<size_t>(v)] ? own : 1.0);
     }
 };
 
 TEST(ClusterAssignment, IsToTheNearestSubspaceAsTheDefinitionSays) {
-    const Assigned assigned(0.0f, nullptr);
+    const Assigned assigned(7);
     uint32_t num_moved = 0;
     for (Index v = 0; v < 700; ++v) {
         const auto at = static_cast<size_t>(v);
-        const auto cost = [&](uint32_t c) {
-            const double own = 1.0 - assigned.subspaces.leverage(c, assigned.points.col(v));
-            return assigned.squared_distance(v, c) / (c == assigned.before[at] ? own : 1.0);
-        };
         for (uint32_t c = 0; c < 7; ++c) {
             // Ten products of floats below 1.
-            EXPECT_LE(cost(assigned.after[at]), cost(c) + 1e-5);
+            EXPECT_LE(assigned.cost(v, assigned.after[at]), assigned.cost(v, c) + 1e-5);
         }
-        EXPECT_NEAR(assigned.distance[at], assigned.squared_distance(v, assigned.after[at]), 1e-5);
+        EXPECT_NEAR(assigned.distance[at],
+                    assigned.squared_distance(assigned.points.col(v), assigned.after[at]), 1e-5);
         num_moved += assigned.after[at] != assigned.before[at];
     }
     EXPECT_GT(num_moved, 100u);
 }
 
-TEST(ClusterAssignment, NeighboursDrawPointsToTheirCluster) {
-    // Each point has two neighbours, both in the cluster after its own.
-    PointGraph graph{{0}, {}};
-    for (uint32_t v = 0; v < 700; ++v) {
-        graph.neighbour.push_back((v + 1) % 700);
-        graph.neighbour.push_back((v + 8) % 700);
-        graph.first.push_back(static_cast<uint32_t>(graph.neighbour.size()));
-    }
-    const Assigned assigned(100.0f, &graph);
-    for (size_t v = 0; v < 700; ++v) {
-        ASSERT_EQ(assigned.after[v], (assigned.before[v] + 1) % 7);
-        // Without what neighbours cost; 200 in float are right to 2^-17.
-        EXPECT_NEAR(assigned.distance[v],
-                    assigned.squared_distance(static_cast<Index>(v), assigned.after[v]), 2e-4);
+TEST(ClusterAssignment, IsToTheNearestOfTheNeighbours) {
+    const Assigned assigned(3);
+    const ClusterNeighbours neighbours(assigned.subspaces, 3);
+    for (Index v = 0; v < 700; ++v) {
+        const auto at = static_cast<size_t>(v);
+        const auto near = neighbours.of(assigned.before[at]);
+        EXPECT_TRUE(std::find(near.begin(), near.end(), assigned.after[at]) != near.end());
+        for (const uint32_t c : near) {
+            EXPECT_LE(assigned.cost(v, assigned.after[at]), assigned.cost(v, c) + 1e-5);
+        }
     }
 }
 
-// --- all together
-
-TEST(Clustering, CoherenceShortensBorders) {
-    // A line of points whose values wander slowly, under noise.
-    MatrixXf points = 2.0f * random_matrix(6, 1200, 9);
-    PointGraph graph{{0}, {}};
-    for (uint32_t v = 0; v < 1200; ++v) {
-        points(0, v) += std::sin(0.02f * static_cast<float>(v));
-        points(1, v) += std::cos(0.03f * static_cast<float>(v));
-        if (v > 0) graph.neighbour.push_back(v - 1);
-        if (v < 1199) graph.neighbour.push_back(v + 1);
-        graph.first.push_back(static_cast<uint32_t>(graph.neighbour.size()));
-    }
-    const auto num_borders = [&](float coherence, uint64_t seed) {
-        ClusteringOptions options;
-        options.num_clusters = 8;
-        options.assumed_components = 2;
-        options.coherence = coherence;
-        options.seed = seed;
-        const Clustering clustering = cluster_points(points, options, &graph);
-        EXPECT_GT(clustering.num_clusters, 1u);
-        double count = 0.0;
-        for (size_t v = 1; v < 1200; ++v) {
-            count += clustering.cluster[v] != clustering.cluster[v - 1];
+TEST(ClusterNeighbours, AreTheSubspacesNearestToTheMean) {
+    const Assigned assigned(7);
+    const ClusterNeighbours neighbours(assigned.subspaces, 3);
+    for (Index c = 0; c < 7; ++c) {
+        const auto near = neighbours.of(static_cast<size_t>(c));
+        ASSERT_EQ(near.size(), 3u);
+        EXPECT_TRUE(std::is_sorted(near.begin(), near.end()));
+        EXPECT_TRUE(std::binary_search(near.begin(), near.end(), static_cast<uint32_t>(c)));
+        const Eigen::VectorXf mean = assigned.subspaces.columns().col(3 * c);
+        double farthest = 0.0;
+        for (const uint32_t n : near) {
+            farthest = std::max(farthest, assigned.squared_distance(mean, n));
         }
-        return count;
-    };
-    // How many there are without depends on the seed: some 1014 ± 22. With coherence there are
-    // fewer than any seed makes them, by six times that scatter.
-    constexpr int kSeeds = 8;
-    double mean = 0.0, squares = 0.0;
-    for (uint64_t seed = 1; seed <= kSeeds; ++seed) {
-        const double count = num_borders(0.0f, seed);
-        mean += count / kSeeds;
-        squares += count * count / kSeeds;
+        for (uint32_t n = 0; n < 7; ++n) {
+            if (std::binary_search(near.begin(), near.end(), n)) continue;
+            EXPECT_GT(assigned.squared_distance(mean, n), farthest - 1e-5);
+        }
     }
-    const double scatter = std::sqrt(std::max(0.0, squares - mean * mean));
-    for (uint64_t seed = 1; seed <= 3; ++seed) {
-        EXPECT_LT(num_borders(1.0f, seed), mean - 6.0 * scatter) << seed;
+}
+
+// With a few clusters all are neighbours of all.
+TEST(ClusterNeighbours, AreAllWhereThereAreFew) {
+    const Assigned assigned(7);
+    for (const ClusterNeighbours& all :
+         {ClusterNeighbours(7), ClusterNeighbours(assigned.subspaces, 7),
+          ClusterNeighbours(assigned.subspaces, 100)}) {
+        for (size_t c = 0; c < 7; ++c) EXPECT_EQ(all.of(c).size(), 7u);
     }
 }
 

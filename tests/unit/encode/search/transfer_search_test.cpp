@@ -22,19 +22,29 @@ TransferCoding coding(uint64_t bytes, uint32_t multiply_adds) {
 TEST(BestCoding, IsTheSmallestOrThatOfAPercentMoreWhichPlaysFaster) {
     const std::vector<TransferCoding> codings{coding(1010, 30), coding(1000, 50), coding(1005, 40),
                                               coding(1011, 10), coding(1400, 5)};
-    EXPECT_EQ(best_coding(codings, Preference::size, {}), &codings[0]);
-    EXPECT_EQ(best_coding(codings, Preference::speed, {}), &codings[4]);
-    EXPECT_EQ(best_coding({}, Preference::size, {}), nullptr);
+    EXPECT_EQ(best_coding(codings, Preference::size), &codings[0]);
+    EXPECT_EQ(best_coding(codings, Preference::speed), &codings[4]);
+    EXPECT_EQ(best_coding({}, Preference::size), nullptr);
 }
 
 TEST(BestCoding, IsNotLargerThanAllowed) {
     const std::vector<TransferCoding> codings{coding(1010, 30), coding(1000, 50), coding(1005, 40)};
-    EXPECT_EQ(best_coding(codings, Preference::size, 1009), &codings[2]);
-    EXPECT_EQ(best_coding(codings, Preference::size, 1000), &codings[1]);
-    EXPECT_EQ(best_coding(codings, Preference::speed, 1009), &codings[2]);
+    EXPECT_EQ(best_coding(codings, Preference::size, {1009}), &codings[2]);
+    EXPECT_EQ(best_coding(codings, Preference::size, {1000}), &codings[1]);
+    EXPECT_EQ(best_coding(codings, Preference::speed, {1009}), &codings[2]);
     for (const Preference preference : {Preference::size, Preference::speed}) {
-        EXPECT_EQ(best_coding(codings, preference, 999), nullptr);
+        EXPECT_EQ(best_coding(codings, preference, {999}), nullptr);
     }
+}
+
+TEST(BestCoding, IsAsCheapAsAllowedWhereAnyIs) {
+    const std::vector<TransferCoding> codings{coding(1000, 50), coding(1200, 30), coding(1100, 40)};
+    EXPECT_EQ(best_coding(codings, Preference::size, {{}, 50}), &codings[0]);
+    EXPECT_EQ(best_coding(codings, Preference::size, {{}, 49}), &codings[2]);
+    EXPECT_EQ(best_coding(codings, Preference::size, {{}, 39}), &codings[1]);
+    EXPECT_EQ(best_coding(codings, Preference::size, {{}, 29}), &codings[0]);
+    // Those within the bytes are asked first.
+    EXPECT_EQ(best_coding(codings, Preference::size, {1150, 39}), &codings[0]);
 }
 
 // By the definition, on numbers of which many are equal or within a percent.
@@ -53,7 +63,7 @@ TEST(BestCoding, IsTheBestOfAllByDefinition) {
         for (const Preference preference : {Preference::size, Preference::speed}) {
             const uint64_t limit =
                 preference == Preference::size ? std::min(most, fewest + fewest / 100) : most;
-            const TransferCoding* best = best_coding(codings, preference, most);
+            const TransferCoding* best = best_coding(codings, preference, {most});
             const auto allowed = [&](const TransferCoding& one) {
                 return one.candidate.bytes <= limit;
             };
@@ -170,12 +180,18 @@ TEST_F(TransferSearchTest, NoCandidateCostsMoreThanAllowed) {
     EXPECT_FALSE(search.least_multiply_adds(0.0));
 }
 
-TEST_F(TransferSearchTest, OnlyTheBestKeepsItsBases) {
-    const std::vector<TransferCoding> found = codings();
-    const TransferCoding* best = best_coding(found, target_.preference, {});
-    for (const TransferCoding& coding : found) {
-        EXPECT_EQ(coding.settings->held_bytes() > 0,
-                  coding.candidate.number("clusters") > 0 && &coding == best);
+// At all times only the best of those before: memory is for one.
+TEST_F(TransferSearchTest, NoneButTheBestKeepsItsBases) {
+    for (const Preference preference : {Preference::size, Preference::speed}) {
+        target_.preference = preference;
+        target_.codec = "cpca";
+        const std::vector<TransferCoding> found = codings();
+        const TransferCoding* best = best_coding(found, target_.preference);
+        for (const TransferCoding& coding : found) {
+            EXPECT_TRUE(coding.settings->held_bytes() == 0 || &coding == best);
+        }
+        // The cheapest to play is never displaced by what comes later.
+        EXPECT_TRUE(preference == Preference::size || best->settings->held_bytes() > 0);
     }
 }
 

@@ -1,0 +1,40 @@
+// The place of the smallest in a row of sizes that fall, and then grow.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+namespace paim {
+
+// Tries places from `start` upwards, then downwards, each way until a size is clearly larger than
+// the smallest so far. Returns the place of the smallest; `start` if there is none.
+// size_of(n)  the size at place n, called once for each place that is tried; nothing if there is
+//             none. Places below one without a size have none either.
+template <typename SizeOf>
+size_t search_outwards(size_t num_places, size_t start, SizeOf&& size_of) {
+    // Sizes scatter by about so much.
+    constexpr double kClearly = 1.03;
+    size_t best = start;
+    std::optional<uint64_t> smallest;
+    // Whether sizes past this place may be smaller.
+    const auto go_on = [&](size_t n) {
+        const std::optional<uint64_t> size = size_of(n);
+        if (!size) return false;
+        if (!smallest || *size < *smallest) {
+            smallest = size;
+            best = n;
+        }
+        return static_cast<double>(*size) <= kClearly * static_cast<double>(*smallest);
+    };
+    size_t first = start;  // with a size
+    while (first < num_places && !go_on(first)) ++first;
+    for (size_t n = first + 1; n < num_places && go_on(n); ++n) {
+    }
+    if (first > start) return best;
+    for (size_t n = start; n-- > 0 && go_on(n);) {
+    }
+    return best;
+}
+
+}  // namespace paim
