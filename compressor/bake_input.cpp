@@ -72,7 +72,7 @@ BakeInput::BakeInput(const CompressOptions& options)
 
 void BakeInput::add_floor(const CompressOptions& options) {
     cli::Progress measuring("measuring", "poses", sequence_.num_poses(), is_quiet(options));
-    const Bounds bounds = bounds_of(
+    const BodyBounds bounds = bounds_of(
         sequence_, [&] { measuring.advance(); }, root_motion_);
     measuring.finish();
     on_floor_.emplace(sequence_, bounds, *options.floor);

@@ -13,6 +13,7 @@
 #include "paim/base/check.h"
 #include "paim/base/error.h"
 #include "paim/base/hash.h"
+#include "paim/base/median.h"
 #include "paim/base/parallel.h"
 #include "paim/mesh/face_vertices.h"
 #include "paim/mesh/outliers.h"
@@ -22,8 +23,12 @@ namespace paim {
 
 namespace {
 
-// All relative to the largest extent of the poses.
-constexpr double kGap = 5e-4;     // below the lowest point: far more than rounding and ray offsets
+// Below the lowest point, relative to the size of the body: far more than rounding and ray offsets.
+constexpr double kGap = 5e-4;
+// The size of the body is the largest extent of all poses, but at most this many times that of a
+// pose: it moves without travelling, and then all poses make the gap.
+constexpr double kInPlace = 2.0;
+// Relative to the largest extent of all poses.
 constexpr double kFine = 0.08;    // distance of fine cells beyond the bounds of the poses
 constexpr double kEdge = 0.3;     // distance of the floor's edge beyond them
 constexpr double kGrowth = 1.25;  // ratio of a cell to its inner neighbour, beyond the fine cells
@@ -60,10 +65,10 @@ struct Grid {
 
 }  // namespace
 
-Floor::Floor(const Bounds& bounds, uint32_t max_vertices) {
-    PAIM_CHECK(!bounds.empty());
+Floor::Floor(const BodyBounds& bounds, uint32_t max_vertices) {
+    PAIM_CHECK(!bounds.all.empty());
     PAIM_CHECK_LE(kMinFloorVertices, max_vertices);
-    const Vec3d lower = bounds.lower.cast<double>(), upper = bounds.upper.cast<double>();
+    const Vec3d lower = bounds.all.lower.cast<double>(), upper = bounds.all.upper.cast<double>();
     const double extent = (upper - lower).maxCoeff();
     if (!(extent > 0.0)) throw_bad_input("floor: the poses are one point, there is no size for it");
     const double fine = kFine * extent, reach = (kEdge - kFine) * extent;
@@ -83,10 +88,14 @@ Floor::Floor(const Bounds& bounds, uint32_t max_vertices) {
     }
     const Grid grid = grid_of(cell);
 
-    // Rounding must not move the floor up to the lowest point.
+    // Rounding must move neither the floor up to the lowest point, nor the starts of rays, which are
+    // four roundings of the largest coordinate above the floor and below the body.
+    constexpr double kRoundings = 16.0;
+    const double size = std::min(extent, kInPlace * bounds.body_extent);
     const double largest = std::max(lower.cwiseAbs().maxCoeff(), upper.cwiseAbs().maxCoeff());
-    const double gap = std::max(
-        kGap * extent, 16.0 * largest * static_cast<double>(std::numeric_limits<float>::epsilon()));
+    const double gap =
+        std::max(kGap * size,
+                 kRoundings * largest * static_cast<double>(std::numeric_limits<float>::epsilon()));
     height = static_cast<float>(lower.y() - gap);
     for (const double z : grid.z) {
         for (const double x : grid.x) {
@@ -129,12 +138,24 @@ struct UsualPlace {
     double radius = 0.0;
 };
 
+BodyBounds over_all(std::span<const Bounds> of_poses) {
+    BodyBounds result;
+    std::vector<double> extents;
+    for (const Bounds& bounds : of_poses) {
+        result.all.extend(bounds);
+        if (bounds.empty()) continue;
+        extents.push_back((bounds.upper.cast<double>() - bounds.lower.cast<double>()).maxCoeff());
+    }
+    if (!extents.empty()) result.body_extent = median(std::move(extents));
+    return result;
+}
+
 class PoseBounds {
   public:
     PoseBounds(const PoseSource& source, const RootMotion& root_motion)
         : source_(source), root_motion_(root_motion), vertices_(face_vertices(source.topology())) {}
 
-    Bounds find(const std::function<void()>& on_pose) const {
+    BodyBounds find(const std::function<void()>& on_pose) const {
         std::vector<Middle> middles(source_.num_poses());
         std::vector<Bounds> bounds(middles.size());
         parallel_for(middles.size(), 1, [&](size_t p, size_t) {
@@ -143,15 +164,13 @@ class PoseBounds {
             middles[p] = middle_of(p, points);
             if (on_pose) on_pose();
         });
-        Bounds all;
-        for (const Bounds& of_pose : bounds) all.extend(of_pose);
-        if (vertices_.empty()) return all;
+        if (vertices_.empty()) return over_all(bounds);
         const UsualPlace usual = usual_place(middles);
         const std::vector<uint32_t> far = far_from(usual, middles);
         // So many are no outliers, but much of the mesh.
         constexpr uint64_t kMostBytes = uint64_t{256} << 20;
         if (far.empty() || uint64_t{far.size()} * middles.size() * sizeof(Vec3f) > kMostBytes) {
-            return all;
+            return over_all(bounds);
         }
         // Some others say how large the mesh is.
         constexpr size_t kMostOthers = 1000;
@@ -223,8 +242,8 @@ class PoseBounds {
     }
 
     // Bounds of both. Outliers are looked for among the tracked vertices.
-    Bounds without_outliers(std::span<const uint32_t> near,
-                            std::span<const uint32_t> tracked) const {
+    BodyBounds without_outliers(std::span<const uint32_t> near,
+                                std::span<const uint32_t> tracked) const {
         const auto count = static_cast<uint32_t>(tracked.size());
         std::vector<std::vector<float>> planes(source_.num_poses());  // [P][3][tracked], local
         std::vector<Bounds> bounds(planes.size());
@@ -242,14 +261,12 @@ class PoseBounds {
             [&](uint32_t p, uint64_t first, uint64_t num_rows, float* rows) {
                 std::copy_n(planes[p].begin() + static_cast<ptrdiff_t>(first), num_rows, rows);
             });
-        Bounds result;
         for (uint32_t p = 0; p < source_.num_poses(); ++p) {
             outliers.replace(p, count, 0, planes[p]);
             move_to_scene(root_at(root_motion_, p), planes[p]);
             bounds[p].extend(bounds_of_vertices(planes[p], all));
-            result.extend(bounds[p]);
         }
-        return result;
+        return over_all(bounds);
     }
 
     const PoseSource& source_;
@@ -259,12 +276,12 @@ class PoseBounds {
 
 }  // namespace
 
-Bounds bounds_of(const PoseSource& source, const std::function<void()>& on_pose,
-                 const RootMotion& root_motion) {
+BodyBounds bounds_of(const PoseSource& source, const std::function<void()>& on_pose,
+                     const RootMotion& root_motion) {
     return PoseBounds(source, root_motion).find(on_pose);
 }
 
-PosesOnFloor::PosesOnFloor(const PoseSource& source, const Bounds& bounds,
+PosesOnFloor::PosesOnFloor(const PoseSource& source, const BodyBounds& bounds,
                            const FloorOptions& options)
     : source_(source),
       floor_(bounds, options.num_vertices),
