@@ -9,12 +9,12 @@
 #include <limits>
 #include <numeric>
 
-#include "compressor/scene/rigid_fit.h"
 #include "paim/base/check.h"
 #include "paim/base/error.h"
 #include "paim/base/hash.h"
 #include "paim/base/median.h"
 #include "paim/base/parallel.h"
+#include "paim/mesh/body_size.h"
 #include "paim/mesh/face_vertices.h"
 #include "paim/mesh/outliers.h"
 #include "paim/mesh/planes.h"

@@ -10,6 +10,7 @@
 
 #include "paim/base/check.h"
 #include "paim/base/median.h"
+#include "paim/mesh/body_size.h"
 
 namespace paim {
 
@@ -22,19 +23,6 @@ Vec3d median_difference(std::span<const Vec3d> from, std::span<const Vec3d> to) 
         result[axis] = median(values);
     }
     return result;
-}
-
-Vec3d median_point(std::span<const Vec3d> points) {
-    return median_difference(std::vector<Vec3d>(points.size(), Vec3d::Zero()), points);
-}
-
-double size_of(std::span<const Vec3d> points) {
-    const Vec3d centre = median_point(points);
-    std::vector<double> distances;
-    for (const Vec3d& point : points) distances.push_back((point - centre).stableNorm());
-    // Of points that are spread evenly in a box, the median lies at a quarter of its diagonal.
-    constexpr double kMedians = 4.0;
-    return kMedians * median(std::move(distances));
 }
 
 namespace {

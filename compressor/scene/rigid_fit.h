@@ -13,13 +13,6 @@ namespace paim {
 // Of to − from, each coordinate by itself. At least one point.
 Vec3d median_difference(std::span<const Vec3d> from, std::span<const Vec3d> to);
 
-// Of points, each coordinate by itself. At least one point.
-Vec3d median_point(std::span<const Vec3d> points);
-
-// About the diagonal of a body: four times the median distance from the median point. At least one
-// point.
-double size_of(std::span<const Vec3d> points);
-
 // The rigid transform that takes the points `from` closest to `to`, in squared distances where most
 // points move with the body, and in distances for points farther off than one and a half times the median:
 // limbs that swing, and outliers, hardly turn it. Where points do not decide a rotation, as on a

@@ -10,6 +10,7 @@
 
 #include "compressor/scene/rigid_fit.h"
 #include "paim/base/parallel.h"
+#include "paim/mesh/body_size.h"
 #include "paim/mesh/face_vertices.h"
 
 namespace paim {
