@@ -9,6 +9,7 @@
 #include "paim/base/check.h"
 #include "paim/mesh/bounds.h"
 #include "paim/mesh/face_edges.h"
+#include "paim/mesh/far_vertices.h"
 #include "paim/mesh/places.h"
 #include "paim/mesh/sets.h"
 
@@ -70,8 +71,11 @@ class PosedParts {
         for (const MeshPart& part : parts) shapes_.push_back(measure(part));
     }
 
-    // 1 if the part faces outwards, or is the wall of a cavity; −1 if it faces inwards; 0 if it is
-    // not closed, or has no volume.
+    // Whether the part is closed and has a volume.
+    bool has_volume(size_t i) const { return shapes_[i].has_volume(); }
+
+    // 1 if the part faces outwards, or is the wall of a cavity; −1 if it faces inwards; 0 if it has
+    // no volume.
     int side(size_t i) const {
         const Shape& shape = shapes_[i];
         if (!shape.has_volume()) return 0;
@@ -140,6 +144,25 @@ class PosedParts {
     std::vector<Shape> shapes_;  // of the parts
 };
 
+// The sides of all parts in one pose; 0 where vertices far from the others of their part decide.
+std::vector<int> sides_of(const Topology& topology, const std::vector<MeshPart>& parts,
+                          std::span<const Vec3f> positions, const PosedParts& posed) {
+    std::vector<Vec3f> drawn_in(positions.begin(), positions.end());
+    bool any = false;
+    for (const MeshPart& part : parts) {
+        if (!part.is_closed) continue;
+        any = draw_in_far_vertices(topology, part.triangles, positions, drawn_in) || any;
+    }
+    std::vector<int> sides(parts.size());
+    for (size_t i = 0; i < parts.size(); ++i) sides[i] = posed.side(i);
+    if (!any) return sides;
+    const PosedParts usual(topology, parts, drawn_in);
+    for (size_t i = 0; i < parts.size(); ++i) {
+        if (usual.side(i) == -sides[i]) sides[i] = 0;
+    }
+    return sides;
+}
+
 }  // namespace
 
 std::vector<InwardPart> find_inward_parts(const Topology& topology,
@@ -151,18 +174,19 @@ std::vector<InwardPart> find_inward_parts(const Topology& topology,
         places.empty() ? first_at_position(poses[0])
                        : std::vector<uint32_t>(places.begin(), places.end());
     const std::vector<MeshPart> parts = split(topology, first_places);
-    std::vector<int> first_side(parts.size()), sum(parts.size(), 0);
+    std::vector<bool> is_judged(parts.size());
+    std::vector<int> sum(parts.size(), 0);
     for (const auto& positions : poses) {
         const PosedParts posed(topology, parts, positions);
+        const std::vector<int> sides = sides_of(topology, parts, positions, posed);
         for (size_t i = 0; i < parts.size(); ++i) {
-            const int side = posed.side(i);
-            if (&positions == &poses[0]) first_side[i] = side;
-            sum[i] += side;
+            if (&positions == &poses[0]) is_judged[i] = posed.has_volume(i);
+            sum[i] += sides[i];
         }
     }
     std::vector<InwardPart> found;
     for (size_t i = 0; i < parts.size(); ++i) {
-        if (first_side[i] == 0 || sum[i] >= 0) continue;
+        if (!is_judged[i] || sum[i] >= 0) continue;
         InwardPart& entry = found.emplace_back();
         entry.triangles = parts[i].triangles;
         entry.first_vertex = topology.num_vertices;

@@ -21,8 +21,9 @@ struct InwardPart {
 // The closed parts that face inwards, in the order of their first triangles. A part faces inwards in
 // a pose if its signed volume is negative there, and it lies inside an even number of other closed
 // parts: inside an odd number it may be the wall of a cavity, which rightly faces its inside. More
-// poses must say so than say the opposite, so that a vertex that is an outlier in one of three does
-// not decide.
+// poses must say so than say the opposite. A pose says nothing about a part that would face the
+// other side without the vertices that lie far from its others (mesh/far_vertices.h), so that
+// outliers decide in none.
 // poses   [poses][V] finite: the first one, and perhaps others. Parts without volume in the first
 //         one are not judged
 // places  [V] the places that vertices share in the first pose (sequence_places.h). Empty: those of

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <array>
 #include <numeric>
 
 #include "poses/shapes.h"
@@ -108,35 +108,121 @@ TEST(Orientation, PartsThatAreCutAlongSeamsAreClosed) {
     EXPECT_EQ(two.inward(), (Vertices{0, 240}));
 }
 
+using Poses = std::vector<std::vector<Vec3f>>;
+
+size_t num_inward(const Mesh& mesh, const Poses& poses) {
+    return find_inward_parts(mesh.topology, poses).size();
+}
+
+// These vertices are pulled through the origin, which turns volumes.
+std::vector<Vec3f> broken(const Mesh& mesh, const Vertices& vertices, float factor = -5000.0f) {
+    std::vector<Vec3f> positions = mesh.positions;
+    for (const uint32_t v : vertices) positions[v] *= factor;
+    return positions;
+}
+
 TEST(Orientation, IsThatOfMostPoses) {
     Mesh right;
     right.add_sphere(1, {0, 0, 0}, false).add_sphere(0.5f, {0, 0, 0}, true);
     Mesh wrong;
     wrong.add_sphere(1, {0, 0, 0}, true);
-    const auto inward = [](const Mesh& mesh, const std::vector<std::vector<Vec3f>>& poses) {
-        return find_inward_parts(mesh.topology, poses).size();
-    };
-    // A vertex that is pulled through the sphere turns its volume.
-    const auto bad = [](const Mesh& mesh) {
+    Mesh turned = wrong;
+    turn_triangles(find_inward_parts(wrong.topology, {&wrong.positions, 1})[0].triangles,
+                   turned.topology);
+    // All of a part, which no pose by itself can notice.
+    const auto mirrored = [](const Mesh& mesh) {
         std::vector<Vec3f> positions = mesh.positions;
-        positions[0] *= -5000.0f;
+        for (Vec3f& x : positions) x.x() *= -1.0f;
         return positions;
     };
-    EXPECT_GT(inward(right, {bad(right)}), 0u);
-    EXPECT_EQ(inward(wrong, {bad(wrong)}), 0u);
     for (size_t p = 0; p < 3; ++p) {
-        std::vector<std::vector<Vec3f>> poses(3, right.positions);
-        poses[p] = bad(right);
-        EXPECT_EQ(inward(right, poses), 0u) << p;
+        Poses poses(3, turned.positions);
+        poses[p] = mirrored(turned);
+        EXPECT_EQ(num_inward(turned, poses), 0u) << p;
         poses.assign(3, wrong.positions);
-        poses[p] = bad(wrong);
-        EXPECT_EQ(inward(wrong, poses), 1u) << p;
+        poses[p] = mirrored(wrong);
+        EXPECT_EQ(num_inward(wrong, poses), 1u) << p;
     }
     // Flat in the first pose: not judged. Flat in the others: by the first.
     std::vector<Vec3f> flat = wrong.positions;
     for (Vec3f& x : flat) x.z() = 0.0f;
-    EXPECT_EQ(inward(wrong, {flat, wrong.positions, wrong.positions}), 0u);
-    EXPECT_EQ(inward(wrong, {wrong.positions, flat, flat}), 1u);
+    EXPECT_EQ(num_inward(wrong, {flat, wrong.positions, wrong.positions}), 0u);
+    EXPECT_EQ(num_inward(wrong, {wrong.positions, flat, flat}), 1u);
+}
+
+TEST(Orientation, IsNotDecidedByOutliers) {
+    Mesh right;  // with a cavity
+    right.add_sphere(1, {0, 0, 0}, false).add_sphere(0.5f, {0, 0, 0}, true);
+    Mesh wrong;
+    wrong.add_sphere(1, {0, 0, 0}, true);
+    // A vertex of the outer wall, the first one of the cavity's wall, and several, of which some are
+    // neighbours.
+    for (const Vertices& vertices :
+         {Vertices{0}, Vertices{5}, Vertices{42}, Vertices{0, 12, 13, 20}}) {
+        for (const float factor : {-5000.0f, -20.0f, 300.0f}) {
+            const std::vector<Vec3f> bad = broken(right, vertices, factor);
+            EXPECT_EQ(num_inward(right, {bad}), 0u)
+                << testing::PrintToString(vertices) << " " << factor;
+            for (size_t good = 0; good < 3; ++good) {
+                Poses poses(3, bad);
+                EXPECT_EQ(num_inward(right, poses), 0u)
+                    << testing::PrintToString(vertices) << " " << factor;
+                poses[good] = right.positions;
+                EXPECT_EQ(num_inward(right, poses), 0u)
+                    << testing::PrintToString(vertices) << " " << factor;
+                if (vertices[0] >= wrong.positions.size()) continue;
+                poses.assign(3, broken(wrong, vertices, factor));
+                poses[good] = wrong.positions;
+                EXPECT_EQ(num_inward(wrong, poses), 1u)
+                    << testing::PrintToString(vertices) << " " << factor;
+            }
+        }
+    }
+}
+
+TEST(Orientation, OfSmallPartsIsNotDecidedByAnOutlier) {
+    Mesh cube;
+    cube.topology.num_vertices = 8;
+    for (uint32_t v = 0; v < 8; ++v) {
+        const auto sign = [&](uint32_t bit) { return (v & bit) == 0 ? -1.0f : 1.0f; };
+        cube.positions.emplace_back(sign(1), sign(2), sign(4));
+    }
+    for (const auto& [a, b, c, d] : std::vector<std::array<uint32_t, 4>>{
+             {0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}) {
+        cube.topology.triangles.push_back({a, b, c});
+        cube.topology.triangles.push_back({a, c, d});
+    }
+    Mesh inward = cube;
+    Vertices all(12);
+    std::iota(all.begin(), all.end(), 0u);
+    turn_triangles(all, inward.topology);
+    ASSERT_EQ(cube.inward(), Vertices());
+    ASSERT_EQ(inward.inward(), Vertices{0});
+    for (uint32_t v = 0; v < 8; ++v) {
+        for (const float factor : {-5000.0f, -20.0f, -8.0f}) {
+            const std::vector<Vec3f> bad = broken(cube, {v}, factor);
+            EXPECT_EQ(num_inward(cube, {cube.positions, bad, bad}), 0u) << v << " " << factor;
+            EXPECT_EQ(num_inward(inward, {inward.positions, bad, bad}), 1u) << v << " " << factor;
+        }
+    }
+}
+
+// Much of a mesh may be far from where most vertices are.
+TEST(Orientation, OfPartsThatAreFinerInOnePlaceIsJudged) {
+    for (const bool is_inward : {false, true}) {
+        Mesh mesh;
+        mesh.add_sphere(1, {0, 0, 0}, is_inward);
+        // All but one side is drawn out to a long body.
+        for (Vec3f& x : mesh.positions) {
+            if (x.z() > 0.5f) x *= 100.0f;
+        }
+        EXPECT_EQ(mesh.inward().size(), is_inward ? 1u : 0u);
+        // The other side is drawn together to a fine head.
+        for (Vec3f& x : mesh.positions) {
+            if (x.z() <= 0.5f) x *= 0.01f;
+        }
+        EXPECT_EQ(mesh.inward().size(), is_inward ? 1u : 0u);
+    }
 }
 
 }  // namespace
