@@ -120,10 +120,8 @@ std::string manifest_text(const BakeIdentity& identity) {
     return json_text(json, 2) + "\n";
 }
 
-BakeIdentity read_manifest(const std::filesystem::path& path) {
-    const std::vector<char> bytes = read_file(path, kMaxSizeBytes);
-    const std::string file = path.string();
-    const Metadata metadata({bytes.data(), bytes.size()}, file);
+BakeIdentity parse_manifest(std::string_view text, const std::string& file) {
+    const Metadata metadata(text, file);
     if (metadata.text("format") != "paim-bake") throw_bad_input("{}: not a bake's manifest", file);
     const uint32_t version = metadata.integer("version", 1, kMaxCount);
     if (version < kManifestVersion || version > kFollowingVersion) {
@@ -186,6 +184,11 @@ BakeIdentity read_manifest(const std::filesystem::path& path) {
     for (const nlohmann::json& entry : *still_meshes)
         identity.still_meshes.push_back(source_of(entry));
     return identity;
+}
+
+BakeIdentity read_manifest(const std::filesystem::path& path) {
+    const std::vector<char> bytes = read_file(path, kMaxSizeBytes);
+    return parse_manifest({bytes.data(), bytes.size()}, path.string());
 }
 
 std::string first_difference(const BakeIdentity& there, const BakeIdentity& wanted) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "paim/format/bake/bake_directory.h"
 
@@ -18,6 +19,7 @@ std::string as_manifest_text(const std::string& text);
 std::string manifest_text(const BakeIdentity& identity);
 
 // Errors (bad input, unsupported) name the file and the member.
+BakeIdentity parse_manifest(std::string_view text, const std::string& file);
 BakeIdentity read_manifest(const std::filesystem::path& path);
 
 // The first difference between the existing bake and the wanted one, in words; empty if there is

@@ -103,6 +103,8 @@ BakeWriter::BakeWriter(std::filesystem::path directory, const BakeIdentity& iden
     for (auto& source : identity_.still_meshes) source.name = as_manifest_text(source.name);
     identity_checksum_ = identity_checksum(identity_);
     const std::filesystem::path manifest = directory_ / kManifestName;
+    const std::string text = manifest_text(identity_);
+    parse_manifest(text, manifest.string());  // what readers would refuse is not written
     if (std::filesystem::exists(manifest)) {
         const std::string difference = first_difference(read_manifest(manifest), identity_);
         if (!difference.empty()) {
@@ -116,7 +118,7 @@ BakeWriter::BakeWriter(std::filesystem::path directory, const BakeIdentity& iden
     remove_abandoned_files(directory_);
     // The manifest is written last, so that a directory with a manifest has a mesh.
     write_mesh(directory_ / kMeshName, topology, albedo);
-    write_file(manifest, manifest_text(identity_));
+    write_file(manifest, text);
 }
 
 bool BakeWriter::has_pose(uint32_t p) const {

@@ -283,6 +283,22 @@ TEST_F(BakeDirectory, KeepsTheOriginToTheLastDigit) {
     }
 }
 
+// A body that turns far from the origin may have a translation that no float is as large as.
+TEST_F(BakeDirectory, DoesNotWriteWhatItWouldNotRead) {
+    BakeIdentity identity = make_identity();
+    identity.root_motion.resize(3);
+    for (const double translation : {3.5e38, 5e38}) {
+        identity.root_motion[1].translation.x() = translation;
+        const std::string refusal = complaint([&] { writer(identity); });
+        expect_contains(refusal, (bake_ / kManifestName).string());
+        expect_contains(refusal, "expected");
+        EXPECT_FALSE(fs::exists(bake_));
+    }
+    identity.root_motion[1].translation.x() = 3e38;
+    writer(identity);
+    EXPECT_EQ(read_manifest(bake_ / kManifestName).root_motion[1].translation.x(), 3e38);
+}
+
 TEST_F(BakeDirectory, NamesThatAreNotTextStillResume) {
     BakeIdentity identity = make_identity();
     identity.poses[0].name = "caf\xe9.obj";  // Latin-1
