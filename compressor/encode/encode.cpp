@@ -83,24 +83,21 @@ void stream(PaimWriter& writer, Attribute attribute, const RowSource& rows,
     const auto append = [&](EncodedRows& block) {
         on_block(first, block);
         first += block.mean.size();
-        writer.append_mean(attribute, block.mean);
-        for (uint32_t k = 0; k < num_components; ++k) {
-            writer.append_component({attribute, k}, block.components[k]);
-        }
+        const std::vector<std::span<const float>> of_components(block.components.begin(),
+                                                                block.components.end());
+        writer.append_rows(attribute, block.mean, of_components);
+        block = {};
     };
     for_each_encoded_block(rows, components, num_components, append, num_in_flight);
 }
 
-// Writes rows of the exceptions behind `num_usual` components.
-OnBlock append_exception_rows(PaimWriter& writer, const std::vector<FloatException>& exceptions,
-                              const PositionOutliers& outliers, uint32_t num_vertices,
-                              uint32_t num_usual) {
-    return [&, num_vertices, num_usual](uint64_t first, EncodedRows& block) {
-        std::vector<float> rows;
-        for (uint32_t j = 0; j < exceptions.size(); ++j) {
-            rows.assign(block.mean.size(), 0.0f);
-            exceptions[j].add_rows(outliers, num_vertices, first, rows);
-            writer.append_component({Attribute::geometry, num_usual + j}, rows);
+// Adds rows of the exceptions behind those of the components.
+OnBlock append_exception_rows(const std::vector<FloatException>& exceptions,
+                              const PositionOutliers& outliers, uint32_t num_vertices) {
+    return [&, num_vertices](uint64_t first, EncodedRows& block) {
+        for (const FloatException& exception : exceptions) {
+            std::vector<float>& rows = block.components.emplace_back(block.mean.size(), 0.0f);
+            exception.add_rows(outliers, num_vertices, first, rows);
         }
     };
 }
@@ -226,9 +223,8 @@ EncodeSummary encode_unmeasured(const BakeReader& bake, const EncodeOptions& opt
                                output.string());
     }
     PaimWriter writer(output, asset);
-    stream(
-        writer, Attribute::geometry, geometry_rows, parts.geometry, num_usual, in_flight,
-        append_exception_rows(writer, exceptions, outliers, mesh.topology.num_vertices, num_usual));
+    stream(writer, Attribute::geometry, geometry_rows, parts.geometry, num_usual, in_flight,
+           append_exception_rows(exceptions, outliers, mesh.topology.num_vertices));
     stream(writer, Attribute::transfer, transfer_rows, parts.transfer, summary.transfer_components,
            in_flight, [&](uint64_t first, EncodedRows& block) {
                if (summary.shrunk) shrinkage.apply(first, block.components);

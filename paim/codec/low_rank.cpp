@@ -1,61 +1,12 @@
-// Bounds of low-rank matrices, and removal of components.
+// Still parts as low-rank matrices, and removal of components.
 #include "paim/codec/low_rank.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "paim/base/check.h"
 
 namespace paim {
-
-namespace {
-
-// The largest magnitude of each plane, in steps; a value that is not finite makes it +inf.
-std::vector<double> plane_maxima(const StoredValues& values, uint32_t num_planes,
-                                 uint32_t num_points) {
-    std::vector<double> maxima(num_planes, 0.0);
-    PAIM_CHECK_EQ(values.size(), size_t{num_planes} * num_points);
-    for (uint32_t plane = 0; plane < num_planes; ++plane) {
-        float largest = 0.0f;
-        bool finite = true;
-        values.for_each(size_t{plane} * num_points, num_points, [&](size_t, float value) {
-            finite = finite && std::isfinite(value);
-            largest = std::max(largest, std::abs(value));
-        });
-        maxima[plane] = finite ? double{largest} : HUGE_VAL;
-    }
-    return maxima;
-}
-
-// Upper bounds by the type of integers, without looking at the values; of floats, the same as
-// above.
-std::vector<double> type_maxima(const StoredValues& values, uint32_t num_planes,
-                                uint32_t num_points) {
-    if (values.holds_floats()) return plane_maxima(values, num_planes, num_points);
-    return std::vector<double>(num_planes,
-                               largest_integer(values.holds_i8() ? Precision::i8 : Precision::i16));
-}
-
-using Maxima = std::vector<double> (*)(const StoredValues&, uint32_t, uint32_t);
-
-std::vector<double> bounds_of(const LowRank& matrix, Maxima maxima_of) {
-    std::vector<double> bounds = maxima_of(matrix.mean, matrix.num_planes, matrix.num_points);
-    for (uint32_t k = 0; k < matrix.num_components; ++k) {
-        double weight = 0.0;
-        for (uint32_t p = 0; p < matrix.num_poses; ++p) {
-            weight = std::max(weight,
-                              std::abs(double{matrix.weights[size_t{k} * matrix.num_poses + p]}));
-        }
-        const std::vector<double> maxima =
-            maxima_of(matrix.components[k], matrix.num_planes, matrix.num_points);
-        for (uint32_t j = 0; j < matrix.num_planes; ++j) bounds[j] += weight * maxima[j];
-    }
-    for (uint32_t j = 0; j < matrix.num_planes; ++j) bounds[j] *= double{matrix.step(j)};
-    return bounds;
-}
-
-}  // namespace
 
 LowRank LowRank::still(uint32_t num_planes, StoredValues values, std::vector<float> steps) {
     PAIM_CHECK(num_planes > 0);
@@ -97,17 +48,6 @@ void LowRank::keep_components(uint32_t count) {
     if (!weight_steps.empty()) weight_steps.resize(count);
     if (!singular_indices.empty()) singular_indices.resize(count);
     if (!smoothing.empty()) smoothing.resize((1 + size_t{count}) * num_planes);
-}
-
-std::vector<double> magnitude_bounds(const LowRank& matrix) {
-    // The bounds by the types of integers are nearly always enough. Values are looked at only if
-    // not.
-    constexpr double kSafe = 1e37;
-    std::vector<double> bounds = bounds_of(matrix, type_maxima);
-    if (std::all_of(bounds.begin(), bounds.end(), [](double b) { return b <= kSafe; })) {
-        return bounds;
-    }
-    return bounds_of(matrix, plane_maxima);
 }
 
 }  // namespace paim

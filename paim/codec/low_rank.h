@@ -74,10 +74,4 @@ struct PAIM_EXPORT LowRank {
     bool operator==(const LowRank&) const = default;
 };
 
-// An upper bound of |mean + Σ_k w_k · component_k| over all points, all poses and the moments
-// between them, and every number of components; +inf where floats overflow. No partial sum of a
-// decoder is larger than this by more than rounding.
-// returns [planes]
-PAIM_EXPORT std::vector<double> magnitude_bounds(const LowRank& matrix);
-
 }  // namespace paim

@@ -55,5 +55,29 @@ TEST_F(Scale, AnalysisRendersTheSameImages) {
     }
 }
 
+// Decoders add up what may exceed all floats, so readers refuse such files.
+TEST_F(Scale, WhatWouldNotBeReadIsNotEncoded) {
+    const std::string folder = make_poses("octopus", 3, 1000);
+    const std::string bake = path("x.bake"), output = path("x.paim");
+    expect_success(compress({"bake", scaled(folder, 125), "-o", bake, "--floor", "--floor-vertices",
+                             "100", "--rays", "16", "--bands", "2"}));
+    for (const Arguments& more :
+         {Arguments{}, Arguments{"--precision", "f16"}, Arguments{"--measure"}}) {
+        Arguments arguments{"encode", bake, "-o", output};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        expect_failure(compress(arguments), 2,
+                       {output + ": positions: means, components and weights decode to numbers of "
+                                 "up to ",
+                        "expected at most 3.4e+38: scale the poses down"});
+        EXPECT_FALSE(std::filesystem::exists(output));
+    }
+    // A little smaller, the same is written and read.
+    const std::string smaller = path("smaller.bake");
+    expect_success(compress({"bake", scaled(folder, 123), "-o", smaller, "--floor",
+                             "--floor-vertices", "100", "--rays", "16", "--bands", "2"}));
+    expect_success(compress({"encode", smaller, "-o", output}));
+    expect_success(info({output}));
+}
+
 }  // namespace
 }  // namespace paim

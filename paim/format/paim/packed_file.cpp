@@ -19,6 +19,7 @@
 #include "paim/format/pack/plane_encoder.h"
 #include "paim/format/paim/paim_metadata.h"
 #include "paim/format/paim/section_table.h"
+#include "paim/format/paim/value_limits.h"
 
 namespace paim {
 
@@ -235,6 +236,7 @@ bool needs_packing(const Asset& asset) {
 }
 
 PackedFile::PackedFile(const Asset& asset, Effort effort) {
+    for (const CodedMesh& mesh : asset.parts) check_magnitudes(mesh, {}, kScaleDown);
     const std::string metadata = paim_metadata(asset);
     const std::vector<TableRow> table = section_table(asset);
     const Predictors predictors(asset);

@@ -19,7 +19,8 @@ class PackedFile {
   public:
     // asset  with all values (shapes are checked)
     // The bytes are the same on any number of threads.
-    // Error (unsupported): readers would refuse so many values in so small a file.
+    // Errors: bad input for numbers that readers would refuse (value_limits.h); unsupported for so
+    // many values in so small a file that they would refuse it.
     explicit PackedFile(const Asset& asset, Effort effort = Effort::small);
 
     uint64_t size_bytes() const { return container_size_bytes(plans_); }

@@ -4,11 +4,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "paim/codec/asset.h"
+#include "paim/codec/magnitude_bounds.h"
 #include "paim/format/container/container_writer.h"
 #include "paim/format/paim/section_table.h"
+#include "paim/format/paim/value_limits.h"
 
 namespace paim {
 
@@ -21,32 +24,39 @@ uint64_t paim_size_bytes(const Asset& asset);
 class PaimWriter {
   public:
     // asset  without the values of means and components of the moving part
-    // Errors (output failed) name the path.
+    // Errors name the path: output failed; bad input for numbers that readers would refuse
+    // (value_limits.h).
     PaimWriter(const std::filesystem::path& path, const Asset& asset);
 
-    // Appends rows of a mean, or of a component (of unit RMS, rounded here to the matrix's
-    // precision).
-    void append_mean(Attribute attribute, std::span<const float> rows);
-    void append_component(ComponentId id, std::span<const float> rows);
+    // Appends the next rows of a mean, and the same rows of all components (of unit RMS, rounded
+    // here to the matrix's precision).
+    void append_rows(Attribute attribute, std::span<const float> mean,
+                     std::span<const std::span<const float>> components);
 
     // The sections of a file of this asset, in order.
     static std::vector<SectionPlan> section_plans(const Asset& asset);
 
     // Finishes the file. Every mean and component must be complete (checked).
-    void commit() { writer_.commit(); }
+    // Error (bad input): readers would refuse its numbers.
+    void commit();
 
   private:
     struct Layout;
     PaimWriter(const std::filesystem::path& path, const Asset& asset, Layout layout);
 
+    void append(size_t section, std::span<const float> rows, Precision precision);
+
+    std::string path_;
     Precision precision_[2];
     size_t mean_section_[2];
     std::vector<size_t> component_section_[2];
+    MagnitudeLimits limits_;
+    StreamedMagnitudes magnitudes_[2];
     ContainerWriter writer_;
 };
 
-// Writes a .paim. Errors: output failed, naming the path; unsupported if files cannot hold such an
-// asset.
+// Writes a .paim. Errors: output failed, naming the path; bad input for numbers that readers would
+// refuse (value_limits.h); unsupported if files cannot hold such an asset.
 void write_paim(const std::filesystem::path& path, const Asset& asset);
 
 }  // namespace paim

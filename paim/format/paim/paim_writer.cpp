@@ -108,10 +108,17 @@ PaimWriter::PaimWriter(const std::filesystem::path& path, const Asset& asset)
     : PaimWriter(path, asset, Layout(asset)) {}
 
 PaimWriter::PaimWriter(const std::filesystem::path& path, const Asset& asset, Layout layout)
-    : precision_{asset.moving().positions.precision, asset.moving().transfer->matrix.precision},
+    : path_(path.string()),
+      precision_{asset.moving().positions.precision, asset.moving().transfer->matrix.precision},
       mean_section_{layout.mean[0], layout.mean[1]},
       component_section_{std::move(layout.component[0]), std::move(layout.component[1])},
+      limits_(asset.moving()),
+      magnitudes_{StreamedMagnitudes(asset.moving().positions),
+                  StreamedMagnitudes(asset.moving().transfer->matrix)},
       writer_(path, section::kKindAnimation, layout.plans) {
+    for (size_t part = 1; part < asset.parts.size(); ++part) {
+        check_magnitudes(asset.parts[part], path_ + ": ", kScaleDown);
+    }
     writer_.append(0, std::span<const char>(layout.metadata));
     for (size_t j = 0; j < layout.table.size(); ++j) {
         const TableRow& row = layout.table[j];
@@ -121,20 +128,33 @@ PaimWriter::PaimWriter(const std::filesystem::path& path, const Asset& asset, La
     }
 }
 
-void PaimWriter::append_mean(Attribute attribute, std::span<const float> rows) {
-    writer_.append(mean_section_[static_cast<size_t>(attribute)], rows);
+void PaimWriter::append_rows(Attribute attribute, std::span<const float> mean,
+                             std::span<const std::span<const float>> components) {
+    const auto i = static_cast<size_t>(attribute);
+    PAIM_CHECK_EQ(components.size(), component_section_[i].size());
+    writer_.append(mean_section_[i], mean);
+    for (size_t k = 0; k < components.size(); ++k) {
+        append(component_section_[i][k], components[k], precision_[i]);
+    }
+    magnitudes_[i].add(mean, components);
 }
 
-void PaimWriter::append_component(ComponentId id, std::span<const float> rows) {
-    const auto i = static_cast<size_t>(id.attribute);
-    const size_t section = component_section_[i][id.k];
-    if (precision_[i] == Precision::f32) {
+void PaimWriter::append(size_t section, std::span<const float> rows, Precision precision) {
+    if (precision == Precision::f32) {
         writer_.append(section, rows);
         return;
     }
     std::vector<uint16_t> halves(rows.size());
     std::transform(rows.begin(), rows.end(), halves.begin(), to_half);
     writer_.append(section, std::span<const uint16_t>(halves));
+}
+
+void PaimWriter::commit() {
+    for (const Attribute attribute : {Attribute::geometry, Attribute::transfer}) {
+        limits_.check(attribute, magnitudes_[static_cast<size_t>(attribute)].bounds(), path_ + ": ",
+                      kScaleDown);
+    }
+    writer_.commit();
 }
 
 void write_paim(const std::filesystem::path& path, const Asset& asset) {
@@ -147,10 +167,11 @@ void write_paim(const std::filesystem::path& path, const Asset& asset) {
         const LowRank& matrix = asset.moving().attribute(attribute);
         PAIM_CHECK_EQ(matrix.mean.size(), matrix.num_rows());
         PAIM_CHECK_EQ(matrix.components.size(), size_t{matrix.num_components});
-        writer.append_mean(attribute, matrix.mean.floats());
-        for (uint32_t k = 0; k < matrix.num_components; ++k) {
-            writer.append_component({attribute, k}, matrix.components[k].floats());
+        std::vector<std::span<const float>> components;
+        for (const StoredValues& component : matrix.components) {
+            components.emplace_back(component.floats());
         }
+        writer.append_rows(attribute, matrix.mean.floats(), components);
     }
     writer.commit();
 }

@@ -316,7 +316,7 @@ void read_sections(const ContainerReader& reader, const ComponentCounts& counts,
     read_values(reader, jobs);
     check_smoothing(reader, asset.moving().positions);
     smooth_stored(asset.moving().positions, asset.moving().topology);
-    for (const CodedMesh& mesh : asset.parts) check_magnitudes(reader, mesh);
+    for (const CodedMesh& mesh : asset.parts) check_magnitudes(mesh, reader.name() + ": ");
 }
 
 }  // namespace paim

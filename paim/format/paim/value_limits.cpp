@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "paim/base/error.h"
-#include "paim/codec/low_rank.h"
+#include "paim/codec/magnitude_bounds.h"
 #include "paim/codec/surface_smoothing.h"
 
 namespace paim {
@@ -52,28 +52,36 @@ void check_smoothing(const ContainerReader& reader, const LowRank& positions) {
     }
 }
 
-void check_magnitudes(const ContainerReader& reader, const CodedMesh& mesh) {
-    constexpr double kMax = std::numeric_limits<float>::max();
-    // added  to magnitudes
-    const auto check = [&](const char* what, const LowRank& matrix, double gain, double added) {
-        for (const double bound : magnitude_bounds(matrix)) {
-            const double most = bound * gain + added;
-            if (!(bound <= kMax && most <= kMax)) {
-                throw_bad_input(
-                    "{}: {}: means, components and weights decode to numbers of up to {:.3g}, "
-                    "expected at most {:.3g}",
-                    reader.name(), what, most, kMax);
-            }
-        }
-    };
+MagnitudeLimits::MagnitudeLimits(const CodedMesh& mesh) {
     double farthest = 0.0;
     for (const RigidTransform& root : mesh.root_motion) {
         farthest = std::max(farthest, root.translation.cwiseAbs().maxCoeff());
     }
     // A rotation of three coordinates makes one of them at most √3 times as large.
     const double turned = mesh.root_motion.empty() ? 1.0 : std::sqrt(3.0);
-    check("positions", mesh.positions, turned, farthest);
-    check("transfer", mesh.transfer->matrix, mesh.transfer->vertex_gain(), 0.0);
+    growth_[static_cast<size_t>(Attribute::geometry)] = {turned, farthest};
+    growth_[static_cast<size_t>(Attribute::transfer)] = {mesh.transfer->vertex_gain(), 0.0};
+}
+
+void MagnitudeLimits::check(Attribute attribute, std::span<const double> bounds,
+                            std::string_view where, std::string_view advice) const {
+    constexpr double kMax = std::numeric_limits<float>::max();
+    const Growth& growth = growth_[static_cast<size_t>(attribute)];
+    for (const double bound : bounds) {
+        const double most = bound * growth.factor + growth.added;
+        if (bound <= kMax && most <= kMax) continue;
+        throw_bad_input(
+            "{}{}: means, components and weights decode to numbers of up to {:.3g}, expected at "
+            "most {:.3g}{}",
+            where, attribute == Attribute::geometry ? "positions" : "transfer", most, kMax, advice);
+    }
+}
+
+void check_magnitudes(const CodedMesh& mesh, std::string_view where, std::string_view advice) {
+    const MagnitudeLimits limits(mesh);
+    for (const Attribute attribute : {Attribute::geometry, Attribute::transfer}) {
+        limits.check(attribute, magnitude_bounds(mesh.attribute(attribute)), where, advice);
+    }
 }
 
 }  // namespace paim

@@ -1,5 +1,5 @@
 // What a reader accepts decodes to finite numbers, whatever the pose and however much of it is
-// used.
+// used. What it refuses is not written.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,6 +15,7 @@
 #include "paim/format/paim/paim_write.h"
 #include "tests/example_asset.h"
 #include "tests/temporary_directory.h"
+#include "tests/unchecked_file.h"
 
 namespace paim {
 namespace {
@@ -42,7 +43,8 @@ bool decodes_to_finite_numbers(const Asset& asset) {
 class FiniteValues : public testing::Test {
   protected:
     // Multiplies the numbers that `numbers_of` picks by ever more, up to the largest float.
-    // Whatever is read back has to decode to finite numbers, and what surely does not is refused.
+    // Whatever is read back has to decode to finite numbers, and what surely does not is refused,
+    // by readers and by writers.
     void grow(Asset asset, const std::function<std::vector<float>&(Asset&)>& numbers_of) {
         uint32_t num_read = 0, num_refused = 0;
         for (int exponent = 0; exponent <= 126; exponent += 3) {
@@ -50,18 +52,31 @@ class FiniteValues : public testing::Test {
             for (float& number : numbers_of(grown)) {
                 number = std::clamp(std::ldexp(number, exponent), -kMaxStep, kMaxStep);
             }
-            write_paim(directory_ / "x.paim", grown);
-            try {
+            write_unchecked(directory_ / "x.paim", asset, grown);
+            const bool is_read = is_done([&] {
                 EXPECT_TRUE(decodes_to_finite_numbers(read_paim(directory_ / "x.paim")))
                     << "2^" << exponent;
-                ++num_read;
-            } catch (const Error& error) {
-                EXPECT_EQ(error.code(), ExitCode::bad_input) << error.what();
-                ++num_refused;
-            }
+            });
+            ++(is_read ? num_read : num_refused);
+            std::filesystem::remove(directory_ / "x.paim");
+            EXPECT_EQ(is_done([&] { write_paim(directory_ / "x.paim", grown); }), is_read)
+                << "2^" << exponent;
+            EXPECT_EQ(std::filesystem::exists(directory_ / "x.paim"), is_read);
         }
         EXPECT_GT(num_read, 20u) << "ordinary numbers must be read";
         EXPECT_GT(num_refused, 0u) << "else this says nothing";
+    }
+
+    // Whether it is not refused.
+    template <typename Step>
+    static bool is_done(const Step& step) {
+        try {
+            step();
+            return true;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ExitCode::bad_input) << error.what();
+            return false;
+        }
     }
 
     static std::vector<float>& scales(Asset& asset) {
@@ -116,6 +131,52 @@ TEST_F(FiniteValues, OfComponentsTimesWeights) {
          [](Asset& a) -> std::vector<float>& { return a.moving().transfer->matrix.weights; });
 }
 
+// Half floats are rounded before they are read: to the next one, or beyond all of them.
+TEST_F(FiniteValues, OfHalfFloats) {
+    Asset asset = make_example_asset();
+    LowRank& positions = asset.moving().positions;
+    positions.precision = Precision::f16;
+    // Rounded to 1, which is more by half a rounding of halves.
+    const float nearly_one = 1.0f - 0x1p-13f;
+    for (StoredValues& component : positions.components) {
+        component = std::vector<float>(component.size(), 0.0f);
+    }
+    positions.components[0] = std::vector<float>(positions.num_rows(), nearly_one);
+    positions.mean = std::vector<float>(positions.num_rows(), 0x1p127f);
+    const auto is_written = [&](float weight) {
+        positions.weights[0] = weight;
+        return is_done([&] {
+            write_paim(directory_ / "x.paim", asset);
+            read_paim(directory_ / "x.paim");
+        });
+    };
+    // Together with 2^127 this is the largest float.
+    const float most = std::numeric_limits<float>::max() - 0x1p127f;
+    EXPECT_TRUE(is_written(most));
+    EXPECT_FALSE(is_written(0x1p127f));
+    EXPECT_LT(0x1p127 + 0x1p127 * double{nearly_one}, double{std::numeric_limits<float>::max()});
+    std::filesystem::remove(directory_ / "x.paim");
+    EXPECT_FALSE(is_written(0x1p127f));
+    EXPECT_FALSE(std::filesystem::exists(directory_ / "x.paim"));
+    positions.components[0] = std::vector<float>(positions.num_rows(), 65520.0f);
+    EXPECT_FALSE(is_written(1e-3f));
+    EXPECT_FALSE(std::filesystem::exists(directory_ / "x.paim"));
+}
+
+TEST_F(FiniteValues, OfStillParts) {
+    Asset asset = make_example_asset();
+    CodedMesh still = asset.moving();
+    still.positions = LowRank::still(3, std::vector<float>(12, 1.0f));
+    still.transfer = SvdTransfer(LowRank::still(
+        still.layout.num_planes(), std::vector<float>(4 * still.layout.num_planes(), 1.0f)));
+    asset.parts.push_back(still);
+    EXPECT_TRUE(is_done([&] { write_paim(directory_ / "x.paim", asset); }));
+    std::filesystem::remove(directory_ / "x.paim");
+    asset.still()->positions.mean = std::vector<float>(12, std::numeric_limits<float>::infinity());
+    EXPECT_FALSE(is_done([&] { write_paim(directory_ / "x.paim", asset); }));
+    EXPECT_FALSE(std::filesystem::exists(directory_ / "x.paim"));
+}
+
 TEST_F(FiniteValues, OfBasesTimesScales) {
     Asset floats = make_clustered_example(2, 1, 2);
     LowRank& bases = floats.moving().transfer->matrix;
@@ -130,14 +191,21 @@ TEST_F(FiniteValues, OfCoefficientsTimesBases) {
     Asset asset = make_clustered_example(2, 1, 2);
     LowRank& bases = asset.moving().transfer->matrix;
     bases.mean = std::vector<float>(bases.num_rows(), 1e10f);
-    VertexClusters& clusters = asset.moving().transfer.as<CpcaTransfer>()->clusters;
-    clusters.coefficients[0] = std::vector<float>{1e30f, 0.0f, 0.0f, 0.0f};
-    write_paim(directory_ / "x.paim", asset);
-    EXPECT_THROW(read_paim(directory_ / "x.paim"), Error);
-    // Bytes may say that a coefficient is no number: it must not become one that is.
-    clusters.coefficients[0] = std::vector<float>{1.0f, 0.0f, 0.0f, 0.0f};
-    write_paim(directory_ / "x.paim", asset);
+    const auto with_coefficient = [&](float coefficient) {
+        Asset changed = asset;
+        changed.moving().transfer.as<CpcaTransfer>()->clusters.coefficients[0] =
+            std::vector<float>{coefficient, 0.0f, 0.0f, 0.0f};
+        return changed;
+    };
+    write_paim(directory_ / "x.paim", with_coefficient(1.0f));
     EXPECT_TRUE(decodes_to_finite_numbers(read_paim(directory_ / "x.paim")));
+    // Bytes may say that a coefficient is no number: it must not become one that is.
+    for (const float coefficient : {1e30f, std::numeric_limits<float>::infinity()}) {
+        write_unchecked(directory_ / "x.paim", with_coefficient(1.0f),
+                        with_coefficient(coefficient));
+        EXPECT_THROW(read_paim(directory_ / "x.paim"), Error);
+        EXPECT_THROW(write_paim(directory_ / "x.paim", with_coefficient(coefficient)), Error);
+    }
 }
 
 }  // namespace
