@@ -89,10 +89,19 @@ TargetReport encode_target(const CompressOptions& options, const EncodeOptions& 
     EncodeTarget target = *options.target;
     target.spectrum = parse_band_power(options.band_power, reader.identity().layout.in_bands,
                                        options.env_mapping);
-    const auto say = [&](const char* step) {
-        if (!options.quiet && !options.json) fmt::print(stderr, "{} ...\n", step);
+    cli::Progress encoding("encoding", "%", 100, options.quiet || options.json);
+    uint64_t percent = 0;
+    const auto on_progress = [&](const std::string& step, double done) {
+        const auto now = static_cast<uint64_t>(100.0 * done);
+        encoding.set_label("encoding, " + step);
+        encoding.advance(now - percent);
+        percent = now;
     };
-    return {options.output, encode_to_target(reader, encode_options, target, options.output, say)};
+    TargetReport report{options.output, encode_to_target(reader, encode_options, target,
+                                                         options.output, on_progress)};
+    encoding.set_label("encoding");
+    encoding.finish();
+    return report;
 }
 
 // Checks the option before long work starts, and says how its map was read.

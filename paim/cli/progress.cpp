@@ -38,6 +38,11 @@ void Progress::advance(uint64_t amount) {
     print(false);
 }
 
+void Progress::set_label(std::string label) {
+    const std::lock_guard lock(mutex_);
+    label_ = std::move(label);
+}
+
 void Progress::finish() {
     const std::lock_guard lock(mutex_);
     if (!quiet_) print(true);

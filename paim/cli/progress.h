@@ -19,6 +19,9 @@ class Progress {
 
     void advance(uint64_t amount = 1);
 
+    // From the next line on.
+    void set_label(std::string label);
+
     // The last line, with the time the work took. Without it (an error), the bar's line is just
     // ended.
     void finish();

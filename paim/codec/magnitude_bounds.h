@@ -13,7 +13,7 @@ namespace paim {
 // between them, and every number of components; +inf or no number where floats overflow. No partial
 // sum of a decoder is larger than this by more than rounding.
 // returns [planes]
-PAIM_EXPORT std::vector<double> magnitude_bounds(const LowRank& matrix);
+std::vector<double> magnitude_bounds(const LowRank& matrix);
 
 // The same bounds of floats whose rows come in pieces, so that they are never in memory as a whole.
 // Half floats are rounded as in files.

@@ -30,7 +30,9 @@ double squared_distances(const EncodeProblem& problem, double rms) {
 }
 
 SurfaceError measure(const EncodeProblem& problem, const LowRank& positions) {
-    return problem.meter->surface(positions);
+    const SurfaceError error = problem.meter->surface(positions);
+    problem.progress->advance(0.05);
+    return error;
 }
 
 // Floats with the fewest components whose rest is at most `most_error`, a sum of squares.

@@ -107,7 +107,8 @@ AssetError measure_best(const EncodeProblem& problem) {
 }  // namespace
 
 EncodeProblem read_problem(const BakeReader& bake, const EncodeOptions& options,
-                           const EncodeTarget& target) {
+                           const EncodeTarget& target, std::shared_ptr<SearchProgress> progress) {
+    progress->begin("finding components", 0.35);
     const std::vector<SearchedCodec> codecs =
         searched_codecs(encoders_to_try(target.codec, options.precision));
     const PositionOutliers outliers = find_outliers(BakedPart(bake, 0));
@@ -119,7 +120,8 @@ EncodeProblem read_problem(const BakeReader& bake, const EncodeOptions& options,
     EncodeProblem problem{.bake = bake,
                           .layout = identity.layout.with_bands(options.bands),
                           .spectrum = target.spectrum,
-                          .statistics = bake.total_statistics()};
+                          .statistics = bake.total_statistics(),
+                          .progress = std::move(progress)};
     problem.shell = make_shell(bake, options, problem.layout, order);
     problem.predictor = PlanePredictor(problem.shell.moving().topology);
     problem.plane_weight = plane_weights(problem.layout, problem.spectrum);
@@ -133,12 +135,15 @@ EncodeProblem read_problem(const BakeReader& bake, const EncodeOptions& options,
 
     const double asked = asked_error(target);
     HeldPositions positions(bake, outliers, target, in_flight);
+    problem.progress->advance(0.15);
     problem.least_geometry_components = positions.least_components();
     const TransferRows transfer_rows(bake, problem.layout.in_bands);
     const TransferRows noise_rows(bake, problem.layout.in_bands, TransferRows::Content::noise);
     const PrincipalComponents transfer = principal_components(transfer_rows, in_flight);
+    problem.progress->advance(0.3);
     const ComponentNoise noise =
         measure_component_noise(transfer_rows, noise_rows, problem.layout, transfer, in_flight);
+    problem.progress->advance(0.5);
     const double num_values = static_cast<double>(identity.num_vertices) * bake.num_poses();
     TargetSize size{streamed, problem.layout.num_planes()};
     size.transfer_components = components_for(
@@ -160,6 +165,7 @@ EncodeProblem read_problem(const BakeReader& bake, const EncodeOptions& options,
                                     options.noise == NoiseTreatment::shrink ? &shrinkage : nullptr,
                                     order.old_vertex, in_flight);
 
+    problem.progress->advance(0.4);
     problem.best_achievable = measure_best(problem);
     for (uint32_t l = 0; l < identity.layout.in_bands; ++l) {
         problem.transfer_energy +=

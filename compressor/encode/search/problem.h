@@ -2,11 +2,13 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "compressor/encode/options.h"
 #include "compressor/encode/quantise/scaled_factors.h"
+#include "compressor/encode/search/search_progress.h"
 #include "paim/codec/surface_smoothing.h"
 #include "paim/format/pack/plane_predictor.h"
 #include "paim/mesh/cache_order.h"
@@ -39,6 +41,8 @@ struct EncodeProblem {
     double transfer_energy = 0.0;    // weighted ‖y‖² of the whole bake
     uint64_t spare_bytes = 0;        // of options.memory_bytes, without what is held throughout
     uint64_t unneeded_bytes = 0;     // of these, without all that can be needed
+    // Of all that is done with it; always there.
+    std::shared_ptr<SearchProgress> progress = std::make_shared<SearchProgress>();
 
     // Transfer error that noise and bands of the bake leave at best, in the part where it is
     // larger.
@@ -50,7 +54,8 @@ struct EncodeProblem {
 
 // Errors: unsupported, saying what is needed, if options.memory_bytes do not suffice for all that
 // encode_to_target() does.
-EncodeProblem read_problem(const BakeReader& bake, const EncodeOptions& options,
-                           const EncodeTarget& target);
+EncodeProblem read_problem(
+    const BakeReader& bake, const EncodeOptions& options, const EncodeTarget& target,
+    std::shared_ptr<SearchProgress> progress = std::make_shared<SearchProgress>());
 
 }  // namespace paim

@@ -1,6 +1,8 @@
 // Steps that meet a target, measured.
 #include "compressor/encode/search/rate_control.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -45,6 +47,8 @@ void adjust(TransferCoding& transfer, double error, double target, double best_e
 
 std::optional<RefinedAsset> refine(const EncodeProblem& problem, const QuantisedStill& still,
                                    Coding coding, const Targets& targets) {
+    problem.progress->begin(fmt::format("measuring a file of {:.3g} %", 100.0 * targets.transfer),
+                            0.98);
     std::optional<RefinedPositions> positions =
         refine_positions(problem, std::move(coding.positions), targets.surface);
     if (!positions) return std::nullopt;
@@ -60,6 +64,7 @@ std::optional<RefinedAsset> refine(const EncodeProblem& problem, const Quantised
         const AssetError measured{
             {positions->error, problem.meter->transfer(asset->moving(), problem.spectrum)},
             still.error};
+        problem.progress->advance(0.5);
         const double transfer = measured.transfer.total();
         const bool good = transfer <= targets.transfer;
         if (best && !good) break;  // a step too far

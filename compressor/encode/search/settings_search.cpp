@@ -11,8 +11,11 @@ namespace paim {
 std::optional<Coding> CodingSearch::choose(const Targets& targets,
                                            std::vector<Candidate>& candidates,
                                            std::string& reason) {
+    problem_.progress->begin(
+        fmt::format("comparing codings for {:.3g} %", 100.0 * targets.transfer), 0.8);
     std::optional<PositionCoding> positions =
         choose_positions(problem_, options_.precision, targets.surface);
+    problem_.progress->advance(0.15);
     if (!positions) {
         reason = missed_positions(targets.surface);
         return std::nullopt;

@@ -20,18 +20,15 @@ constexpr double kLargestError = 0.5;
 // The files of a problem, by error.
 class FilesToFit : public SizedFiles {
   public:
-    FilesToFit(const EncodeProblem& problem, EncodedFiles& files, uint64_t most_bytes,
-               const std::function<void(const char*)>& say)
-        : problem_(problem), files_(files), most_bytes_(most_bytes), say_(say) {}
+    FilesToFit(const EncodeProblem& problem, EncodedFiles& files, uint64_t most_bytes)
+        : problem_(problem), files_(files), most_bytes_(most_bytes) {}
 
     std::optional<uint64_t> estimated_bytes(double error) override {
-        say("comparing ways to code", error);
         if (!choose(error)) return std::nullopt;
         return files_.overhead_bytes(error) + draft_->estimated_bytes;
     }
 
     std::optional<uint64_t> make(double error) override {
-        say("trying", error);
         made_.reset();
         // Near by, the same way to code it is the best, with other steps.
         const bool near = draft_ && std::abs(std::log(error / chosen_for_)) <= std::log(kNearError);
@@ -57,10 +54,6 @@ class FilesToFit : public SizedFiles {
     const std::string& reason() const { return reason_; }
 
   private:
-    void say(const char* what, double error) const {
-        say_(fmt::format("{} a transfer error of {:.3g} %", what, 100.0 * error).c_str());
-    }
-
     bool choose(double error) {
         draft_.reset();  // its bases first, so that there is memory for others
         draft_ = files_.draft(error, reason_);
@@ -71,7 +64,6 @@ class FilesToFit : public SizedFiles {
     const EncodeProblem& problem_;
     EncodedFiles& files_;
     const uint64_t most_bytes_;
-    const std::function<void(const char*)>& say_;
     std::optional<EncodedFiles::Draft> draft_;
     double chosen_for_ = 1.0;  // the error that the draft's coding was chosen for
     double steps_for_ = 1.0;   // and the one of its steps
@@ -81,12 +73,11 @@ class FilesToFit : public SizedFiles {
 
 }  // namespace
 
-EncodedFile fit_size(const EncodeProblem& problem, EncodedFiles& files, uint64_t most_bytes,
-                     const std::function<void(const char*)>& say) {
+EncodedFile fit_size(const EncodeProblem& problem, EncodedFiles& files, uint64_t most_bytes) {
     check_feasible(problem, kLargestError);
     // At the best that the bake allows, coding itself may not add any error.
     const double least_error = 1.02 * std::max(1e-4, problem.least_error());
-    FilesToFit to_fit(problem, files, most_bytes, say);
+    FilesToFit to_fit(problem, files, most_bytes);
     if (!find_smallest_error(to_fit, least_error, kLargestError, most_bytes)) {
         throw_infeasible(to_fit.reason());
     }

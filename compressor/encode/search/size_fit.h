@@ -10,9 +10,7 @@ namespace paim {
 // Follows the size over the error, as a power law, to 2 % of the error. Sizes scatter about that
 // law, those of small files most: of 1,000 vertices, files of errors 3 to 9 % smaller fitted as
 // well.
-// say  is told each error that is tried
 // Errors: threshold exceeded, with the smallest file there is.
-EncodedFile fit_size(const EncodeProblem& problem, EncodedFiles& files, uint64_t most_bytes,
-                     const std::function<void(const char*)>& say);
+EncodedFile fit_size(const EncodeProblem& problem, EncodedFiles& files, uint64_t most_bytes);
 
 }  // namespace paim

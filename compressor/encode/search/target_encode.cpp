@@ -41,22 +41,20 @@ const Candidate& TargetSummary::chosen() const {
 
 TargetSummary encode_to_target(const BakeReader& bake, const EncodeOptions& options,
                                const EncodeTarget& target, const std::filesystem::path& output,
-                               const std::function<void(const char*)>& on_step) {
-    const auto say = [&](const char* step) {
-        if (on_step) on_step(step);
-    };
+                               SearchProgress::Listener on_progress) {
     PAIM_CHECK(target.transfer_error || target.size_bytes);
     remove_abandoned_versions(output);
-    say("finding components");
-    const EncodeProblem problem = read_problem(bake, options, target);
+    const EncodeProblem problem = read_problem(
+        bake, options, target, std::make_shared<SearchProgress>(std::move(on_progress)));
     if (target.transfer_error) check_feasible(problem, *target.transfer_error);
     if (target.vertex_error) check_vertex_feasible(problem, *target.vertex_error);
-    say("comparing ways to code them");
     EncodedFiles files(problem, options, target);
     EncodedFile result = target.transfer_error
                              ? meet_error(problem, files, target, *target.transfer_error)
-                             : fit_size(problem, files, *target.size_bytes, say);
+                             : fit_size(problem, files, *target.size_bytes);
     result.file.write(output);
+    problem.progress->begin("writing", 1.0);
+    problem.progress->advance(1.0);
     TargetSummary summary;
     summary.error = result.error;
     summary.best_achievable = problem.best_achievable.transfer.total();

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 
 #include "compressor/encode/options.h"
+#include "compressor/encode/search/search_progress.h"
 #include "compressor/encode/search/targets.h"
 #include "paim/mesh/outliers.h"
 
@@ -26,14 +26,14 @@ struct TargetSummary {
 
 // Finds component counts, bands, steps and codec, writes the file, all or nothing, with the errors
 // that were measured in its provenance ("measured").
-// bake     verified (BakeReader::verify_all)
-// on_step  called with a line of text whenever something long begins
+// bake         verified (BakeReader::verify_all)
+// on_progress  how far it is, whenever some of the work is done
 // Errors: threshold exceeded, with the best that can be reached, if the target cannot; unsupported,
 // saying what is needed, if options.memory_bytes are not enough; output failed; usage, if no
 // encoder has the codec's name, or if it codes integers alone and options.precision is one of
 // floats.
 TargetSummary encode_to_target(const BakeReader& bake, const EncodeOptions& options,
                                const EncodeTarget& target, const std::filesystem::path& output,
-                               const std::function<void(const char*)>& on_step = {});
+                               SearchProgress::Listener on_progress = {});
 
 }  // namespace paim

@@ -100,6 +100,7 @@ class CpcaEncoder : public TransferEncoder {
         const auto fewest_bytes = [&](size_t n) -> std::optional<uint64_t> {
             const size_t before = found.size();
             add_clusters(cluster_counts_[n], found);
+            problem_.progress->advance(0.25);
             std::optional<uint64_t> fewest;
             for (size_t j = before; j < found.size(); ++j) {
                 fewest =

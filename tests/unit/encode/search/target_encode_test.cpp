@@ -176,10 +176,16 @@ TEST_F(TargetEncode, FindsTheSmallestErrorOfASize) {
         for (const uint64_t share : {100u, 90u, 60u}) {
             sized.size_bytes = first.size_bytes * share / 100;
             uint32_t num_files = 0;
-            const auto count = [&](const char* step) {
-                if (std::string(step).starts_with("trying")) ++num_files;
+            std::string last_step;
+            double last_done = 0.0;
+            const auto count = [&](const std::string& step, double done) {
+                if (step != last_step && step.starts_with("measuring")) ++num_files;
+                last_step = step;
+                EXPECT_GE(done, last_done);
+                last_done = done;
             };
             const TargetSummary fitted = encode_to_target(bake, options_, sized, output_, count);
+            EXPECT_EQ(last_done, 1.0);
             EXPECT_LE(fitted.size_bytes, *sized.size_bytes);
             EXPECT_GT(fitted.size_bytes, *sized.size_bytes * 97 / 100) << share;
             EXPECT_LE(num_files, 5u) << share;
