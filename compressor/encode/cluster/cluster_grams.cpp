@@ -3,6 +3,7 @@
 #include "compressor/encode/cluster/cluster_grams.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "paim/base/parallel.h"
 #include "paim/base/seed.h"
@@ -23,11 +24,11 @@ constexpr int kPasses = 3;
 uint32_t max_gram_members(uint64_t num_dimensions, uint64_t num_components) {
     // n members of d dimensions and L iterated directions: n² d for the Gram matrix and some three
     // steps of 2 n² L each, against 4 n d L a pass.
-    constexpr uint64_t kLargest = 2048;  // 34 MB
-    const auto iterated =
-        static_cast<uint64_t>(iterated_directions(static_cast<Index>(num_components), kLargest));
-    return static_cast<uint32_t>(std::min(
-        kLargest, 4 * kPasses * num_dimensions * iterated / (num_dimensions + 6 * iterated)));
+    const auto iterated = static_cast<uint64_t>(
+        iterated_directions(static_cast<Index>(num_components), kMaxGramMembers));
+    return static_cast<uint32_t>(std::min<uint64_t>(
+        kMaxGramMembers,
+        4 * kPasses * num_dimensions * iterated / (num_dimensions + 6 * iterated)));
 }
 
 Eigen::RowVectorXd member_mean(const MatrixXf& plane, std::span<const uint32_t> members) {
@@ -109,9 +110,12 @@ void components_by_grams(const PointSource& points, const MatrixXf& projected,
             ClusterComponents& of = out[clusters[g]];
             of.energy = gram.trace();
             const auto wanted = static_cast<Index>(num_components);
-            of.pairs = top_eigenpairs(gram, wanted,
-                                      projected_start(projected, members.of(clusters[g]), wanted,
-                                                      stream_key(seed, clusters[g], 2)));
+            MatrixXd start;
+            if (is_iterated(std::min(wanted, gram.rows()), gram.rows())) {
+                start = projected_start(projected, members.of(clusters[g]), wanted,
+                                        stream_key(seed, clusters[g], 2));
+            }
+            of.pairs = top_eigenpairs(gram, wanted, std::move(start));
             gram.resize(0, 0);
         });
         clusters = clusters.subspan(count);

@@ -25,6 +25,8 @@ Eigen::MatrixXd member_rows(const Eigen::MatrixXf& plane, std::span<const uint32
                             const Eigen::RowVectorXd& mean);
 Eigen::RowVectorXd member_mean(const Eigen::MatrixXf& plane, std::span<const uint32_t> members);
 
+// No Gram matrix is larger than this, whatever it saves: 34 MB.
+constexpr uint32_t kMaxGramMembers = 2048;
 // The most members of a cluster whose Gram matrix is cheaper than passes over its points.
 uint32_t max_gram_members(uint64_t num_dimensions, uint64_t num_components);
 

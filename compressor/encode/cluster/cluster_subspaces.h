@@ -33,6 +33,9 @@ class ClusterSubspaces {
     // The means alone.
     ClusterSubspaces means() const;
 
+    // From here to the next fit points are no members, so that their leverage is 0.
+    void forget_members() { inverse_spread_.setZero(); }
+
     // How much of the cluster's own fit its member x is, 0 … 1, as the last fit left it:
     // 1/size + Σ_k (b_k · (x − mean))² / Σ over members. 0 before any fit.
     float leverage(uint32_t c, const Eigen::Ref<const Eigen::VectorXf>& x) const;

@@ -108,6 +108,7 @@ void join(ClusterSubspaces& subspaces, Rounds& rounds) {
     constexpr int kRounds = 6;
     ClusterSubspaces means = subspaces.means();
     rounds.run(means, ClusterNeighbours(means.num_clusters()));
+    subspaces.forget_members();
     for (int round = 0; round < kRounds; ++round) {
         rounds.run(subspaces, ClusterNeighbours(subspaces, kNumNeighbours));
     }

@@ -17,6 +17,11 @@ Index iterated_directions(Index wanted, Index n) {
     return std::min(n, wanted + std::max<Index>(8, wanted / 2));
 }
 
+bool is_iterated(Index wanted, Index n) {
+    // Measured: from about here on iterating is the faster of the two.
+    return n > 4 * iterated_directions(wanted, n);
+}
+
 Eigenpairs all_eigenpairs(const MatrixXd& symmetric) {
     if (symmetric.rows() == 0) return {};
     const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(symmetric);
@@ -39,9 +44,7 @@ Eigenpairs ritz_pairs(const MatrixXd& q, const MatrixXd& gram_q, Index wanted) {
 Eigenpairs top_eigenpairs(const MatrixXd& gram, Index wanted, MatrixXd start) {
     const Index n = gram.rows();
     wanted = std::min(wanted, n);
-    const Index iterated = iterated_directions(wanted, n);
-    // Measured: from about here on iterating is the faster of the two.
-    if (n <= 4 * iterated) {
+    if (!is_iterated(wanted, n)) {
         const Eigenpairs all = all_eigenpairs(gram);
         return {all.values.head(wanted).cwiseMax(0.0), all.vectors.leftCols(wanted)};
     }

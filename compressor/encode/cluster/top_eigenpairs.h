@@ -21,6 +21,9 @@ Eigenpairs all_eigenpairs(const Eigen::MatrixXd& symmetric);
 // Directions that are iterated for so many that are wanted of n.
 Eigen::Index iterated_directions(Eigen::Index wanted, Eigen::Index n);
 
+// Whether top_eigenpairs() iterates; else it needs no start.
+bool is_iterated(Eigen::Index wanted, Eigen::Index n);
+
 // The best of the span of orthonormal columns Q (Rayleigh and Ritz), given G Q.
 // Values are at least 0.
 Eigenpairs ritz_pairs(const Eigen::MatrixXd& q, const Eigen::MatrixXd& gram_q, Eigen::Index wanted);
@@ -29,7 +32,8 @@ Eigenpairs ritz_pairs(const Eigen::MatrixXd& q, const Eigen::MatrixXd& gram_q, E
 Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns);
 
 // gram   [n][n] symmetric, positive semidefinite, both halves filled
-// start  [n][iterated_directions()] orthonormal columns, the nearer to the eigenvectors the better
+// start  [n][iterated_directions()] orthonormal columns, the nearer to the eigenvectors the better;
+//        anything where is_iterated() is false
 // Small matrices are decomposed whole. Others are iterated until a step gains less than 10^-4 of
 // what the wanted values leave of the trace, or 2^-40 of all. What is found is orthonormal and its
 // values are exact for it (v · G v), so that energies add up, converged or not. Values are at least

@@ -19,6 +19,15 @@
 
 namespace paim {
 
+namespace {
+
+// Of the one block that is written, the rows of all exceptions.
+uint64_t exception_rows_bytes(uint64_t num_poses, uint64_t num_exceptions) {
+    return rows_per_block(static_cast<uint32_t>(num_poses)) * num_exceptions * sizeof(float);
+}
+
+}  // namespace
+
 std::string memory_text(uint64_t bytes) {
     return bytes >= 10'000'000'000 ? fmt::format("{:.0f} GB", static_cast<double>(bytes) * 1e-9)
                                    : fmt::format("{} MB", bytes / 1'000'000 + 1);
@@ -93,7 +102,8 @@ uint64_t encode_memory_bytes(const EncodeSize& size, uint32_t num_in_flight) {
              components_for_motion_bytes(size.num_vertices, poses, size.num_threads),
          component_noise_scratch_bytes(poses, size.bands, num_in_flight) +
              rows_at_work(measured_at_once),
-         encoded_blocks_bytes(poses, components, num_in_flight) + rows_at_work(num_in_flight)});
+         encoded_blocks_bytes(poses, components, num_in_flight) + rows_at_work(num_in_flight) +
+             exception_rows_bytes(poses, size.num_exceptions)});
     return kProgramBytes + with_memory_slack(held + streamed);
 }
 

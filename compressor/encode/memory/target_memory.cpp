@@ -96,10 +96,11 @@ struct Need {
                measuring();
     }
 
-    // A thinned copy of the factors that steps are tried on, and their least squares.
+    // Thinned copies of factors or bases that steps are tried on, of all components and of those that
+    // are kept, and their least squares.
     uint64_t trying() const {
-        return std::min<uint64_t>(2 * kSampledValues, transfer_values() + geometry_values()) *
-                   kFloat +
+        const uint64_t all = std::max(transfer_values() + geometry_values(), point_values());
+        return 2 * std::min<uint64_t>(2 * kSampledValues, all) * kFloat +
                least_squares_bytes(size.num_planes, most_components(), size.streamed.num_threads);
     }
 

@@ -91,11 +91,16 @@ ScaledFactors sample(const ScaledFactors& factors, size_t num_values) {
     return some_points(factors, points);
 }
 
-ScaledFactors first_components(ScaledFactors factors, uint32_t num_components) {
+ScaledFactors first_components(const ScaledFactors& factors, uint32_t num_components) {
     PAIM_CHECK_LE(num_components, factors.num_components());
-    factors.components.resize(num_components);
-    factors.weights.conservativeResize(num_components, Eigen::NoChange);
-    return factors;
+    ScaledFactors few;
+    few.num_points = factors.num_points;
+    few.num_planes = factors.num_planes;
+    few.mean = factors.mean;
+    few.components.assign(factors.components.begin(), factors.components.begin() + num_components);
+    few.weights = factors.weights.topRows(num_components);
+    few.singular_values = factors.singular_values;
+    return few;
 }
 
 ScaledFactors first_points(const ScaledFactors& factors, uint32_t num_points) {

@@ -42,7 +42,7 @@ ScaledFactors read_factors(const RowSource& rows, const PrincipalComponents& com
 ScaledFactors sample(const ScaledFactors& factors, size_t num_values);
 
 // The first components alone.
-ScaledFactors first_components(ScaledFactors factors, uint32_t num_components);
+ScaledFactors first_components(const ScaledFactors& factors, uint32_t num_components);
 
 // The first points alone.
 ScaledFactors first_points(const ScaledFactors& factors, uint32_t num_points);

@@ -32,7 +32,8 @@ std::vector<double> tail_errors(const ScaledFactors& factors,
 std::vector<PartChoice> part_choices(const ScaledFactors& factors,
                                      const std::vector<double>& plane_weight, double most_error,
                                      uint32_t most_components, const PlanePredictor& predictor,
-                                     uint32_t num_counted, uint32_t least_components) {
+                                     uint32_t num_counted, uint32_t least_components,
+                                     Preference preference) {
     ScaledFactors few = num_counted == factors.num_points
                             ? sample(factors, kSampledValues)
                             : sample(first_points(factors, num_counted), kSampledValues);
@@ -53,26 +54,36 @@ std::vector<PartChoice> part_choices(const ScaledFactors& factors,
     }
     const std::vector<uint32_t> ascending(counts.begin(), counts.end());
     std::map<uint32_t, PartChoice> choices;
-    search_outwards(
-        ascending.size(), ascending.size() / 2, [&](size_t n) -> std::optional<uint64_t> {
-            const uint32_t count = ascending[n];
-            if (tails[count] > most_error) return std::nullopt;
-            PartChoice choice;
-            choice.quantiser = {1.0, count, plane_weight};
-            // What is dropped is known of all points.
-            choice.quantiser.step = largest_step(first_components(few, count), choice.quantiser,
-                                                 sampled * (most_error - tails[count]));
-            if (choice.quantiser.step == 0.0) return std::nullopt;
-            choice.quantiser.step = std::max(
-                choice.quantiser.step, smallest_step(factors, choice.quantiser, Precision::i16));
-            const LowRank matrix = quantise(factors, choice.quantiser);
-            choice.num_components = matrix.num_components;
-            choice.bytes = stored_bytes(matrix, predictor, Effort::fast);
-            return choices.emplace(count, std::move(choice)).first->second.bytes;
-        });
+    const auto size_of = [&](size_t n) -> std::optional<uint64_t> {
+        const uint32_t count = ascending[n];
+        if (tails[count] > most_error) return std::nullopt;
+        PartChoice choice;
+        choice.quantiser = {1.0, count, plane_weight};
+        // What is dropped is known of all points.
+        choice.quantiser.step = largest_step(first_components(few, count), choice.quantiser,
+                                             sampled * (most_error - tails[count]));
+        if (choice.quantiser.step == 0.0) return std::nullopt;
+        choice.quantiser.step = std::max(choice.quantiser.step,
+                                         smallest_step(factors, choice.quantiser, Precision::i16));
+        const LowRank matrix = quantise(factors, choice.quantiser);
+        choice.num_components = matrix.num_components;
+        choice.bytes = stored_bytes(matrix, predictor, Effort::fast);
+        return choices.emplace(count, std::move(choice)).first->second.bytes;
+    };
+    if (preference == Preference::size) {
+        search_outwards(ascending.size(), ascending.size() / 2, size_of);
+    } else {
+        for (size_t n = 0; n < ascending.size(); ++n) size_of(n);
+    }
     std::vector<PartChoice> result;
     for (auto& [count, choice] : choices) result.push_back(std::move(choice));
     return result;
+}
+
+uint32_t fewest_components(const std::vector<double>& tails, double most_error) {
+    uint32_t k = 0;
+    while (k + 1 < tails.size() && tails[k] > most_error) ++k;
+    return k;
 }
 
 std::optional<PartChoice> cheapest_part(std::vector<PartChoice> choices) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "compressor/encode/options.h"
 #include "compressor/encode/quantise/quantise.h"
 #include "paim/format/pack/plane_predictor.h"
 
@@ -17,7 +18,8 @@ struct PartChoice {
 };
 
 // Several numbers of components, ascending, each with the largest step that meets the error; none
-// if no step is small enough.
+// if no step is small enough. For the preference `size`, those with clearly more bytes than others need
+// not be among them.
 // plane_weight     of squared errors
 // most_error       weighted, Σ over rows and poses
 // most_components  of the factors that may be kept
@@ -26,7 +28,8 @@ struct PartChoice {
 std::vector<PartChoice> part_choices(const ScaledFactors& factors,
                                      const std::vector<double>& plane_weight, double most_error,
                                      uint32_t most_components, const PlanePredictor& predictor,
-                                     uint32_t num_counted, uint32_t least_components = 0);
+                                     uint32_t num_counted, uint32_t least_components = 0,
+                                     Preference preference = Preference::size);
 
 // Of these the one with the fewest bytes, or fewer components within 1 % of it.
 std::optional<PartChoice> cheapest_part(std::vector<PartChoice> choices);
@@ -35,5 +38,9 @@ std::optional<PartChoice> cheapest_part(std::vector<PartChoice> choices);
 // them. [K + 1]
 std::vector<double> tail_errors(const ScaledFactors& factors,
                                 const std::vector<double>& plane_weight);
+
+// The fewest components without which no more than the error is lost; all if there are none.
+// tails  as tail_errors() has them
+uint32_t fewest_components(const std::vector<double>& tails, double most_error);
 
 }  // namespace paim

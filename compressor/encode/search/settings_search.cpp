@@ -24,8 +24,10 @@ std::optional<Coding> CodingSearch::choose(const Targets& targets,
     const double budget = transfer_budget(targets.transfer);
     const std::vector<TransferCoding> codings = search_.codings(budget);
     CodingLimits limits;
-    // What saves bytes is not to play more slowly than what saves none.
-    limits.multiply_adds = plain_multiply_adds(problem_, budget);
+    // What saves bytes is not to play more slowly than what saves none, unless it is asked for.
+    if (encoders_to_try(target_.codec, options_.precision).size() > 1) {
+        limits.multiply_adds = plain_multiply_adds(problem_, budget);
+    }
     if (target_.size_bytes && target_.transfer_error) {
         const uint64_t rest = coding.positions.bytes + estimated_overhead_bytes();
         limits.bytes = *target_.size_bytes > rest ? *target_.size_bytes - rest : 0;

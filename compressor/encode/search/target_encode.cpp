@@ -52,8 +52,8 @@ TargetSummary encode_to_target(const BakeReader& bake, const EncodeOptions& opti
     EncodedFile result = target.transfer_error
                              ? meet_error(problem, files, target, *target.transfer_error)
                              : fit_size(problem, files, *target.size_bytes);
-    result.file.write(output);
     problem.progress->begin("writing", 1.0);
+    result.file.write(output);
     problem.progress->advance(1.0);
     TargetSummary summary;
     summary.error = result.error;

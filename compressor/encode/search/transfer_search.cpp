@@ -37,13 +37,11 @@ std::optional<uint32_t> TransferSearch::least_multiply_adds(double most_error) {
 }
 
 uint32_t plain_multiply_adds(const EncodeProblem& problem, double most_error) {
-    const std::vector<double> tails = tail_errors(problem.transfer, problem.plane_weight);
     LowRank matrix;
     matrix.num_points = problem.transfer.num_points;
     matrix.num_planes = problem.transfer.num_planes;
-    while (matrix.num_components + 1 < tails.size() && tails[matrix.num_components] > most_error) {
-        ++matrix.num_components;
-    }
+    matrix.num_components =
+        fewest_components(tail_errors(problem.transfer, problem.plane_weight), most_error);
     const CodedTransfer plain = plain_transfer(std::move(matrix));
     return static_cast<uint32_t>(plain->cost(problem.layout, {}, true).per_vertex());
 }

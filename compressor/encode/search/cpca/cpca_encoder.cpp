@@ -96,11 +96,15 @@ class CpcaEncoder : public TransferEncoder {
     void add_codings(const CodingRequest& request, std::vector<TransferCoding>& codings) override {
         kept_bytes_ = 0;
         request_ = request;
+        for (auto& [count, found] : found_) {
+            if (found.pca) found.needed = needed_components(*found.pca);
+        }
         std::vector<TransferCoding> found;
         const auto fewest_bytes = [&](size_t n) -> std::optional<uint64_t> {
             const size_t before = found.size();
-            add_clusters(cluster_counts_[n], found);
+            const bool fits = add_clusters(cluster_counts_[n], found);
             problem_.progress->advance(0.25);
+            if (!fits) return kTooLarge;
             std::optional<uint64_t> fewest;
             for (size_t j = before; j < found.size(); ++j) {
                 fewest =
@@ -124,7 +128,7 @@ class CpcaEncoder : public TransferEncoder {
     struct Found {
         std::shared_ptr<const ClusteredPca> pca;
         uint32_t subspace_dimension = 0;
-        uint32_t needed = 0;  // components, at the last error that was asked for
+        std::optional<uint32_t> needed;  // components, at the error that is asked for
     };
 
     // Unless that is what was found.
@@ -144,7 +148,11 @@ class CpcaEncoder : public TransferEncoder {
                 clustered_pca(points, projected_, options, problem_.bake.directory().string()));
             found.subspace_dimension = subspace_dimension;
         }
-        found.needed = fewest_components(*found.pca, kUsualShare * request_.most_error);
+        found.needed = needed_components(*found.pca);
+    }
+
+    uint32_t needed_components(const ClusteredPca& pca) const {
+        return fewest_components(pca, kUsualShare * request_.most_error);
     }
 
     // The fewest components that leave this share of the error.
@@ -163,9 +171,9 @@ class CpcaEncoder : public TransferEncoder {
         double nearest = std::numeric_limits<double>::infinity();
         for (const auto& [count, found] : found_) {
             const double ratio = std::log(static_cast<double>(num_clusters) / count);
-            if (found.needed == 0 || std::abs(ratio) >= nearest) continue;
+            if (!found.needed || std::abs(ratio) >= nearest) continue;
             nearest = std::abs(ratio);
-            expected = found.needed * std::exp(-kFall * ratio);
+            expected = *found.needed * std::exp(-kFall * ratio);
         }
         return expected;
     }
@@ -183,16 +191,20 @@ class CpcaEncoder : public TransferEncoder {
         Found& found = found_[num_clusters];
         cluster(num_clusters, subspace_dimension(expected.value_or(kUsualAssumedComponents)),
                 found);
-        // A guess is corrected, and an expectation that was far off.
-        if (!expected || found.needed > found.pca->num_components) {
-            cluster(num_clusters, subspace_dimension(found.needed), found);
+        if (!expected) cluster(num_clusters, subspace_dimension(*found.needed), found);
+        // An expectation may be far off. What is needed beyond all that are known is not known.
+        while (*found.needed > found.pca->num_components &&
+               found.subspace_dimension < kMaxAssumedComponents) {
+            cluster(num_clusters, subspace_dimension(*found.needed), found);
         }
-        return found.needed <= found.pca->num_components ? found.pca : nullptr;
+        return *found.needed <= found.pca->num_components ? found.pca : nullptr;
     }
 
-    void add_clusters(uint32_t num_clusters, std::vector<TransferCoding>& codings) {
+    // False if all codings have bases that are too large.
+    bool add_clusters(uint32_t num_clusters, std::vector<TransferCoding>& codings) {
         const std::shared_ptr<const ClusteredPca> pca = choose_clusters(num_clusters);
-        if (!pca) return;
+        if (!pca) return true;
+        bool fits = false;
         std::set<uint32_t> counts;
         for (const double share : kShares) {
             // Few components and fine steps play fast, but make no small files.
@@ -211,7 +223,9 @@ class CpcaEncoder : public TransferEncoder {
                 continue;
             }
             add_components(pca, count, codings);
+            fits = true;
         }
+        return fits;
     }
 
     void add_components(const std::shared_ptr<const ClusteredPca>& pca, uint32_t num_components,

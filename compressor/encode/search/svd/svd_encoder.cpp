@@ -55,9 +55,8 @@ class SvdEncoder : public TransferEncoder {
     // The fewest components that leave no more than the error.
     TransferCoding floats(double most_error) const {
         const EncodeProblem& problem = task_.problem;
-        const std::vector<double> tails = tail_errors(problem.transfer, problem.plane_weight);
-        uint32_t k = 0;
-        while (k + 1 < tails.size() && tails[k] > most_error) ++k;
+        const uint32_t k =
+            fewest_components(tail_errors(problem.transfer, problem.plane_weight), most_error);
         TransferCoding coding;
         coding.precision = task_.options.precision;
         coding.quantiser = {1.0, k, problem.plane_weight};
@@ -80,7 +79,7 @@ class SvdEncoder : public TransferEncoder {
         if (!is_cheap(most)) return;
         for (PartChoice& choice :
              part_choices(problem.transfer, problem.plane_weight, request.most_error, most,
-                          problem.predictor, problem.num_face_vertices)) {
+                          problem.predictor, problem.num_face_vertices, 0, request.preference)) {
             TransferCoding coding;
             coding.quantiser = std::move(choice.quantiser);
             coding.candidate.components = choice.num_components;

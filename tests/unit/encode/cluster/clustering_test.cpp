@@ -15,6 +15,7 @@
 #include "compressor/encode/cluster/cluster_subspaces.h"
 #include "compressor/encode/cluster/point_projection.h"
 #include "paim/base/seed.h"
+#include "paim/base/tbb_parallel.h"
 #include "tests/reference_svd.h"
 #include "tests/unit/encode/cluster/random_matrix.h"
 
@@ -239,6 +240,42 @@ TEST(ClusterNeighbours, AreAllWhereThereAreFew) {
           ClusterNeighbours(assigned.subspaces, 100)}) {
         for (size_t c = 0; c < 7; ++c) EXPECT_EQ(all.of(c).size(), 7u);
     }
+}
+
+// --- all together
+
+// So many that a sample finds the clusters.
+TEST(Clustering, ManyPointsJoinTheClustersOfSome) {
+    constexpr Index kPoints = 60000, kGroups = 20;
+    // Groups are 100 apart, and 1 wide along two directions of their own.
+    MatrixXf points = 0.01f * random_matrix(8, kPoints, 12);
+    const MatrixXf spread = random_matrix(2, kPoints, 13);
+    for (Index v = 0; v < kPoints; ++v) {
+        const Index group = v % kGroups;
+        points(0, v) += 100.0f * static_cast<float>(group);
+        points(1 + group % 7, v) += spread(0, v);
+        points(1 + (group + 3) % 7, v) += spread(1, v);
+    }
+    ClusteringOptions options;
+    options.num_clusters = kGroups;
+    options.assumed_components = 2;
+    const Clustering one = [&] {
+        const ThreadLimit limit(1);
+        return cluster_points(points, options);
+    }();
+    ASSERT_EQ(one.num_clusters, static_cast<uint32_t>(kGroups));
+    for (size_t v = 0; v < static_cast<size_t>(kPoints); ++v) {
+        ASSERT_EQ(one.cluster[v], one.cluster[v % kGroups]) << v;
+    }
+    const ThreadLimit limit(2);
+    EXPECT_EQ(cluster_points(points, options).cluster, one.cluster);
+}
+
+TEST(Clustering, ManyEqualPointsAreOneCluster) {
+    ClusteringOptions options;
+    options.num_clusters = 4;
+    const Clustering one = cluster_points(MatrixXf::Ones(3, 60000), options);
+    EXPECT_EQ(one.num_clusters, 1u);
 }
 
 }  // namespace

@@ -46,5 +46,11 @@ TEST(SearchOutwards, PassesByPlacesWithoutASize) {
     EXPECT_EQ(searched({}, 0).tried.size(), 0u);
 }
 
+TEST(SearchOutwards, GoesDownFromWhatIsTooLarge) {
+    const Searched found = searched({500, 400, 450, kTooLarge, kTooLarge, kTooLarge}, 4);
+    EXPECT_EQ(found.best, 1u);
+    EXPECT_EQ(found.tried, (std::set<size_t>{0, 1, 2, 3, 4}));
+}
+
 }  // namespace
 }  // namespace paim
