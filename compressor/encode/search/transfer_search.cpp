@@ -6,6 +6,7 @@
 
 #include "compressor/encode/search/part_search.h"
 #include "paim/codec/codecs.h"
+#include "paim/codec/frame_cost.h"
 
 namespace paim {
 
