@@ -89,14 +89,11 @@ ClusterNeighbours::ClusterNeighbours(const ClusterSubspaces& subspaces, uint32_t
     count_ = count;
     stride_ = count;
     neighbours_.resize(size_t{count} * all.size());
-    const Index step = static_cast<Index>(subspaces.num_components()) + 1;
+    const ClusterSubspaces means = subspaces.means();
     parallel_for(all.size(), kPointsAtOnce, [&](size_t begin, size_t end) {
-        MatrixXf means(subspaces.columns().rows(), static_cast<Index>(end - begin));
-        for (size_t c = begin; c < end; ++c) {
-            means.col(static_cast<Index>(c - begin)) =
-                subspaces.columns().col(static_cast<Index>(c) * step);
-        }
-        MatrixXf costs = costs_of(means, subspaces, all);
+        MatrixXf costs = costs_of(
+            means.columns().middleCols(static_cast<Index>(begin), static_cast<Index>(end - begin)),
+            subspaces, all);
         for (size_t c = begin; c < end; ++c) {
             const auto row = static_cast<Index>(c - begin);
             costs(row, static_cast<Index>(c)) = -std::numeric_limits<float>::infinity();

@@ -42,7 +42,7 @@ struct EncodeProblem {
     uint64_t spare_bytes = 0;        // of options.memory_bytes, without what is held throughout
     uint64_t unneeded_bytes = 0;     // of these, without all that can be needed
     // Of all that is done with it; always there.
-    std::shared_ptr<SearchProgress> progress = std::make_shared<SearchProgress>();
+    std::shared_ptr<SearchProgress> progress = {};
 
     // Transfer error that noise and bands of the bake leave at best, in the part where it is
     // larger.

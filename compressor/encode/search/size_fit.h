@@ -1,8 +1,6 @@
 // The smallest error whose file is not larger than a size.
 #pragma once
 
-#include <functional>
-
 #include "compressor/encode/search/encoded_file.h"
 
 namespace paim {

@@ -96,9 +96,6 @@ class CpcaEncoder : public TransferEncoder {
     void add_codings(const CodingRequest& request, std::vector<TransferCoding>& codings) override {
         kept_bytes_ = 0;
         request_ = request;
-        for (auto& [count, found] : found_) {
-            if (found.pca) found.needed = needed_components(*found.pca);
-        }
         std::vector<TransferCoding> found;
         const auto fewest_bytes = [&](size_t n) -> std::optional<uint64_t> {
             const size_t before = found.size();
@@ -128,29 +125,27 @@ class CpcaEncoder : public TransferEncoder {
     struct Found {
         std::shared_ptr<const ClusteredPca> pca;
         uint32_t subspace_dimension = 0;
-        std::optional<uint32_t> needed;  // components, at the error that is asked for
     };
 
     // Unless that is what was found.
     void cluster(uint32_t num_clusters, uint32_t subspace_dimension, Found& found) {
-        if (!found.pca || found.subspace_dimension != subspace_dimension) {
-            ClusteringOptions options;
-            options.num_clusters = num_clusters;
-            options.assumed_components = subspace_dimension;
-            options.max_components = searched_components(subspace_dimension);
-            options.memory_bytes = problem_.spare_bytes - kept_bytes_;
-            const FactorPoints points(problem_.transfer, problem_.plane_weight);
-            if (projected_.size() == 0) {
-                projected_ = project_points(points, options.num_dimensions(), options.seed);
-            }
-            found.pca.reset();  // first, so that there is memory
-            found.pca = std::make_shared<const ClusteredPca>(
-                clustered_pca(points, projected_, options, problem_.bake.directory().string()));
-            found.subspace_dimension = subspace_dimension;
+        if (found.pca && found.subspace_dimension == subspace_dimension) return;
+        ClusteringOptions options;
+        options.num_clusters = num_clusters;
+        options.assumed_components = subspace_dimension;
+        options.max_components = searched_components(subspace_dimension);
+        options.memory_bytes = problem_.spare_bytes - kept_bytes_;
+        const FactorPoints points(problem_.transfer, problem_.plane_weight);
+        if (projected_.size() == 0) {
+            projected_ = project_points(points, options.num_dimensions(), options.seed);
         }
-        found.needed = needed_components(*found.pca);
+        found.pca.reset();  // first, so that there is memory
+        found.pca = std::make_shared<const ClusteredPca>(
+            clustered_pca(points, projected_, options, problem_.bake.directory().string()));
+        found.subspace_dimension = subspace_dimension;
     }
 
+    // At the error that is asked for; more than are known if these do not do.
     uint32_t needed_components(const ClusteredPca& pca) const {
         return fewest_components(pca, kUsualShare * request_.most_error);
     }
@@ -171,9 +166,9 @@ class CpcaEncoder : public TransferEncoder {
         double nearest = std::numeric_limits<double>::infinity();
         for (const auto& [count, found] : found_) {
             const double ratio = std::log(static_cast<double>(num_clusters) / count);
-            if (!found.needed || std::abs(ratio) >= nearest) continue;
+            if (!found.pca || std::abs(ratio) >= nearest) continue;
             nearest = std::abs(ratio);
-            expected = *found.needed * std::exp(-kFall * ratio);
+            expected = needed_components(*found.pca) * std::exp(-kFall * ratio);
         }
         return expected;
     }
@@ -191,13 +186,18 @@ class CpcaEncoder : public TransferEncoder {
         Found& found = found_[num_clusters];
         cluster(num_clusters, subspace_dimension(expected.value_or(kUsualAssumedComponents)),
                 found);
-        if (!expected) cluster(num_clusters, subspace_dimension(*found.needed), found);
+        uint32_t needed = needed_components(*found.pca);
+        const auto correct = [&] {
+            cluster(num_clusters, subspace_dimension(needed), found);
+            needed = needed_components(*found.pca);
+        };
+        if (!expected) correct();
         // An expectation may be far off. What is needed beyond all that are known is not known.
-        while (*found.needed > found.pca->num_components &&
+        while (needed > found.pca->num_components &&
                found.subspace_dimension < kMaxAssumedComponents) {
-            cluster(num_clusters, subspace_dimension(*found.needed), found);
+            correct();
         }
-        return *found.needed <= found.pca->num_components ? found.pca : nullptr;
+        return needed <= found.pca->num_components ? found.pca : nullptr;
     }
 
     // False if all codings have bases that are too large.
