@@ -49,11 +49,15 @@ double expected_error(const Case& c, Index num_components, const MatrixXf& appro
     TransferErrorMeter meter(c.layout, static_cast<uint32_t>(vertices),
                              static_cast<uint32_t>(poses), BandPower::flat(c.layout.in_bands),
                              span);
+    const auto plane_of = [&](const MatrixXf& matrix, uint32_t plane) {
+        return matrix.middleRows(static_cast<Index>(plane) * vertices, vertices);
+    };
     for (uint32_t plane = 0; plane < c.layout.num_planes(); ++plane) {
-        const Index first = static_cast<Index>(plane) * vertices;
-        meter.add(plane, c.baked.transfer.middleRows(first, vertices),
-                  c.baked.noise.middleRows(first, vertices),
-                  approximation.middleRows(first, vertices));
+        meter.survey(plane, plane_of(c.baked.transfer, plane), plane_of(c.baked.noise, plane));
+    }
+    for (uint32_t plane = 0; plane < c.layout.num_planes(); ++plane) {
+        meter.add(plane, plane_of(c.baked.transfer, plane), plane_of(c.baked.noise, plane),
+                  plane_of(approximation, plane));
     }
     const TransferError result = meter.result();
     return result.error / std::sqrt(1.0 - result.bake_noise * result.bake_noise);

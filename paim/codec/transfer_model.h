@@ -5,10 +5,9 @@
 // differ in what a point of that matrix is, and in how vertices are rebuilt from points.
 #pragma once
 
-#include <Eigen/Core>
-
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <type_traits>
@@ -19,6 +18,7 @@
 #include "paim/base/export.h"
 #include "paim/codec/decode_limits.h"
 #include "paim/codec/low_rank.h"
+#include "paim/codec/point_groups.h"
 #include "paim/transfer/layout.h"
 
 namespace paim {
@@ -66,9 +66,8 @@ class PAIM_EXPORT TransferModel {
     // that a file decodes to finite values before it decodes any.
     virtual double vertex_gain() const { return 1.0; }
 
-    // Quadratic forms, one for each consecutive run of points, by which squared errors of point
-    // values add up over the vertices. Empty: each point counts once.
-    virtual std::vector<Eigen::MatrixXd> point_metrics() const { return {}; }
+    // How vertices are made of points. Nothing if points_are_vertices().
+    virtual std::optional<PointGroups> point_groups() const { return {}; }
 
     // The numbers of the metadata that this codec has, in the order of the file.
     virtual std::vector<NamedNumber> numbers();

@@ -65,32 +65,81 @@ void keep_rows(MatrixXf& matrix, const std::vector<uint32_t>& vertices) {
     matrix = matrix(vertices, Eigen::all).eval();
 }
 
-// counted  vertices of the file that a face has, ascending
-TransferError measure_transfer(const CodedMesh& mesh, const BakedPart& bake,
+// Reads planes of a bake for the vertices of a file.
+class PlaneSource {
+  public:
+    // counted  vertices of the file that a face has, ascending
+    PlaneSource(const BakedPart& bake, const std::vector<uint32_t>& old_vertex,
+                const std::vector<uint32_t>& counted)
+        : bake_(bake), old_vertex_(old_vertex), counted_(counted) {}
+
+    // values  [counted][P]
+    void read_baked(uint32_t plane, MatrixXf& values) const {
+        read(&BakedPart::read_transfer_rows, plane, values);
+    }
+    void read_noise(uint32_t plane, MatrixXf& values) const {
+        read(&BakedPart::read_noise_rows, plane, values);
+    }
+
+  private:
+    void read(void (BakedPart::*read_rows)(uint32_t, uint64_t, uint64_t, float*) const,
+              uint32_t plane, MatrixXf& values) const {
+        const uint32_t num_vertices = bake_.num_vertices();
+        values.resize(static_cast<Index>(num_vertices), static_cast<Index>(bake_.num_poses()));
+        parallel_for(bake_.num_poses(), 1, [&](size_t p, size_t) {
+            float* const column = values.col(static_cast<Index>(p)).data();
+            (bake_.*read_rows)(static_cast<uint32_t>(p), uint64_t{plane} * num_vertices,
+                               num_vertices, column);
+            reorder_planes({column, num_vertices}, old_vertex_);
+        });
+        keep_rows(values, counted_);
+    }
+
+    const BakedPart& bake_;
+    const std::vector<uint32_t>& old_vertex_;
+    const std::vector<uint32_t>& counted_;
+};
+
+// The points of a mesh whose points are not the vertices, with its counted vertices.
+std::optional<DecodedPoints> decoded_points(const CodedMesh& mesh, const TransferLayout& of_bake,
+                                            const std::vector<uint32_t>& counted) {
+    std::optional<PointGroups> groups = mesh.transfer->point_groups();
+    if (!groups) return {};
+    keep_rows(groups->factors, counted);
+    for (size_t j = 0; j < counted.size(); ++j) groups->group[j] = groups->group[counted[j]];
+    groups->group.resize(counted.size());
+    return DecodedPoints{std::move(*groups),
+                         [&mesh, of_bake](uint32_t plane) -> std::optional<MatrixXf> {
+                             const auto stored = plane_of_file(mesh.layout, of_bake, plane);
+                             if (!stored) return {};
+                             return rebuild_sequence(mesh.transfer->matrix, *stored);
+                         }};
+}
+
+TransferError measure_transfer(const CodedMesh& mesh, const PlaneSource& source,
                                const TransferLayout& layout, const BandPower& spectrum,
-                               const std::vector<uint32_t>& old_vertex,
                                const std::vector<uint32_t>& counted) {
-    const uint32_t num_vertices = bake.num_vertices();
-    const uint32_t num_poses = bake.num_poses();
+    const uint32_t num_poses = mesh.num_poses();
     TransferErrorMeter meter(layout, static_cast<uint32_t>(counted.size()), num_poses, spectrum,
-                             orthonormal_pose_space(mesh.transfer->matrix.weights, num_poses));
+                             orthonormal_pose_space(mesh.transfer->matrix.weights, num_poses),
+                             decoded_points(mesh, layout, counted));
     MatrixXf baked, noise;
     for (uint32_t plane = 0; plane < layout.num_planes(); ++plane) {
-        const uint64_t first = uint64_t{plane} * num_vertices;
-        baked.resize(static_cast<Index>(num_vertices), static_cast<Index>(num_poses));
-        noise.resize(baked.rows(), baked.cols());
-        parallel_for(num_poses, 1, [&](size_t p, size_t) {
-            const auto column = static_cast<Index>(p);
-            const auto pose = static_cast<uint32_t>(p);
-            bake.read_transfer_rows(pose, first, num_vertices, baked.col(column).data());
-            bake.read_noise_rows(pose, first, num_vertices, noise.col(column).data());
-            reorder_planes({baked.col(column).data(), num_vertices}, old_vertex);
-            reorder_planes({noise.col(column).data(), num_vertices}, old_vertex);
-        });
-        const auto stored = plane_of_file(mesh.layout, layout, plane);
-        MatrixXf decoded = stored ? decode_plane(mesh, Attribute::transfer, *stored)
-                                  : MatrixXf::Zero(baked.rows(), baked.cols());
-        for (MatrixXf* const values : {&baked, &noise, &decoded}) keep_rows(*values, counted);
+        if (!plane_of_file(mesh.layout, layout, plane)) continue;
+        source.read_baked(plane, baked);
+        source.read_noise(plane, noise);
+        meter.survey(plane, baked, noise);
+    }
+    for (uint32_t plane = 0; plane < layout.num_planes(); ++plane) {
+        source.read_baked(plane, baked);
+        source.read_noise(plane, noise);
+        MatrixXf decoded;
+        if (const auto stored = plane_of_file(mesh.layout, layout, plane)) {
+            decoded = decode_plane(mesh, Attribute::transfer, *stored);
+            keep_rows(decoded, counted);
+        } else {
+            decoded.setZero(baked.rows(), baked.cols());
+        }
         meter.add(plane, baked, noise, decoded);
     }
     TransferError error = meter.result();
@@ -177,8 +226,8 @@ SurfaceError PartMeter::surface(const LowRank& positions) const {
 }
 
 TransferError PartMeter::transfer(const CodedMesh& mesh, const BandPower& spectrum) const {
-    return measure_transfer(mesh, baked_, bake_.identity().layout, spectrum, old_vertex_,
-                            shape_.face_vertices);
+    return measure_transfer(mesh, {baked_, old_vertex_, shape_.face_vertices},
+                            bake_.identity().layout, spectrum, shape_.face_vertices);
 }
 
 MeshError PartMeter::measure(const CodedMesh& mesh, const BandPower& spectrum) const {
@@ -190,13 +239,14 @@ uint64_t PartMeter::kept_bytes(uint64_t num_vertices, uint64_t num_triangles) {
 }
 
 uint64_t measure_part_bytes(uint64_t num_vertices, uint64_t num_poses, uint64_t num_components,
-                            uint64_t num_points, uint64_t num_threads) {
+                            uint64_t num_points, uint64_t num_points_each) {
     // The components of a plane as floats; the directions that the decoder can follow are the
     // constant and these components.
     const uint64_t of_transfer =
         (kPlanesMeasured * num_vertices + num_points) * num_poses * sizeof(float) +
         num_vertices * num_components * sizeof(float) +
-        TransferErrorMeter::scratch_bytes(num_poses, num_components + 1, num_threads);
+        TransferErrorMeter::bytes(num_vertices, num_poses, std::min(num_components + 1, num_poses),
+                                  num_points, num_points_each);
     const uint64_t at_once = std::min<uint64_t>(num_poses, kPosesMeasured);
     const uint64_t of_surface = at_once * 2 * 3 * num_vertices * sizeof(float) +
                                 ShapeErrorMeter::bytes(num_vertices, at_once);

@@ -83,9 +83,10 @@ constexpr uint64_t kPlanesMeasured = 5;
 
 // Memory of PartMeter::measure() in addition to the asset and to what the meter keeps.
 // num_components  of the transfer
-// num_points      of codecs whose points are not the vertices; 0 for other codecs
+// num_points, num_points_each  of codecs whose points are not the vertices, and of each of their
+//                 groups (codec/point_groups.h); 0 for other codecs
 uint64_t measure_part_bytes(uint64_t num_vertices, uint64_t num_poses, uint64_t num_components,
-                            uint64_t num_points, uint64_t num_threads);
+                            uint64_t num_points, uint64_t num_points_each);
 
 // One number of an error, with its name in files and reports (docs/metrics.md).
 struct NamedError {

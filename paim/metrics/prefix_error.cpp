@@ -67,6 +67,21 @@ std::vector<double> add_in_squares(double whole, const std::vector<double>& drop
     return errors;
 }
 
+// Quadratic forms, one for each group of points, by which squared errors of their values add up
+// over the vertices: Σ_v a_v a_vᵀ, a_v the factors of vertex v. None if points are the vertices.
+std::vector<MatrixXd> point_metrics(const TransferModel& transfer) {
+    const std::optional<PointGroups> groups = transfer.point_groups();
+    if (!groups) return {};
+    const Index size = groups->factors.cols();
+    std::vector<MatrixXd> metrics(groups->num_groups, MatrixXd::Zero(size, size));
+    for (size_t v = 0; v < groups->group.size(); ++v) {
+        const Eigen::VectorXd factors =
+            groups->factors.row(static_cast<Index>(v)).transpose().cast<double>();
+        metrics[groups->group[v]].noalias() += factors * factors.transpose();
+    }
+    return metrics;
+}
+
 }  // namespace
 
 ComponentEnergy component_energy(const CodedMesh& mesh, Attribute attribute,
@@ -74,7 +89,7 @@ ComponentEnergy component_energy(const CodedMesh& mesh, Attribute attribute,
     const LowRank& matrix = mesh.attribute(attribute);
     PAIM_CHECK_EQ(plane_weight.size(), size_t{matrix.num_planes});
     const std::vector<MatrixXd> metrics =
-        attribute == Attribute::transfer ? mesh.transfer->point_metrics() : std::vector<MatrixXd>{};
+        attribute == Attribute::transfer ? point_metrics(*mesh.transfer) : std::vector<MatrixXd>{};
     std::vector<MatrixXd> planes(matrix.num_planes);
     parallel_for(planes.size(), 1, [&](size_t j, size_t) {
         const auto plane = static_cast<uint32_t>(j);

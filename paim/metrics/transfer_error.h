@@ -1,15 +1,16 @@
 // Errors of a decoded transfer to the bake, and expected errors to the truth.
-// Based on: Efron, The Estimation of Prediction Error: Covariance Penalties and Cross-Validation,
-//           2004 (docs/metrics.md)
+// Based on: Efron 2004 (noise_covariance.h)
 #pragma once
 
 #include <Eigen/Core>
 
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "paim/metrics/band_power.h"
+#include "paim/metrics/noise_covariance.h"
 #include "paim/transfer/layout.h"
 
 namespace paim {
@@ -58,53 +59,44 @@ class TransferErrorMeter {
     // layout  of the bake
     // span    [P][K'] directions over the poses that the decoder can follow, from
     //         orthonormal_pose_space(): orthonormal, the constant first (checked)
+    // points  of a decoder whose points are not the vertices
     TransferErrorMeter(const TransferLayout& layout, uint32_t num_vertices, uint32_t num_poses,
-                       BandPower spectrum, Eigen::MatrixXd span);
+                       BandPower spectrum, const Eigen::MatrixXd& span,
+                       std::optional<DecodedPoints> points = {});
 
-    // Call it once for every plane of the bake (checked). Planes in the same order give the same
-    // bits on any number of threads.
+    // Call it once for every plane that the file has, before the first add(). Planes in the same
+    // order give the same bits on any number of threads, here and in add().
     // noise    BakedPose::noise: one draw with the variance of the bake's error, uncorrelated with
     //          it
-    // decoded  zero in bands that the file does not have
+    void survey(uint32_t plane, const Plane& baked, const Plane& noise);
+
+    // Call it once for every plane of the bake (checked).
+    // decoded  zero in planes that the file does not have
     void add(uint32_t plane, const Plane& baked, const Plane& noise, const Plane& decoded);
 
     // The errors; call it after all planes (checked).
     TransferError result() const;
 
-    // The share of the noise that the decoder lets through is measured in so many classes of rows.
-    // Rows of one class have about the same share.
-    static constexpr Eigen::Index kNumClasses = 25;
-
-    // Memory of add(), with the sums over the rows of its blocks.
-    // span_size  K'
-    static uint64_t scratch_bytes(uint64_t num_poses, uint64_t span_size, uint64_t num_threads);
+    // Memory of what it holds, and of add().
+    // num_points, num_points_each  as of NoiseCovariance::bytes()
+    static uint64_t bytes(uint64_t num_vertices, uint64_t num_poses, uint64_t span_size,
+                          uint64_t num_points, uint64_t num_points_each);
 
   private:
-    // Sums over rows, [K' + 1][kNumClasses] each: of products of two rows' coordinates along each
-    // direction q_k of the span, and in the last line along the complement of the span.
-    struct DirectionSums {
-        Eigen::MatrixXd decoded_baked;  // Σ (x̂ q_k)(x q_k)
-        Eigen::MatrixXd baked;          // Σ (x q_k)²
-        Eigen::MatrixXd noise;          // Σ (d q_k)²
-        void add(const DirectionSums& other);
-    };
     struct RowSums {
-        TransferBandEnergy energy;
-        DirectionSums directions;
+        TransferBandEnergy energy;           // but for the covariance
         Eigen::VectorXd pose_error_to_bake;  // [P] Σ (x̂ − x)², not weighted
     };
 
-    DirectionSums zero_sums() const;
     RowSums measure_rows(Eigen::Index first, Eigen::Index count, double weight, const Plane& baked,
                          const Plane& noise, const Plane& decoded);
 
     TransferLayout layout_;
     Eigen::Index num_vertices_, num_poses_;
     BandPower spectrum_;
-    Eigen::MatrixXd span_;                      // [P][K']
+    NoiseCovariance covariance_;
     std::vector<bool> added_;                   // [planes]
     std::vector<TransferBandEnergy> energy_;    // [bands]
-    std::vector<DirectionSums> directions_;     // [bands]
     std::vector<double> vertex_error_to_bake_;  // [V] ‖x̂ − x‖²_β
     Eigen::VectorXd pose_error_to_bake_;        // [P] ‖x̂ − x‖²_β
 };

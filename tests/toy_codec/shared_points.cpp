@@ -38,12 +38,10 @@ double SharedPoints::vertex_gain() const {
     return largest;
 }
 
-std::vector<Eigen::MatrixXd> SharedPoints::point_metrics() const {
-    std::vector<Eigen::MatrixXd> metrics(num_shared, Eigen::MatrixXd::Zero(1, 1));
-    for (size_t v = 0; v < owner.size(); ++v) {
-        metrics[owner[v]](0, 0) += double{gain[v]} * double{gain[v]};
-    }
-    return metrics;
+std::optional<PointGroups> SharedPoints::point_groups() const {
+    return PointGroups{
+        num_shared, owner,
+        Eigen::Map<const Eigen::VectorXf>(gain.data(), static_cast<Eigen::Index>(gain.size()))};
 }
 
 std::vector<NamedNumber> SharedPoints::numbers() {

@@ -31,7 +31,7 @@ class SharedPoints : public TransferModel {
     FrameCost cost(const TransferLayout& layout, const DecodeLimits& limits,
                    bool coloured_light) const override;
     double vertex_gain() const override;
-    std::vector<Eigen::MatrixXd> point_metrics() const override;
+    std::optional<PointGroups> point_groups() const override;
     std::vector<NamedNumber> numbers() override;
     uint32_t start(uint32_t num_vertices) override;
     std::vector<SectionRow> sections() override;

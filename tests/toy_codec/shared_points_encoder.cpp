@@ -75,6 +75,7 @@ TransferEncoderType encoder_type() {
                 // The trial coding is no larger than the models that every search makes of so many
                 // points. kKeptBytes is made up, so that a test sees it refused.
                 memory.num_points = size.streamed.num_vertices;
+                memory.num_points_each = 1;
                 memory.kept_bytes = kKeptBytes;
                 return memory;
             },

@@ -28,6 +28,7 @@ CodecMemory memory_of_all(const TargetSize& size) {
     for (const SearchedCodec& codec : size.codecs) {
         const CodecMemory one = codec.memory(size);
         all.num_points = std::max(all.num_points, one.num_points);
+        all.num_points_each = std::max(all.num_points_each, one.num_points_each);
         all.kept_bytes += one.kept_bytes;
         all.preparing_bytes = std::max(all.preparing_bytes, all.coding_bytes + one.preparing_bytes);
         all.coding_bytes += one.coding_bytes;
@@ -87,7 +88,7 @@ struct Need {
 
     uint64_t measuring() const {
         return measure_part_bytes(vertices(), poses(), most_components(), codecs.num_points,
-                                  size.streamed.num_threads);
+                                  codecs.num_points_each);
     }
 
     // Floats of everything, to find the error that these components leave.

@@ -16,6 +16,7 @@ struct TargetSize;
 // bounds for the threads of the size.
 struct CodecMemory {
     uint64_t num_points = 0;       // of the codec's matrix; 0 if its points are the vertices
+    uint64_t num_points_each = 0;  // of each group (codec/point_groups.h)
     uint64_t kept_bytes = 0;       // that stay from one target to the next
     uint64_t preparing_bytes = 0;  // of scratch, before a coding is made
     uint64_t coding_bytes = 0;     // that the codec's best coding holds until it is written

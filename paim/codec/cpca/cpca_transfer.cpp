@@ -83,22 +83,18 @@ double CpcaTransfer::vertex_gain() const {
     return gain;
 }
 
-// Σ_v a_v a_vᵀ over the vertices of a cluster, a_v the factors by which vertex v multiplies its
-// rows.
-std::vector<Eigen::MatrixXd> CpcaTransfer::point_metrics() const {
+std::optional<PointGroups> CpcaTransfer::point_groups() const {
     const uint32_t num_rows = clusters.rows_per_cluster();
-    std::vector<Eigen::MatrixXd> metrics(clusters.num_clusters,
-                                         Eigen::MatrixXd::Zero(num_rows, num_rows));
-    Eigen::VectorXd factors(num_rows);
-    for (size_t v = 0; v < clusters.cluster.size(); ++v) {
-        const uint32_t c = clusters.cluster[v];
-        for (uint32_t row = 0; row < num_rows; ++row) {
+    PointGroups groups{clusters.num_clusters, clusters.cluster,
+                       Eigen::MatrixXf(num_vertices(), num_rows), true};
+    for (uint32_t row = 0; row < num_rows; ++row) {
+        for (size_t v = 0; v < clusters.cluster.size(); ++v) {
             const float coefficient = row == 0 ? 1.0f : clusters.coefficients[row - 1][v];
-            factors(row) = double{coefficient} * double{clusters.scales[c * num_rows + row]};
+            groups.factors(static_cast<Eigen::Index>(v), row) =
+                coefficient * clusters.scales[size_t{clusters.cluster[v]} * num_rows + row];
         }
-        metrics[c].noalias() += factors * factors.transpose();
     }
-    return metrics;
+    return groups;
 }
 
 std::vector<NamedNumber> CpcaTransfer::numbers() {

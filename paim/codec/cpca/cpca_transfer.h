@@ -34,7 +34,7 @@ class CpcaTransfer : public TransferModel {
                    bool coloured_light) const override;
     uint64_t vertex_bytes(uint32_t num_components) const override;
     double vertex_gain() const override;
-    std::vector<Eigen::MatrixXd> point_metrics() const override;
+    std::optional<PointGroups> point_groups() const override;
 
     std::vector<NamedNumber> numbers() override;
     uint32_t start(uint32_t num_vertices) override;

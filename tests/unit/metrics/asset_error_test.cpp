@@ -231,7 +231,8 @@ TEST_F(AssetErrorTest, TakesNoiseInTheOrderOfTheFile) {
             // numbers.
             EXPECT_NEAR(error.error_to_bake, std::sqrt(30.0 / 40.0), 1e-14);
             EXPECT_NEAR(error.bake_noise, std::sqrt(2.0 / 40.0), 1e-14);
-            EXPECT_NEAR(error.error, std::sqrt((decoded == noisy ? 32.0 : 28.0) / 40.0), 1e-14)
+            // Noise along the decoder's span is found with floats.
+            EXPECT_NEAR(error.error, std::sqrt((decoded == noisy ? 32.0 : 28.0) / 40.0), 1e-7)
                 << decoded << " " << noisy;
         }
     }

@@ -37,6 +37,7 @@ CodecMemory cpca_memory(const TargetSize& size) {
     CodecMemory memory;
     // A point is a row of a basis. Codings of more rows than this are not tried.
     memory.num_points = std::min(2 * num_vertices, num_clusters * (kMaxSearchedComponents + 1));
+    memory.num_points_each = kMaxSearchedComponents + 1;
     memory.kept_bytes = kMaxClusterings * ClusteredPca::held_bytes(num_vertices, num_clusters,
                                                                    kMaxSearchedComponents) +
                         num_vertices * options.num_dimensions() * sizeof(float);

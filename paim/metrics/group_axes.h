@@ -1,0 +1,64 @@
+// Orthonormal axes of the vertices that share points (codec/point_groups.h).
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "paim/codec/point_groups.h"
+
+namespace paim {
+
+// The values of a group are a matrix, a row a vertex. A codec that fits it by points can change it in
+// two ways to first order. If points move, columns change along the axes of the vertices, which are
+// the group's factors made orthonormal. If the factors of a vertex move, its row changes along the
+// axes of the points, which are the group's points made orthonormal.
+class GroupAxes {
+  public:
+    explicit GroupAxes(const PointGroups& groups);
+
+    // Call it once for every plane of the points, then orthonormalise_points().
+    // points  [K'][N] along K' directions over the poses
+    // weight  of squared errors in this plane
+    void add_points(const Eigen::MatrixXf& points, double weight);
+    void orthonormalise_points();
+
+    uint32_t num_groups() const { return static_cast<uint32_t>(begin_.size() - 1); }
+    Eigen::Index num_vertex_axes() const { return num_points_each_; }  // R, of a group
+    Eigen::Index num_point_axes() const {
+        return num_points_each_ - first_free_;
+    }  // R', of a group
+    bool is_affine() const { return first_free_ == 1; }
+
+    // Members of all groups, group by group, and the place of a group's first among them.
+    std::span<const uint32_t> members(uint32_t g) const {
+        return {members_.data() + begin_[g], begin_[g + 1] - begin_[g]};
+    }
+    Eigen::Index begin(uint32_t g) const { return static_cast<Eigen::Index>(begin_[g]); }
+
+    // [R][V_g] A column a member. Rows are orthonormal, or zero if factors depend on those before.
+    auto vertex_axes(uint32_t g) const {
+        return vertex_axes_.middleCols(begin(g), begin(g + 1) - begin(g));
+    }
+    // [K'][R'] Those of a plane of the points. Over all planes, with their weights, they are
+    // orthonormal, or zero if points depend on those before.
+    Eigen::MatrixXf point_axes(uint32_t g, const Eigen::MatrixXf& points) const;
+    // [R'][V_g] Coordinates of the decoded members along the axes of the points.
+    Eigen::MatrixXf decoded_coordinates(uint32_t g) const;
+
+    // Memory for R points of each of G groups.
+    static uint64_t bytes(uint64_t num_vertices, uint64_t num_groups, uint64_t num_points_each);
+
+  private:
+    Eigen::Index num_points_each_, first_free_;
+    std::vector<size_t> begin_;                  // [G + 1]
+    std::vector<uint32_t> members_;              // [V]
+    Eigen::MatrixXf factors_;                    // [R][V] of the members
+    Eigen::MatrixXf vertex_axes_;                // [R][V]
+    std::vector<Eigen::MatrixXd> gram_;          // [G] of [R][R], the products of the points
+    std::vector<Eigen::MatrixXd> combinations_;  // [G] of [R'][R'], points to their axes
+};
+
+}  // namespace paim
