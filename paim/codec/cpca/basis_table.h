@@ -4,32 +4,16 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <new>
 #include <span>
 #include <vector>
 
+#include "paim/base/line_allocator.h"
 #include "paim/base/vector.h"
 #include "paim/codec/cpca/vertex_clusters.h"
 #include "paim/codec/stored_values.h"
 #include "paim/codec/vector_unit.h"
 
 namespace paim {
-
-// Allocates memory that starts at a cache line.
-template <typename T>
-struct LineAllocator {
-    using value_type = T;
-    static constexpr std::align_val_t kLine{64};
-
-    LineAllocator() = default;
-    template <typename Other>
-    LineAllocator(const LineAllocator<Other>&) {}
-
-    T* allocate(size_t count) { return static_cast<T*>(::operator new(count * sizeof(T), kLine)); }
-    void deallocate(T* values, size_t) { ::operator delete(values, kLine); }
-
-    bool operator==(const LineAllocator&) const { return true; }
-};
 
 // Bases of clusters as weighted_sum() reads them: rows of padded planes.
 struct BasisTable {
