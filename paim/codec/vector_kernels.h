@@ -1,11 +1,11 @@
-// The inner loops of decoding, one version for each vector unit. Used by accumulate.cpp,
-// basis_table.cpp and smooth_planes.cpp.
+// The inner loops of decoding, one version for each vector unit.
 #pragma once
 
 #include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "paim/codec/stored_values.h"
 #include "paim/codec/vector_unit.h"
@@ -90,5 +90,9 @@ const VectorKernels& vector_kernels(VectorUnit unit);
 
 Columns::Type type_of(const StoredValues& stored);
 const void* values_from(const StoredValues& stored, size_t first);
+
+// The components from number k on that can be added at once: all have one type. Values begin at
+// number `first` of theirs.
+Columns columns_from(std::span<const StoredValues> components, size_t k, size_t first);
 
 }  // namespace paim

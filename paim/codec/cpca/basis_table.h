@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "paim/base/line_allocator.h"
-#include "paim/base/vector.h"
 #include "paim/codec/cpca/vertex_clusters.h"
 #include "paim/codec/stored_values.h"
 #include "paim/codec/vector_unit.h"
@@ -17,8 +16,6 @@ namespace paim {
 
 // Bases of clusters as weighted_sum() reads them: rows of padded planes.
 struct BasisTable {
-    static constexpr size_t kNarrow = 4;  // padded planes of a table with few planes
-
     uint32_t num_planes = 0;
     uint32_t padded_planes = 0;
     // [rows][padded planes], from the start of a cache line: vectors that straddle two lines cost
@@ -29,8 +26,6 @@ struct BasisTable {
     // rows    [planes][R]
     // scales  [R]
     void assign(std::span<const float> rows, std::span<const float> scales);
-    // Sets the table to rows of three planes.
-    void assign(std::span<const Vec3f> rows);
 };
 
 // The rows and coefficients that vertices are sums of.
@@ -47,11 +42,6 @@ struct BasisSum {
 // where row(v, j) is row cluster[v] · rows_per_cluster + j of the table.
 void weighted_sum(const BasisSum& combination, size_t first, size_t count, std::span<float> out,
                   VectorUnit unit = best_vector_unit());
-
-// Writes the same values of a table of at most BasisTable::kNarrow planes (checked), vertex by
-// vertex, to out[(v − first) · kNarrow + plane]. Values beyond the planes are zero.
-void weighted_sum_by_vertex(const BasisSum& combination, size_t first, size_t count,
-                            std::span<float> out, VectorUnit unit = best_vector_unit());
 
 // The values of all vertices in every plane of the table, with the first num_components components
 // of each cluster, on all threads.
