@@ -11,6 +11,8 @@
 #include <utility>
 
 #include "paim/base/error.h"
+#include "paim/format/container/container_reader.h"
+#include "paim/format/container/sections.h"
 #include "paim/image/png.h"
 #include "paim/light/load_light.h"
 #include "player/gl/check.h"
@@ -47,7 +49,7 @@ auto upload_within(const DecodeLimits& wanted, Upload upload) {
 
 class App {
   public:
-    // loader  of a file that is still being written, or nullptr
+    // loader  of the rest of the file, or nullptr
     App(const Options& options, Scene scene, PrefixLoader* loader)
         : options_(options),
           scene_(std::make_unique<Scene>(std::move(scene))),
@@ -84,6 +86,7 @@ class App {
             if (loader_ != nullptr) show_more();
             advance(view_, range_, scene_->asset->frames_per_second, elapsed_s);
             draw();
+            if (loader_ != nullptr) loader_->read_on();
         }
     }
 
@@ -94,8 +97,10 @@ class App {
                 plan.layout.in_bands, plan.vertex_components};
     }
 
-    // Takes what has been read since the last frame; all else of the view stays.
+    // Takes what has been read since the last frame; all else of the view stays. Throws the error of
+    // a file that should be whole and is not.
     void show_more() {
+        loader_->check();
         if (const std::string error = loader_->take_error(); !error.empty()) say(error);
         std::optional<LoadedAsset> loaded = loader_->take();
         if (!loaded) return;
@@ -116,7 +121,9 @@ class App {
         scene_ = std::move(scene);
         const ViewRange before = std::exchange(range_, range());
         follow(view_, before, range_, options_.wanted.limits());
-        if (loaded->replaced) frame_all();
+        // Coarse poses have other bounds. A camera that somebody has moved stays.
+        const bool sharpens = !options_.play_prefix && !camera_moved_;
+        if (loaded->replaced || sharpens) frame_all();
     }
 
     void listen() {
@@ -126,6 +133,7 @@ class App {
         };
         events.on_drag = [this](gl::MouseButton button, double dx, double dy) {
             if (imgui_->wants_mouse()) return;
+            camera_moved_ = true;
             const auto x = static_cast<float>(dx / window_.height());
             const auto y = static_cast<float>(dy / window_.height());
             if (button == gl::MouseButton::left) {
@@ -135,7 +143,9 @@ class App {
             }
         };
         events.on_scroll = [this](double steps) {
-            if (!imgui_->wants_mouse()) camera_.zoom(static_cast<float>(steps));
+            if (imgui_->wants_mouse()) return;
+            camera_moved_ = true;
+            camera_.zoom(static_cast<float>(steps));
         };
         events.on_drop = [this](const auto& paths) {
             if (!paths.empty()) change_light(paths.front());
@@ -275,6 +285,7 @@ class App {
     std::optional<gl::Target> target_;
     std::optional<ImGuiLayer> imgui_;
     OrbitCamera camera_;
+    bool camera_moved_ = false;  // by hand
     ViewState view_;
     std::string environment_name_;
     std::string message_;
@@ -289,7 +300,11 @@ void run_app(const Options& options, Scene scene) {
 }
 
 void run_app_from_prefix(Options& options) {
-    PrefixLoader loader(options.model_path);
+    LoaderPace pace;
+    pace.whole = !options.play_prefix;
+    // A file that is cut short is refused at once.
+    if (pace.whole) const ContainerReader checked(options.model_path, section::kKindAnimation);
+    PrefixLoader loader(options.model_path, pace);
     LoadedAsset first = loader.wait_for_first([&] {
         fmt::print(stderr, "paim-play: note: {}: waiting for the first part that can be played\n",
                    options.model_path.string());

@@ -10,9 +10,10 @@ namespace paim::player {
 // Error(unsupported) where there is no display, which says to use --snapshot.
 void run_app(const Options& options, Scene scene);
 
-// Plays a file that is still being written. Waits, with a note on stderr, for a prefix of it that
-// can be played; shows more detail when the prefix has become longer. Errors as load_scene()'s and
-// PrefixLoader's.
+// Plays a file that is large, or with options.play_prefix one that is still being written. Waits, with
+// a note on stderr, for a prefix of it that can be played; shows more detail when a longer one has been
+// read. Errors as load_scene()'s and PrefixLoader's; a damaged file that should be whole closes the
+// window.
 void run_app_from_prefix(Options& options);
 
 }  // namespace paim::player

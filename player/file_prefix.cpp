@@ -61,9 +61,14 @@ std::string progress_text(const LoadProgress& progress) {
 }
 
 uint64_t FilePrefix::playable_bytes() const {
+    return playable_bytes(0, size_bytes);
+}
+
+uint64_t FilePrefix::playable_bytes(uint64_t read_bytes, uint64_t most_bytes) const {
     uint64_t playable = 0;
     for (const Prefix& prefix : prefixes) {
-        if (prefix.size_bytes <= size_bytes) playable = prefix.size_bytes;
+        if (prefix.size_bytes > size_bytes) break;
+        if (prefix.size_bytes <= most_bytes || playable <= read_bytes) playable = prefix.size_bytes;
     }
     return playable;
 }
@@ -95,19 +100,25 @@ FilePrefix inspect_prefix(const std::filesystem::path& path) {
     return prefix;
 }
 
-LoadedAsset read_prefix(const std::filesystem::path& path, const FilePrefix& prefix) {
+LoadedAsset read_prefix(const std::filesystem::path& path, const FilePrefix& prefix,
+                        uint64_t playable_bytes) {
     LoadedAsset loaded;
-    loaded.asset = read_asset(path, {.prefix = true});
+    loaded.asset = read_asset(path, {.prefix = true, .most_bytes = playable_bytes});
     loaded.progress = prefix.progress();
+    if (playable_bytes < prefix.playable_bytes()) loaded.progress.size_bytes = playable_bytes;
     loaded.progress.components = num_components(loaded.asset->moving());
-    // More may have been written since the prefix was inspected.
-    if (loaded.asset->complete) loaded.progress.size_bytes = loaded.progress.whole_size_bytes;
     return loaded;
 }
 
+Bounds bounds_so_far(const Asset& asset) {
+    constexpr uint64_t kMaxMultiplyAdds = uint64_t{1} << 23;
+    return sequence_bounds(asset, asset.complete ? kMaxBoundsMultiplyAdds : kMaxMultiplyAdds);
+}
+
 LoadedAsset load_prefix(const std::filesystem::path& path) {
-    LoadedAsset loaded = read_prefix(path, inspect_prefix(path));
-    loaded.bounds = sequence_bounds(*loaded.asset);
+    const FilePrefix prefix = inspect_prefix(path);
+    LoadedAsset loaded = read_prefix(path, prefix, prefix.size_bytes);
+    loaded.bounds = bounds_so_far(*loaded.asset);
     return loaded;
 }
 

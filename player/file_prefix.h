@@ -35,7 +35,10 @@ struct FilePrefix {
     uint64_t inode = 0;               // another file has another
 
     uint64_t playable_bytes() const;  // the size of the longest prefix that is there, or 0
-    LoadProgress progress() const;    // with no component read
+    // The same of those of at most so many bytes; if none of these has more than read_bytes, the
+    // size of the next one that has.
+    uint64_t playable_bytes(uint64_t read_bytes, uint64_t most_bytes) const;
+    LoadProgress progress() const;  // with no component read
 };
 
 // A missing file has no bytes. Errors as read_paim()'s if header or table are damaged.
@@ -48,8 +51,13 @@ struct LoadedAsset {
     bool replaced = false;  // comes from another file than the asset before
 };
 
-// Reads what the prefix holds, without bounds. Errors as read_paim()'s.
-LoadedAsset read_prefix(const std::filesystem::path& path, const FilePrefix& prefix);
+// Reads what the first playable_bytes of the prefix hold, without bounds. Errors as read_paim()'s.
+LoadedAsset read_prefix(const std::filesystem::path& path, const FilePrefix& prefix,
+                        uint64_t playable_bytes);
+
+// Bounds of an asset that was read so far. Those of a part of a file are of fewer poses, so that
+// its first picture need not wait for them.
+Bounds bounds_so_far(const Asset& asset);
 
 // Reads the prefix that is there now, with bounds.
 LoadedAsset load_prefix(const std::filesystem::path& path);

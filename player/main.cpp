@@ -1,19 +1,33 @@
 // paim-play: plays a .paim under a light that can be changed and turned.
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "paim/cli/run_main.h"
 #include "player/app.h"
 #include "player/bench.h"
 #include "player/options.h"
+#include "player/prefix_loader.h"
 #include "player/scene.h"
 #include "player/snapshot.h"
+
+namespace {
+
+// Whether a window shows the first part of a file before all of it is read.
+bool is_large(const std::filesystem::path& path) {
+    std::error_code error;
+    const uintmax_t size_bytes = std::filesystem::file_size(path, error);
+    return !error && size_bytes > paim::player::LoaderPace::kFirstBytes;
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
     using namespace paim::player;
     return paim::cli::run_main("paim-play", [&] {
         Options options;
         if (const int code = parse_options(argc, argv, options); code >= 0) return code;
-        if (options.play_prefix && options.opens_window()) {
+        if (options.opens_window() && (options.play_prefix || is_large(options.model_path))) {
             run_app_from_prefix(options);
             return 0;
         }

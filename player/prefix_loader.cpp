@@ -13,6 +13,7 @@ namespace paim::player {
 PrefixLoader::PrefixLoader(std::filesystem::path path, const LoaderPace& pace)
     : path_(std::move(path)),
       pace_(pace),
+      most_bytes_(pace.first_bytes),
       waiting_since_(Clock::now()),
       thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
@@ -34,6 +35,19 @@ std::optional<LoadedAsset> PrefixLoader::take() {
     return std::exchange(newest_, std::nullopt);
 }
 
+void PrefixLoader::read_on() {
+    {
+        const std::scoped_lock lock(mutex_);
+        reads_on_ = true;
+    }
+    changed_.notify_all();
+}
+
+void PrefixLoader::check() const {
+    const std::scoped_lock lock(mutex_);
+    if (failure_) throw *failure_;
+}
+
 std::string PrefixLoader::take_error() {
     const std::scoped_lock lock(mutex_);
     return std::exchange(error_, {});
@@ -53,7 +67,7 @@ void PrefixLoader::wait_for_look() {
 void PrefixLoader::run(const std::stop_token& stop) {
     while (!stop.stop_requested()) {
         const auto start = Clock::now();
-        if (!look()) break;
+        if (!look(stop)) break;
         // Long files take long to read: no more than half of the time goes into that.
         const auto pause = std::max<Clock::duration>(pace_.interval, Clock::now() - start);
         std::unique_lock lock(mutex_);
@@ -66,12 +80,12 @@ void PrefixLoader::run(const std::stop_token& stop) {
     changed_.notify_all();
 }
 
-bool PrefixLoader::look() {
+bool PrefixLoader::look(const std::stop_token& stop) {
     {
         const std::scoped_lock lock(mutex_);
         ++looks_begun_;
     }
-    const bool more = read_what_is_there();
+    const bool more = read_what_is_there(stop);
     {
         const std::scoped_lock lock(mutex_);
         ++looks_ended_;
@@ -80,11 +94,16 @@ bool PrefixLoader::look() {
     return more;
 }
 
-bool PrefixLoader::read_what_is_there() {
+bool PrefixLoader::read_what_is_there(const std::stop_token& stop) {
     FilePrefix prefix;
     try {
         prefix = inspect_prefix(path_);
-        return read_more(prefix);
+        while (read_more(prefix)) {
+            if (tried_bytes_ >= prefix.playable_bytes()) return true;
+            if (!wait_to_read_on(stop)) return false;
+            prefix = inspect_prefix(path_);
+        }
+        return false;
     } catch (const Error& error) {
         // What is written over while it is read looks damaged and is not.
         if (!prefix.prefixes.empty() && !is_same_file(prefix)) {
@@ -105,12 +124,13 @@ bool PrefixLoader::read_more(const FilePrefix& prefix) {
         replaced_ = replaced_ || !checksums_.empty();
         checksums_ = prefix.checksums;
         tried_bytes_ = 0;
+        most_bytes_ = pace_.first_bytes;
         bounds_.reset();
     }
-    const uint64_t playable_bytes = prefix.playable_bytes();
-    if (tried_in_vain_) {  // a damaged file may be mended by another that has the same table
-        tried_bytes_ = prefix.inode != tried_inode_ ? 0 : std::min(tried_bytes_, playable_bytes);
-    }
+    // A damaged file may be mended by another that has the same table.
+    if (tried_in_vain_ && prefix.inode != tried_inode_) tried_bytes_ = 0;
+    const uint64_t playable_bytes = prefix.playable_bytes(tried_bytes_, most_bytes_);
+    if (tried_in_vain_) tried_bytes_ = std::min(tried_bytes_, playable_bytes);
     {
         const std::scoped_lock lock(mutex_);
         const uint32_t components = other ? 0 : progress_.components;
@@ -125,15 +145,17 @@ bool PrefixLoader::read_more(const FilePrefix& prefix) {
     tried_bytes_ = playable_bytes;
     tried_inode_ = prefix.inode;
     tried_in_vain_ = true;
-    LoadedAsset loaded = read_prefix(path_, prefix);
+    LoadedAsset loaded = read_prefix(path_, prefix, playable_bytes);
+    const bool complete = loaded.asset->complete;
     const uint32_t geometry_components = loaded.asset->moving().positions.num_components;
-    if (!bounds_ || bounds_components_ != geometry_components) {
-        bounds_ = sequence_bounds(*loaded.asset);
+    if (!bounds_ || complete || bounds_components_ != geometry_components) {
+        bounds_ = bounds_so_far(*loaded.asset);
         bounds_components_ = geometry_components;
     }
     loaded.bounds = *bounds_;
-    const bool complete = loaded.asset->complete;
     tried_in_vain_ = false;
+    constexpr uint64_t kGrowth = 4;
+    most_bytes_ = std::max(most_bytes_, kGrowth * playable_bytes);
     {
         const std::scoped_lock lock(mutex_);
         // A model that nobody took may have been another file's, too.
@@ -141,10 +163,16 @@ bool PrefixLoader::read_more(const FilePrefix& prefix) {
         progress_ = loaded.progress;
         newest_ = std::move(loaded);
         started_ = true;
+        reads_on_ = false;
     }
     last_error_.clear();
     changed_.notify_all();
     return !complete;
+}
+
+bool PrefixLoader::wait_to_read_on(const std::stop_token& stop) {
+    std::unique_lock lock(mutex_);
+    return changed_.wait(lock, stop, [&] { return reads_on_; });
 }
 
 bool PrefixLoader::is_same_file(const FilePrefix& prefix) const {
@@ -182,7 +210,7 @@ void PrefixLoader::wait_for_start(const FilePrefix& prefix) {
 void PrefixLoader::report(const Error& error) {
     {
         const std::scoped_lock lock(mutex_);
-        if (!started_) {
+        if (!started_ || pace_.whole) {
             failure_ = error;
         } else if (error.what() != last_error_) {  // said once, not at every look
             error_ = error.what();

@@ -5,10 +5,12 @@
 #include <malloc.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <memory>
 #include <numbers>
 #include <variant>
 
@@ -16,11 +18,13 @@
 #include "paim/base/seed.h"
 #include "paim/base/tbb_parallel.h"
 #include "paim/codec/codecs.h"
+#include "paim/codec/playback.h"
 #include "paim/format/container/container_reader.h"
 #include "paim/format/container/sections.h"
 #include "paim/format/pack/zstd_decoder.h"
 #include "paim/format/paim/paim_read.h"
 #include "paim/format/paim/paim_write.h"
+#include "paim/format/paim/prefixes.h"
 #include "paim/mesh/cache_order.h"
 
 namespace paim::bench {
@@ -226,6 +230,42 @@ void load(benchmark::State& state, const fs::path& path) {
     state.counters["bits_per_value"] = 8.0 * static_cast<double>(fs::file_size(path)) / count;
 }
 
+// Reads a file, or its first bytes, and lights a pose.
+void light_first_pose(const fs::path& path, uint64_t most_bytes) {
+    const auto asset =
+        std::make_shared<const Asset>(read_paim(path, {.prefix = true, .most_bytes = most_bytes}));
+    const uint32_t bands = asset->moving().layout.in_bands;
+    Playback playback(asset);
+    playback.set_light(
+        DistantLight({static_cast<int>(bands),
+                      std::vector<Vec3f>(sh::num_coefficients(bands), Vec3f(1, 2, 3))}));
+    playback.update(0.5, {});
+    benchmark::DoNotOptimize(playback.radiance().data());
+}
+
+// From opening a file to the radiance of all vertices in a pose, on all threads. Counters, medians
+// over the iterations, of wall time:
+//   first_ms   of the part that the player shows first (24 MiB, or the shortest that can be played)
+//   whole_ms   of the whole file
+//   ratio      whole / first
+void first_light(benchmark::State& state, const fs::path& path) {
+    constexpr uint64_t kFirstBytes = uint64_t{24} << 20;
+    const uint64_t first_bytes = std::max(kFirstBytes, read_prefixes(path).front().size_bytes);
+    std::vector<double> first_times, whole_times, ratios;
+    for (auto _ : state) {
+        keep_memory(Memory::from_system);
+        const Times first = timed([&] { light_first_pose(path, first_bytes); });
+        const Times whole = timed([&] { light_first_pose(path, fs::file_size(path)); });
+        state.SetIterationTime(first.wall_s);
+        first_times.push_back(first.wall_s);
+        whole_times.push_back(whole.wall_s);
+        ratios.push_back(whole.wall_s / first.wall_s);
+    }
+    state.counters["first_ms"] = 1e3 * median(first_times);
+    state.counters["whole_ms"] = 1e3 * median(whole_times);
+    state.counters["ratio"] = median(ratios);
+}
+
 template <typename Integer>
 void load_waves(benchmark::State& state, uint32_t num_rings, uint32_t num_sides,
                 uint32_t num_components) {
@@ -259,6 +299,9 @@ BENCHMARK_CAPTURE(load_i16, vertices_100000, 400, 250, 16)->Apply(large);
     const char* path = std::getenv("PAIM_BENCH_LOAD");
     if (path == nullptr) return false;
     benchmark::RegisterBenchmark("load_file", load, fs::path(path))
+        ->UseManualTime()
+        ->Unit(benchmark::kMillisecond);
+    benchmark::RegisterBenchmark("first_light_file", first_light, fs::path(path))
         ->UseManualTime()
         ->Unit(benchmark::kMillisecond);
     return true;

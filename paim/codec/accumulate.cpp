@@ -14,18 +14,6 @@ namespace {
 // added.
 constexpr size_t kPoints = 8192;
 
-// The components from number k on that can be added at once: all have one type.
-Columns columns_from(std::span<const StoredValues> components, size_t k, size_t first) {
-    Columns columns;
-    columns.type = type_of(components[k]);
-    while (columns.count < kMaxColumns && k + columns.count < components.size() &&
-           type_of(components[k + columns.count]) == columns.type) {
-        columns.values[columns.count] = values_from(components[k + columns.count], first);
-        ++columns.count;
-    }
-    return columns;
-}
-
 void accumulate_plain(const StoredValues& mean, std::span<const StoredValues> components,
                       std::span<const float> weights, float step, size_t first,
                       std::span<float> out) {

@@ -4,33 +4,32 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <utility>
+#include <variant>
 
 #include "paim/base/check.h"
-#include "paim/base/parallel.h"
+#include "paim/codec/smooth_planes.h"
 
 namespace paim {
 
 namespace {
 
-float largest_magnitude(const StoredValues& values) {
-    float largest = 0.0f;
-    values.for_each(0, values.size(),
-                    [&](size_t, float value) { largest = std::max(largest, std::abs(value)); });
-    return largest;
-}
-
-// A plane of integers as multiples of 2^-fraction_bits.
-void smooth_plane(const SurfaceSmoother& smoother, const StoredValues& stored, size_t first,
-                  uint32_t rounds, uint32_t fraction_bits, std::span<int16_t> out) {
-    std::vector<float> integers(out.size());
-    stored.widen(first, integers);
-    std::vector<float> values = integers;
-    smoother.smooth(integers, rounds, smoothing_reach(fraction_bits), values);
-    const auto scale = static_cast<float>(1u << fraction_bits);
-    std::transform(values.begin(), values.end(), out.begin(), [&](float value) {
-        return static_cast<int16_t>(std::nearbyint(scale * value));
-    });
+// The largest magnitude of integers.
+int32_t largest_magnitude(const StoredValues& stored) {
+    PAIM_CHECK(!stored.holds_floats());
+    return std::visit(
+        [](const auto& values) {
+            // Both ends in the type of the values, which vector units compare many at once.
+            using Integer = std::conditional_t<sizeof(values[0]) == 1, int8_t, int16_t>;
+            Integer lowest = 0, highest = 0;
+            for (const auto value : values) {
+                lowest = std::min(lowest, static_cast<Integer>(value));
+                highest = std::max(highest, static_cast<Integer>(value));
+            }
+            return std::max(int32_t{highest}, -int32_t{lowest});
+        },
+        stored.values());
 }
 
 }  // namespace
@@ -73,12 +72,12 @@ uint64_t SurfaceSmoother::bytes(uint64_t num_vertices, uint64_t num_triangles) {
 }
 
 uint32_t smoothing_fraction_bits(const LowRank& matrix) {
-    float largest = largest_magnitude(matrix.mean);
+    int32_t largest = largest_magnitude(matrix.mean);
     for (const StoredValues& values : matrix.components) {
         largest = std::max(largest, largest_magnitude(values));
     }
     for (const uint32_t bits : {4u, 3u, 2u}) {
-        if ((largest + 0.5f) * static_cast<float>(1u << bits) <= 32767.0f) return bits;
+        if ((2 * largest + 1) << (bits - 1) <= 32767) return bits;
     }
     return 0;
 }
@@ -87,20 +86,22 @@ void smooth_stored(LowRank& matrix, const Topology& topology) {
     if (matrix.fraction_bits > 0) smooth_stored(matrix, SurfaceSmoother(topology));
 }
 
-void smooth_stored(LowRank& matrix, const SurfaceSmoother& smoother) {
+void smooth_stored(LowRank& matrix, const SurfaceSmoother& smoother, VectorUnit unit) {
     if (matrix.fraction_bits == 0) return;
     const size_t num_arrays = 1 + matrix.components.size();
-    const size_t num_points = matrix.num_points;
     PAIM_CHECK(matrix.smoothing.size() >= num_arrays * matrix.num_planes);
     std::vector<std::vector<int16_t>> smoothed(num_arrays);
-    for (auto& values : smoothed) values.resize(matrix.num_rows());
-    parallel_for(num_arrays * matrix.num_planes, 1, [&](size_t task, size_t) {
-        const size_t array = task / matrix.num_planes;
-        const size_t first = task % matrix.num_planes * num_points;
+    std::vector<PlaneToSmooth> planes;
+    for (size_t array = 0; array < num_arrays; ++array) {
+        smoothed[array].resize(matrix.num_rows());
         const StoredValues& stored = array == 0 ? matrix.mean : matrix.components[array - 1];
-        smooth_plane(smoother, stored, first, matrix.smoothing[task], matrix.fraction_bits,
-                     std::span(smoothed[array]).subspan(first, num_points));
-    });
+        for (size_t j = 0; j < matrix.num_planes; ++j) {
+            const size_t first = j * matrix.num_points;
+            planes.push_back({&stored, first, matrix.smoothing[array * matrix.num_planes + j],
+                              smoothed[array].data() + first});
+        }
+    }
+    smooth_planes(smoother, planes, matrix.fraction_bits, unit);
     matrix.mean = std::move(smoothed[0]);
     for (size_t k = 0; k + 1 < num_arrays; ++k) matrix.components[k] = std::move(smoothed[k + 1]);
     matrix.precision = Precision::i16;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "paim/codec/low_rank.h"
+#include "paim/codec/vector_unit.h"
 #include "paim/mesh/topology.h"
 
 namespace paim {
@@ -32,10 +33,14 @@ class SurfaceSmoother {
     void smooth(std::span<const float> stored, uint32_t rounds, float reach,
                 std::span<float> values) const;
 
+    // Neighbours of vertex v are numbers first()[v] to first()[v + 1] − 1 of neighbours().
+    std::span<const uint32_t> first() const { return first_; }  // [V + 1]
+    std::span<const uint32_t> neighbours() const { return neighbours_; }
+
     static uint64_t bytes(uint64_t num_vertices, uint64_t num_triangles);
 
   private:
-    std::vector<uint32_t> first_;       // [V + 1] into neighbours_
+    std::vector<uint32_t> first_;
     std::vector<uint32_t> neighbours_;  // [6 F]
 };
 
@@ -51,9 +56,10 @@ uint32_t smoothing_fraction_bits(const LowRank& matrix);
 
 // Smooths a matrix as it was stored: mean and components become multiples of 2^-fraction_bits of
 // the step, and steps that much finer. Values of 8 bits then take 16.
-// matrix  of integers; in: fraction_bits and smoothing are set, values and steps as stored
+// matrix    of integers; in: fraction_bits and smoothing are set, values and steps as stored
 // smoother  of the mesh whose vertices are the points
-void smooth_stored(LowRank& matrix, const SurfaceSmoother& smoother);
+void smooth_stored(LowRank& matrix, const SurfaceSmoother& smoother,
+                   VectorUnit unit = best_vector_unit());
 void smooth_stored(LowRank& matrix, const Topology& topology);
 
 // The integers that smoothing started from.

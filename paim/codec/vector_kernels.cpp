@@ -165,4 +165,15 @@ const void* values_from(const StoredValues& stored, size_t first) {
                       stored.values());
 }
 
+Columns columns_from(std::span<const StoredValues> components, size_t k, size_t first) {
+    Columns columns;
+    columns.type = type_of(components[k]);
+    while (columns.count < kMaxColumns && k + columns.count < components.size() &&
+           type_of(components[k + columns.count]) == columns.type) {
+        columns.values[columns.count] = values_from(components[k + columns.count], first);
+        ++columns.count;
+    }
+    return columns;
+}
+
 }  // namespace paim

@@ -1,11 +1,11 @@
-// The inner loops of decoding, one version for each vector unit. Used by accumulate.cpp and
-// basis_table.cpp.
+// The inner loops of decoding, one version for each vector unit.
 #pragma once
 
 #include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "paim/codec/stored_values.h"
 #include "paim/codec/vector_unit.h"
@@ -25,6 +25,10 @@ constexpr size_t kLineBytes = 64;
 // Distance at which values are prefetched. The processor's own prefetching takes a while to
 // recognise each of so many streams.
 constexpr size_t kAheadBytes = 1024;
+
+// A number of magnitude below 2^22 plus this has the nearest integer, ties to even, in its lowest
+// bits.
+constexpr float kRoundToInteger = 0x1.8p23f;
 
 // Prefetches; the address may lie past the values, because nothing is read there.
 __attribute__((always_inline)) inline void fetch_ahead(const void* from, size_t offset_bytes) {
@@ -51,6 +55,20 @@ struct RowBlock {
     std::array<std::array<float, kVertices>, kMaxColumns> coefficients;  // [row][vertex]
 };
 
+// Planes that are smoothed at once. A row has the value of each of them at a vertex.
+constexpr size_t kSmoothedPlanes = 32;
+
+// A round of smoothing (surface_smoothing.h) of rows.
+struct SmoothingRound {
+    const uint32_t* first = nullptr;       // [V + 1] into neighbours
+    const uint32_t* neighbours = nullptr;  // of all vertices
+    const uint32_t* order = nullptr;       // [V] in which vertices are visited
+    const float* before = nullptr;         // [V][kSmoothedPlanes], nearer to integers than 1/2
+    float* after = nullptr;                // [V][kSmoothedPlanes]
+    float reach = 0.0f;                    // from these integers
+    std::array<int32_t, kSmoothedPlanes> active{};  // −1: the plane is smoothed, 0: it stays
+};
+
 struct VectorKernels {
     // to[j] = from[j]
     void (*widen)(Columns::Type type, const void* from, float* to, size_t count);
@@ -63,6 +81,8 @@ struct VectorKernels {
     void (*sum_narrow)(const RowBlock& block, float* sums);
     void (*sum_wide)(const RowBlock& block, float* sums);
     void (*sum_widest)(const RowBlock& block, float* sums);
+    // Vertices [begin, end) of the order of a round.
+    void (*smooth)(const SmoothingRound& round, size_t begin, size_t end);
 };
 
 // The kernels of a unit that the machine has. `plain` has none (checked).
@@ -70,5 +90,9 @@ const VectorKernels& vector_kernels(VectorUnit unit);
 
 Columns::Type type_of(const StoredValues& stored);
 const void* values_from(const StoredValues& stored, size_t first);
+
+// The components from number k on that can be added at once: all have one type. Values begin at
+// number `first` of theirs.
+Columns columns_from(std::span<const StoredValues> components, size_t k, size_t first);
 
 }  // namespace paim

@@ -52,6 +52,22 @@ TEST(FilePrefix, IsInspectedAtEveryLength) {
     EXPECT_EQ(loaded.bounds.upper, sequence_bounds(asset).upper);
 }
 
+TEST(FilePrefix, IsReadInPartsOfSomeBytes) {
+    FilePrefix prefix;
+    EXPECT_EQ(prefix.playable_bytes(0, 100), 0u);
+    prefix.prefixes = {{10, 0, 0}, {20, 1, 0}, {50, 1, 1}, {90, 2, 1}};
+    prefix.size_bytes = 60;  // 90 are not there
+    EXPECT_EQ(prefix.playable_bytes(), 50u);
+    EXPECT_EQ(prefix.playable_bytes(0, 1), 10u);  // the shortest has more
+    EXPECT_EQ(prefix.playable_bytes(0, 20), 20u);
+    EXPECT_EQ(prefix.playable_bytes(0, 49), 20u);
+    EXPECT_EQ(prefix.playable_bytes(20, 49), 50u);  // the next has more
+    EXPECT_EQ(prefix.playable_bytes(10, 1000), 50u);
+    EXPECT_EQ(prefix.playable_bytes(50, 1000), 50u);
+    prefix.size_bytes = 9;
+    EXPECT_EQ(prefix.playable_bytes(0, 100), 0u);
+}
+
 TEST(FilePrefix, TellsDamageFromWhatIsMissing) {
     const TemporaryDirectory directory;
     const auto path = directory / "a.paim";

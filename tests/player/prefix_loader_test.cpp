@@ -145,6 +145,64 @@ TEST_F(PrefixLoaderTest, SaysDamageOnceAndGoesOn) {
     expect_holds(*loaded, prefixes.back());
 }
 
+// Each part is a prefix, four times as long as the one before or the next longer one, and none is
+// read before it is asked for.
+TEST_F(PrefixLoaderTest, ReadsALargeFileInParts) {
+    file_.write_up_to(file_.bytes.size());
+    LoaderPace pace = kPace;
+    pace.first_bytes = file_.prefixes[1].size_bytes;
+    PrefixLoader loader(path_, pace);
+    expect_holds(loader.wait_for_first([] {}), file_.prefixes[1]);
+    EXPECT_EQ(loader.progress().size_bytes, file_.prefixes[1].size_bytes);
+    uint64_t read_bytes = file_.prefixes[1].size_bytes;
+    size_t num_parts = 1;
+    for (bool complete = false; !complete; ++num_parts) {
+        EXPECT_FALSE(loader.take());
+        loader.read_on();
+        const LoadedAsset loaded = loader.wait_for_first([] {});
+        complete = loaded.asset->complete;
+        const auto expected =
+            std::find_if(file_.prefixes.rbegin(), file_.prefixes.rend(),
+                         [&](const Prefix& prefix) { return prefix.size_bytes <= 4 * read_bytes; });
+        expect_holds(loaded, *expected);
+        read_bytes = expected->size_bytes;
+    }
+    EXPECT_GE(num_parts, 2u);
+    EXPECT_EQ(loader.take_error(), "");
+    loader.check();
+}
+
+// Nothing of a damaged part is shown, and the error is that of reading the whole file.
+TEST_F(PrefixLoaderTest, EndsWithTheErrorOfAWholeFile) {
+    file_.bytes.back() ^= 1;
+    file_.write_up_to(file_.bytes.size());
+    LoaderPace pace = kPace;
+    pace.first_bytes = 1;
+    pace.whole = true;
+    PrefixLoader loader(path_, pace);
+    LoadedAsset loaded = loader.wait_for_first([] {});
+    expect_holds(loaded, file_.prefixes[0]);
+    loader.check();
+    std::string error;
+    for (size_t j = 0; j < file_.prefixes.size() && error.empty(); ++j) {
+        loader.read_on();
+        try {
+            loaded = loader.wait_for_first([] {});
+            EXPECT_FALSE(loaded.asset->complete);
+        } catch (const Error& caught) {
+            error = caught.what();
+            EXPECT_EQ(caught.code(), ExitCode::bad_input);
+        }
+    }
+    try {
+        read_paim(path_);
+        ADD_FAILURE() << "the damage was not seen";
+    } catch (const Error& whole) {
+        EXPECT_EQ(error, whole.what());
+    }
+    EXPECT_THROW(loader.check(), Error);
+}
+
 TEST_F(PrefixLoaderTest, TakesAFileThatReplacesAnother) {
     file_.write_up_to(file_.prefixes[5].size_bytes);
     PrefixLoader loader(path_, kPace);

@@ -10,6 +10,7 @@
 
 #include "paim/base/file.h"
 #include "paim/image/exr.h"
+#include "player/prefix_loader.h"
 #include "tests/cli/run_tool.h"
 #include "tests/directory_watch.h"
 #include "tests/first_components.h"
@@ -166,6 +167,40 @@ TEST_F(PrefixPlayTest, WindowSharpensToTheWholeFilesPicture) {
     EXPECT_EQ(result.out, "");
     EXPECT_EQ(result.err,
               "paim-play: note: ball.paim: waiting for the first part that can be played\n");
+}
+
+// A window shows the first part of a large file before it has read the rest. Damage of the rest closes
+// it.
+TEST_F(PrefixPlayTest, WindowOfALargeFileClosesOnDamage) {
+    const XServer server(PAIM_XVFB);
+    TestAssetOptions options;
+    options.bands = 8;
+    options.num_rings = 70;
+    options.num_poses = 12;
+    options.transfer_components = 10;
+    write_paim(path_, make_test_asset(options));
+    ASSERT_GT(std::filesystem::file_size(path_), LoaderPace::kFirstBytes);
+    const auto play = [&](std::vector<std::string> more) {
+        std::vector<std::string> arguments{PAIM_PLAY, path_.string(), "--size", "60x40"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run_tool(arguments);
+    };
+    const ToolResult good = play({"--frames", "3"});
+    EXPECT_EQ(good.exit_code, 0) << good.err;
+    EXPECT_EQ(good.err, "");
+
+    std::vector<char> bytes = read_file(path_, uint64_t{1} << 30);
+    bytes.back() ^= 1;
+    write_file(path_, std::string_view(bytes.data(), bytes.size()));
+    const ToolResult damaged = play({});
+    EXPECT_EQ(damaged.exit_code, 2);
+    EXPECT_NE(damaged.err.find("damaged: the checksum does not match"), std::string::npos)
+        << damaged.err;
+
+    std::filesystem::resize_file(path_, LoaderPace::kFirstBytes + 1);
+    const ToolResult cut = play({});
+    EXPECT_EQ(cut.exit_code, 2);
+    EXPECT_NE(cut.err.find("the file is cut short"), std::string::npos) << cut.err;
 }
 
 }  // namespace

@@ -16,8 +16,6 @@ namespace paim {
 
 namespace {
 
-static_assert(BasisTable::kNarrow == kNarrowTile);
-
 float sum_plain(const BasisSum& combination, size_t v, size_t plane) {
     const BasisTable& table = combination.table;
     const float* row =
@@ -55,10 +53,10 @@ void store_planes(const float* sums, size_t count, size_t num_planes, size_t str
     }
 }
 
-// sums[v − first] = planes [plane, plane + W) of at most kVertices vertices; there may be fewer.
+// Planes [plane, plane + W) of at most kVertices vertices; there may be fewer planes.
 template <int W>
-void sum_tile(const BasisSum& combination, size_t first, size_t count, size_t plane,
-              void (*add_rows)(const RowBlock&, float*), const VectorKernels& use, float* sums) {
+void store_tile(const BasisSum& combination, size_t first, size_t count, size_t plane,
+                void (*add_rows)(const RowBlock&, float*), const VectorKernels& use, float* out) {
     const BasisTable& table = combination.table;
     RowBlock block;
     block.count = count;
@@ -69,6 +67,7 @@ void sum_tile(const BasisSum& combination, size_t first, size_t count, size_t pl
     for (size_t b = 0; b < count * sizeof(*cluster); b += kLineBytes) fetch_ahead(cluster, b);
     for (size_t v = 0; v < count; ++v) block.rows[v] = rows + cluster[v] * floats_per_cluster;
     const std::span<const StoredValues> coefficients = combination.coefficients;
+    std::array<float, kVertices * W> sums;
     size_t j = 0;
     do {
         block.first_row = 1 + j;
@@ -77,18 +76,11 @@ void sum_tile(const BasisSum& combination, size_t first, size_t count, size_t pl
             use.widen(type_of(coefficients[j]), values_from(coefficients[j], first),
                       block.coefficients[i].data(), count);
         }
-        add_rows(block, sums);
+        add_rows(block, sums.data());
     } while (j < coefficients.size());
-}
-
-template <int W>
-void store_tile(const BasisSum& combination, size_t first, size_t count, size_t plane,
-                void (*add_rows)(const RowBlock&, float*), const VectorKernels& use, float* out) {
-    std::array<float, kVertices * W> sums;
-    sum_tile<W>(combination, first, count, plane, add_rows, use, sums.data());
     const size_t num_vertices = combination.cluster.size();
-    store_planes<W>(sums.data(), count, std::min<size_t>(W, combination.table.num_planes - plane),
-                    num_vertices, out + plane * num_vertices + first);
+    store_planes<W>(sums.data(), count, std::min<size_t>(W, table.num_planes - plane), num_vertices,
+                    out + plane * num_vertices + first);
 }
 
 void check(const BasisSum& combination, size_t first, size_t count) {
@@ -114,17 +106,6 @@ void BasisTable::assign(std::span<const float> rows, std::span<const float> scal
         float* to = values.data() + r * padded_planes;
         for (size_t i = 0; i < num_planes; ++i) to[i] = scales[r] * rows[i * num_rows + r];
         std::fill(to + num_planes, to + padded_planes, 0.0f);
-    }
-}
-
-void BasisTable::assign(std::span<const Vec3f> rows) {
-    num_planes = 3;
-    padded_planes = kNarrowTile;
-    values.resize(rows.size() * kNarrowTile);
-    for (size_t r = 0; r < rows.size(); ++r) {
-        float* to = values.data() + r * kNarrowTile;
-        for (Eigen::Index i = 0; i < 3; ++i) to[i] = rows[r][i];
-        to[3] = 0.0f;
     }
 }
 
@@ -155,24 +136,6 @@ void weighted_sum(const BasisSum& combination, size_t first, size_t count, std::
         if (plane < table.padded_planes) {
             store_tile<kWideTile>(combination, v, some, plane, use.sum_wide, use, out.data());
         }
-    }
-}
-
-void weighted_sum_by_vertex(const BasisSum& combination, size_t first, size_t count,
-                            std::span<float> out, VectorUnit unit) {
-    check(combination, first, count);
-    PAIM_CHECK_EQ(combination.table.padded_planes, uint32_t{kNarrowTile});
-    PAIM_CHECK_EQ(out.size(), count * kNarrowTile);
-    if (unit == VectorUnit::plain) {
-        for (size_t j = 0; j < out.size(); ++j) {
-            out[j] = sum_plain(combination, first + j / kNarrowTile, j % kNarrowTile);
-        }
-        return;
-    }
-    const VectorKernels& use = vector_kernels(unit);
-    for (size_t v = 0; v < count; v += kVertices) {
-        sum_tile<kNarrowTile>(combination, first + v, std::min(kVertices, count - v), 0,
-                              use.sum_narrow, use, out.data() + v * kNarrowTile);
     }
 }
 

@@ -4,37 +4,18 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <new>
 #include <span>
 #include <vector>
 
-#include "paim/base/vector.h"
+#include "paim/base/line_allocator.h"
 #include "paim/codec/cpca/vertex_clusters.h"
 #include "paim/codec/stored_values.h"
 #include "paim/codec/vector_unit.h"
 
 namespace paim {
 
-// Allocates memory that starts at a cache line.
-template <typename T>
-struct LineAllocator {
-    using value_type = T;
-    static constexpr std::align_val_t kLine{64};
-
-    LineAllocator() = default;
-    template <typename Other>
-    LineAllocator(const LineAllocator<Other>&) {}
-
-    T* allocate(size_t count) { return static_cast<T*>(::operator new(count * sizeof(T), kLine)); }
-    void deallocate(T* values, size_t) { ::operator delete(values, kLine); }
-
-    bool operator==(const LineAllocator&) const { return true; }
-};
-
 // Bases of clusters as weighted_sum() reads them: rows of padded planes.
 struct BasisTable {
-    static constexpr size_t kNarrow = 4;  // padded planes of a table with few planes
-
     uint32_t num_planes = 0;
     uint32_t padded_planes = 0;
     // [rows][padded planes], from the start of a cache line: vectors that straddle two lines cost
@@ -45,8 +26,6 @@ struct BasisTable {
     // rows    [planes][R]
     // scales  [R]
     void assign(std::span<const float> rows, std::span<const float> scales);
-    // Sets the table to rows of three planes.
-    void assign(std::span<const Vec3f> rows);
 };
 
 // The rows and coefficients that vertices are sums of.
@@ -63,11 +42,6 @@ struct BasisSum {
 // where row(v, j) is row cluster[v] · rows_per_cluster + j of the table.
 void weighted_sum(const BasisSum& combination, size_t first, size_t count, std::span<float> out,
                   VectorUnit unit = best_vector_unit());
-
-// Writes the same values of a table of at most BasisTable::kNarrow planes (checked), vertex by
-// vertex, to out[(v − first) · kNarrow + plane]. Values beyond the planes are zero.
-void weighted_sum_by_vertex(const BasisSum& combination, size_t first, size_t count,
-                            std::span<float> out, VectorUnit unit = best_vector_unit());
 
 // The values of all vertices in every plane of the table, with the first num_components components
 // of each cluster, on all threads.

@@ -128,33 +128,8 @@ void CpcaPlayer::basis_radiance(double time, const DecodeLimits& limits,
 void CpcaPlayer::light(double time, const DecodeLimits& limits, const LightCoefficients& light,
                        const Albedo& albedo, std::vector<Vec3f>& radiance) {
     basis_radiance(time, limits, light, radiance_);
-    shade_clusters(transfer_.clusters, radiance_, limits.vertex_components, albedo, radiance);
-}
-
-void shade_clusters(const VertexClusters& clusters, std::span<const Vec3f> basis_radiance,
-                    uint32_t num_components, const Albedo& albedo, std::vector<Vec3f>& radiance) {
-    PAIM_CHECK_EQ(basis_radiance.size(), size_t{clusters.num_rows()});
-    const uint32_t used = std::min(num_components, clusters.num_components);
-    BasisTable table;
-    table.assign(basis_radiance);
-    const BasisSum combination{table, clusters.cluster,
-                               std::span(clusters.coefficients).first(used),
-                               clusters.rows_per_cluster()};
-    radiance.resize(clusters.cluster.size());
-    constexpr size_t kVerticesATask = 4096;
-    parallel_for(radiance.size(), kVerticesATask, [&](size_t begin, size_t end) {
-        constexpr size_t kVerticesATime = 128;  // their sums stay in the first-level cache
-        std::array<float, kVerticesATime * BasisTable::kNarrow> sums;
-        for (size_t first = begin; first < end; first += kVerticesATime) {
-            const size_t count = std::min(kVerticesATime, end - first);
-            weighted_sum_by_vertex(combination, first, count,
-                                   std::span(sums).first(count * BasisTable::kNarrow));
-            for (size_t j = 0; j < count; ++j) {
-                const Eigen::Map<const Vec3f> sum(sums.data() + j * BasisTable::kNarrow);
-                radiance[first + j] = sum.cwiseProduct(albedo.at(static_cast<uint32_t>(first + j)));
-            }
-        }
-    });
+    if (!shading_) shading_.emplace(transfer_.clusters);
+    shading_->shade(radiance_, limits.vertex_components, albedo, radiance);
 }
 
 }  // namespace paim

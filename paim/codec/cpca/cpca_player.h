@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "paim/codec/cpca/basis_table.h"
+#include "paim/codec/cpca/cluster_shading.h"
 #include "paim/codec/cpca/cpca_transfer.h"
 #include "paim/codec/rebuild_planes.h"
 #include "paim/codec/transfer_player.h"
@@ -49,15 +50,7 @@ class CpcaPlayer : public TransferPlayer {
     DecodeLimits limits_;
     std::vector<float> pose_rows_;
     std::vector<Vec3f> radiance_;
+    std::optional<ClusterShading> shading_;  // made when vertices are first lit
 };
-
-// radiance(v) = albedo(v) · (b(c, 0) + Σ_j coefficients[j][v] · b(c, 1 + j)), c being the vertex's
-// cluster and b(c, i) the radiance of row i of its basis. It equals decoding and shading up to
-// rounding.
-// basis_radiance  [rows], of CpcaPlayer::basis_radiance()
-// num_components  of clusters, in use
-// radiance        [V] linear RGB
-void shade_clusters(const VertexClusters& clusters, std::span<const Vec3f> basis_radiance,
-                    uint32_t num_components, const Albedo& albedo, std::vector<Vec3f>& radiance);
 
 }  // namespace paim

@@ -62,4 +62,13 @@ size_t MemorySource::read(uint64_t offset, std::span<uint8_t> out) const {
     return count;
 }
 
+uint64_t FirstBytes::size_bytes() const {
+    return std::min(source_->size_bytes(), most_bytes_);
+}
+
+size_t FirstBytes::read(uint64_t offset, std::span<uint8_t> out) const {
+    if (offset >= most_bytes_) return 0;
+    return source_->read(offset, out.first(std::min<uint64_t>(out.size(), most_bytes_ - offset)));
+}
+
 }  // namespace paim

@@ -4,7 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
+#include <utility>
 
 namespace paim {
 
@@ -51,6 +53,20 @@ class MemorySource : public ByteSource {
 
   private:
     std::span<const uint8_t> bytes_;
+};
+
+// The first bytes of another source, as if it ended after them.
+class FirstBytes : public ByteSource {
+  public:
+    FirstBytes(std::shared_ptr<const ByteSource> source, uint64_t most_bytes)
+        : source_(std::move(source)), most_bytes_(most_bytes) {}
+
+    uint64_t size_bytes() const override;
+    size_t read(uint64_t offset, std::span<uint8_t> out) const override;
+
+  private:
+    std::shared_ptr<const ByteSource> source_;
+    uint64_t most_bytes_;
 };
 
 }  // namespace paim

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <span>
 #include <string>
 
@@ -15,6 +16,9 @@ struct ReadOptions {
     // Whether to read a prefix of a file, such as the part that has been loaded so far. The asset
     // then has the components that the prefix holds (Asset::complete, format/paim/prefixes.h).
     bool prefix = false;
+    // Bytes to read at most: the source is taken to end there. Nothing is said of what comes after
+    // them, not even where that is damaged.
+    uint64_t most_bytes = std::numeric_limits<uint64_t>::max();
 };
 
 // Reads a .paim. Errors (bad input, unsupported) name the file and what is wrong. Indices, shapes

@@ -148,8 +148,10 @@ void read_indices(const Metadata& metadata, Attribute attribute, uint32_t num_co
     if (!matrix.singular_indices.empty()) matrix.singular_indices.resize(matrix.num_components);
 }
 
-Extent extent_of(const ReadOptions& options) {
-    return options.prefix ? Extent::prefix : Extent::whole;
+ContainerReader open(std::shared_ptr<const ByteSource> source, const std::string& name,
+                     const ReadOptions& options) {
+    return {std::make_shared<FirstBytes>(std::move(source), options.most_bytes), name,
+            section::kKindAnimation, options.prefix ? Extent::prefix : Extent::whole};
 }
 
 Asset read_asset(const ContainerReader& reader) {
@@ -188,13 +190,12 @@ Asset read_paim(const std::filesystem::path& path, const ReadOptions& options) {
             "{}: is a directory, expected a .paim file (paim-compress encode makes one of a .bake)",
             path.string());
     }
-    return read_asset(ContainerReader(path, section::kKindAnimation, extent_of(options)));
+    return read_asset(open(std::make_shared<FileSource>(path), path.string(), options));
 }
 
 Asset read_paim(std::span<const uint8_t> bytes, const std::string& name,
                 const ReadOptions& options) {
-    return read_asset(ContainerReader(std::make_shared<MemorySource>(bytes), name,
-                                      section::kKindAnimation, extent_of(options)));
+    return read_asset(open(std::make_shared<MemorySource>(bytes), name, options));
 }
 
 }  // namespace paim

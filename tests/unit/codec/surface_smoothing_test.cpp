@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "paim/base/seed.h"
 #include "tests/grid_surface.h"
 
 namespace paim {
@@ -86,6 +87,55 @@ TEST(SmoothStored, NeverLeavesTheIntegersThatWereStored) {
         matrix.smoothing = {8};
         smooth_stored(matrix, make_grid(kWidth));
         EXPECT_EQ(stored_integers(matrix.mean, bits), StoredValues(integers)) << bits;
+    }
+}
+
+// Planes of all numbers of rounds, more than are smoothed at once, of both types, over vertices of
+// few, many and no neighbours.
+LowRank many_planes(const Topology& mesh, uint32_t fraction_bits) {
+    LowRank matrix;
+    matrix.num_points = mesh.num_vertices;
+    matrix.num_planes = 3;
+    matrix.num_poses = 1;
+    matrix.num_components = 15;
+    matrix.steps.assign(matrix.num_planes, 1.0f);
+    matrix.fraction_bits = fraction_bits;
+    RandomStream random(7);
+    const auto fill = [&]<typename Integer>(std::vector<Integer> values, double limit) {
+        for (Integer& value : values) {
+            value = static_cast<Integer>(std::lround(limit * (2.0 * random.uniform() - 1.0)));
+        }
+        return StoredValues(std::move(values));
+    };
+    const double limit = std::floor(32767.0 / (1 << fraction_bits)) - 1.0;
+    matrix.mean = fill(std::vector<int16_t>(matrix.num_rows()), limit);
+    for (uint32_t k = 0; k < matrix.num_components; ++k) {
+        // Values of a few steps are moved the farthest; those of most steps are always held back.
+        matrix.components.push_back(k % 3 == 0
+                                        ? fill(std::vector<int16_t>(matrix.num_rows()), limit)
+                                        : fill(std::vector<int8_t>(matrix.num_rows()), 2.0));
+    }
+    for (uint32_t j = 0; j < 3 * (1 + matrix.num_components); ++j) {
+        matrix.smoothing.push_back(j % (kMaxSmoothingRounds + 1));
+    }
+    return matrix;
+}
+
+TEST(SmoothStored, GivesTheSameBytesOnEveryVectorUnit) {
+    Topology mesh = make_grid(50);
+    for (uint32_t v = 1; v + 1 < mesh.num_vertices; v += 7) {
+        mesh.triangles.push_back({0, v, v + 1});  // many neighbours
+    }
+    mesh.num_vertices += 3;  // without any
+    const SurfaceSmoother smoother(mesh);
+    for (const uint32_t bits : {2u, 4u}) {
+        LowRank expected = many_planes(mesh, bits);
+        smooth_stored(expected, smoother, VectorUnit::plain);
+        for (const VectorUnit unit : vector_units()) {
+            LowRank matrix = many_planes(mesh, bits);
+            smooth_stored(matrix, smoother, unit);
+            EXPECT_TRUE(matrix == expected) << static_cast<int>(unit) << ", " << bits;
+        }
     }
 }
 

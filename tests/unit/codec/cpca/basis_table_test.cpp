@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <string>
 #include <vector>
 
@@ -103,55 +102,6 @@ TEST(Combine, GivesTheSameBytesOnEveryVectorUnit) {
     }
 }
 
-// Every vertex's planes together are the planes' values, bit for bit, and zero beyond them.
-TEST(Combine, ByVertexGivesTheSameBytes) {
-    for (const uint32_t num_planes : {1u, 3u, 4u}) {
-        for (const uint32_t num_vertices : {1u, 3u, 5u, 64u, 203u}) {
-            const Clustered c = random_clustered(num_vertices, num_planes, 18);
-            BasisTable table;
-            table.assign(c.rows, c.scales);
-            for (const size_t used : {0u, 1u, 7u, 8u, 9u, 18u}) {
-                const BasisSum combination{table, c.cluster, std::span(c.coefficients).first(used),
-                                           19};
-                std::vector<float> planes(size_t{num_planes} * num_vertices);
-                weighted_sum(combination, 0, num_vertices, planes, VectorUnit::plain);
-                const size_t first = num_vertices / 3, count = num_vertices - first;
-                std::vector<float> expected(count * BasisTable::kNarrow);
-                for (size_t j = 0; j < count; ++j) {
-                    for (size_t i = 0; i < num_planes; ++i) {
-                        expected[j * BasisTable::kNarrow + i] =
-                            planes[i * num_vertices + first + j];
-                    }
-                }
-                for (const VectorUnit unit : vector_units()) {
-                    std::vector<float> out(expected.size() + 1, 9.0f);
-                    weighted_sum_by_vertex(combination, first, count,
-                                           std::span(out).first(expected.size()), unit);
-                    EXPECT_EQ(out.back(), 9.0f);
-                    out.pop_back();
-                    // Signs of zeros aside, which padding may have of either kind.
-                    ASSERT_EQ(out, expected)
-                        << num_planes << " planes, " << num_vertices << " vertices, " << used
-                        << " components, unit " << static_cast<int>(unit);
-                    for (size_t j = 0; j < out.size(); ++j) {
-                        if (j % BasisTable::kNarrow >= num_planes) continue;
-                        EXPECT_EQ(std::bit_cast<uint32_t>(out[j]),
-                                  std::bit_cast<uint32_t>(expected[j]));
-                    }
-                }
-            }
-        }
-    }
-}
-
-TEST(BasisTable, TakesRowsOfThreePlanes) {
-    BasisTable table;
-    table.assign(std::vector<Vec3f>{Vec3f(1, 2, 3), Vec3f(4, 5, 6)});
-    EXPECT_EQ(table.num_planes, 3u);
-    EXPECT_EQ(table.padded_planes, 4u);
-    EXPECT_EQ(values(table), (std::vector<float>{1, 2, 3, 0, 4, 5, 6, 0}));
-}
-
 TEST(Combine, WritesNothingElse) {
     const Clustered c = random_clustered(203, 5, 2);
     BasisTable table;
@@ -176,14 +126,6 @@ TEST(CombineDeath, RefusesWhatDoesNotFit) {
     EXPECT_DEATH(weighted_sum({table, c.cluster, c.coefficients, 3}, 1, 10, out), "check failed");
     EXPECT_DEATH(
         weighted_sum({table, c.cluster, c.coefficients, 3}, 0, 10, std::span(out).first(19)),
-        "check failed");
-    std::vector<float> by_vertex(40);
-    EXPECT_DEATH(weighted_sum_by_vertex({table, c.cluster, c.coefficients, 3}, 0, 9, by_vertex),
-                 "check failed");
-    const Clustered wide = random_clustered(10, 5, 2);
-    table.assign(wide.rows, wide.scales);
-    EXPECT_DEATH(
-        weighted_sum_by_vertex({table, wide.cluster, wide.coefficients, 3}, 0, 10, by_vertex),
         "check failed");
 }
 

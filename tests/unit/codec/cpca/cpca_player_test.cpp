@@ -103,9 +103,10 @@ TEST(CpcaPlayer, ShadesAMeanAndItsComponent) {
     CpcaPlayer(transfer, {TransferKind::diffuse, 1, 1})
         .basis_radiance(0.0, {}, {1, {Vec3f(5, 10, 20)}}, products);
     EXPECT_EQ(products, (std::vector<Vec3f>{Vec3f(10, 20, 40), Vec3f(15, 30, 60)}));
-    shade_clusters(transfer.clusters, products, 1, {{Vec3f(1, 1, 0.5f)}}, radiance);
+    const ClusterShading shading(transfer.clusters);
+    shading.shade(products, 1, {{Vec3f(1, 1, 0.5f)}}, radiance);
     EXPECT_EQ(radiance, (std::vector<Vec3f>{Vec3f(-50, -100, -100), Vec3f(25, 50, 50)}));
-    shade_clusters(transfer.clusters, products, 0, {{Vec3f(1, 1, 1), Vec3f(0, 0, 1)}}, radiance);
+    shading.shade(products, 0, {{Vec3f(1, 1, 1), Vec3f(0, 0, 1)}}, radiance);
     EXPECT_EQ(radiance, (std::vector<Vec3f>{Vec3f(10, 20, 40), Vec3f(0, 0, 40)}));
 }
 
@@ -162,7 +163,7 @@ TEST(CpcaPlayer, EqualsDecodingAndShading) {
             mesh.albedo.values[7] = Vec3f(1, 0, 0);
             MeshDecoder decoder(mesh);
             CpcaPlayer player(cpca_of(mesh), mesh.layout);
-            std::vector<Vec3f> products, radiance, expected;
+            std::vector<Vec3f> radiance, expected;
             DecodedPose pose;
             for (const DecodeLimits limits :
                  {DecodeLimits{}, DecodeLimits{.transfer_components = 1, .bands = 1},
@@ -171,9 +172,7 @@ TEST(CpcaPlayer, EqualsDecodingAndShading) {
                     const LightCoefficients light = make_light(light_bands);
                     decoder.decode(1.6, limits, pose);
                     shade(pose.layout, pose.transfer, mesh.albedo, light, expected);
-                    player.basis_radiance(1.6, limits, light, products);
-                    shade_clusters(cpca_of(mesh).clusters, products, limits.vertex_components,
-                                   mesh.albedo, radiance);
+                    player.light(1.6, limits, light, mesh.albedo, radiance);
                     ASSERT_EQ(radiance.size(), expected.size());
                     float largest = 0.0f, off = 0.0f;
                     for (size_t v = 0; v < expected.size(); ++v) {
@@ -191,18 +190,17 @@ TEST(CpcaPlayer, EqualsDecodingAndShading) {
 
 TEST(CpcaPlayer, GivesTheSameBytesInAnyOrderOfFrames) {
     const CodedMesh mesh = make_large(3, true);
-    const VertexClusters& clusters = cpca_of(mesh).clusters;
     const LightCoefficients light = make_light(2);
     CpcaPlayer reused(cpca_of(mesh), mesh.layout);
     std::vector<Vec3f> products, radiance, again;
-    reused.basis_radiance(3.5, {.vertex_components = 1}, make_light(1), products);
+    reused.light(3.5, {.vertex_components = 1}, make_light(1), mesh.albedo, radiance);
     for (const double time : {4.0, 0.0, 2.25}) {
         reused.basis_radiance(time, {}, light, products);
-        shade_clusters(clusters, products, 3, mesh.albedo, radiance);
+        reused.light(time, {}, light, mesh.albedo, radiance);
         std::vector<Vec3f> fresh;
         CpcaPlayer(cpca_of(mesh), mesh.layout).basis_radiance(time, {}, light, fresh);
         EXPECT_EQ(products, fresh);
-        shade_clusters(clusters, fresh, 3, mesh.albedo, again);
+        CpcaPlayer(cpca_of(mesh), mesh.layout).light(time, {}, light, mesh.albedo, again);
         EXPECT_EQ(radiance, again);
     }
 }

@@ -104,6 +104,19 @@ void mend(Bytes& bytes) {
     std::memcpy(bytes.data(), &header, sizeof(header));
 }
 
+TEST(ByteSource, FirstBytesEndEarly) {
+    const Bytes bytes{1, 2, 3, 4, 5};
+    const auto memory = std::make_shared<MemorySource>(bytes);
+    const FirstBytes source(memory, 3);
+    EXPECT_EQ(source.size_bytes(), 3u);
+    Bytes out(4, 9);
+    EXPECT_EQ(source.read(1, out), 2u);
+    EXPECT_EQ(out, (Bytes{2, 3, 9, 9}));
+    EXPECT_EQ(source.read(3, out), 0u);
+    EXPECT_EQ(FirstBytes(memory, 8).size_bytes(), 5u);
+    EXPECT_EQ(FirstBytes(memory, 8).read(4, out), 1u);
+}
+
 TEST(ByteSource, MemoryEndsWhereItEnds) {
     const Bytes bytes{1, 2, 3, 4, 5};
     const MemorySource source(bytes);

@@ -187,6 +187,37 @@ TEST(Prefix, EveryCutIsTheWholeWithFewerComponentsOrAClearError) {
     }
 }
 
+// Reading the first bytes of a file is reading a file that was cut there, and what comes after them
+// may be damaged.
+TEST(Prefix, TheFirstBytesOfAFileReadLikeACutFile) {
+    const TemporaryDirectory directory;
+    const auto path = directory / "x.paim", cut = directory / "cut.paim";
+    for (const auto& [name, asset] : example_assets()) {
+        SCOPED_TRACE(name);
+        write_paim(path, asset);
+        const std::vector<Prefix> prefixes = read_prefixes(path);
+        const Bytes good = read_file(path, 1 << 20);
+        for (const Prefix& prefix : prefixes) {
+            Bytes bytes = good;
+            for (size_t j = prefix.size_bytes; j < bytes.size(); ++j) bytes[j] ^= 1;
+            write_file(path, std::string_view(bytes.data(), bytes.size()));
+            write_file(cut, std::string_view(bytes.data(), prefix.size_bytes));
+            const ReadOptions first{.prefix = true, .most_bytes = prefix.size_bytes};
+            const Asset read = read_paim(path, first);
+            EXPECT_EQ(read.complete, prefix == prefixes.back());
+            EXPECT_EQ(read.moving().positions.num_components, prefix.geometry_components);
+            EXPECT_EQ(read.moving().transfer->matrix.num_components, prefix.transfer_components);
+            expect_equal(read, read_paim(cut, kPrefix));
+            if (!read.complete) {
+                expect_contains(complaint(path, kPrefix), "damaged");
+                expect_contains(complaint(path, {.most_bytes = prefix.size_bytes}), "cut short");
+            }
+        }
+        expect_contains(complaint(path, {.prefix = true, .most_bytes = prefixes[0].size_bytes - 1}),
+                        "that can be played");
+    }
+}
+
 TEST(Prefix, WholeFilesReadAsPrefixesAreComplete) {
     const TemporaryDirectory directory;
     for (const auto& [name, asset] : example_assets()) {
