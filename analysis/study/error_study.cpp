@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -12,7 +13,6 @@
 #include "compressor/encode/search/target_encode.h"
 #include "compressor/encode/search/transfer_encoder.h"
 #include "paim/base/error.h"
-#include "paim/base/file.h"
 #include "paim/cli/parse.h"
 #include "paim/cli/run_main.h"
 #include "paim/format/paim/paim_read.h"

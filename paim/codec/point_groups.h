@@ -13,10 +13,8 @@ namespace paim {
 struct PointGroups {
     uint32_t num_groups = 0;
     std::vector<uint32_t> group;  // [V]
-    Eigen::MatrixXf factors;      // [V][R]
+    Eigen::MatrixXf factors;      // [V][R] finite
     bool is_affine = false;       // whether the first factor is the same for all of a group
-
-    uint32_t num_points_each() const { return static_cast<uint32_t>(factors.cols()); }  // R
 };
 
 }  // namespace paim

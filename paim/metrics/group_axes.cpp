@@ -1,7 +1,8 @@
 // Orthonormal axes of the vertices that share points.
-// Based on: Parlett, The Symmetric Eigenvalue Problem, 1980 (Gram and Schmidt, twice is enough)
+// Based on: Vandereycken 2013 (see the header); Parlett, The Symmetric Eigenvalue Problem, 1980 (Gram and Schmidt, twice is enough)
 #include "paim/metrics/group_axes.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "paim/base/check.h"
@@ -50,19 +51,25 @@ GroupAxes::GroupAxes(const PointGroups& groups)
     for (uint32_t v = 0; v < groups.group.size(); ++v) members_[next[groups.group[v]]++] = v;
     factors_ = groups.factors(members_, Eigen::all).transpose();
     vertex_axes_.resize(factors_.rows(), factors_.cols());
+    gram_.resize(groups.num_groups);
     parallel_for(num_groups(), 1, [&](size_t j, size_t) {
         const auto g = static_cast<uint32_t>(j);
         const Index size = begin(g + 1) - begin(g);
+        auto axes = vertex_axes_.middleCols(begin(g), size);
+        if (!has_point_axes(g)) {
+            axes.setIdentity();
+            return;
+        }
         const MatrixXd factors = factors_.middleCols(begin(g), size).cast<double>();
-        vertex_axes_.middleCols(begin(g), size) =
-            (orthonormal_combinations(factors * factors.transpose()) * factors).cast<float>();
+        axes = (orthonormal_combinations(factors * factors.transpose()) * factors).cast<float>();
+        gram_[g].setZero(num_points_each_, num_points_each_);
     });
-    gram_.assign(groups.num_groups, MatrixXd::Zero(num_points_each_, num_points_each_));
 }
 
 void GroupAxes::add_points(const MatrixXf& points, double weight) {
     PAIM_CHECK_EQ(points.cols(), static_cast<Index>(gram_.size()) * num_points_each_);
-    parallel_for(gram_.size(), 1, [&](size_t g, size_t) {
+    parallel_for(num_groups(), 1, [&](size_t g, size_t) {
+        if (gram_[g].size() == 0) return;
         const MatrixXd of_group =
             points.middleCols(static_cast<Index>(g) * num_points_each_, num_points_each_)
                 .cast<double>();
@@ -72,25 +79,32 @@ void GroupAxes::add_points(const MatrixXf& points, double weight) {
 
 void GroupAxes::orthonormalise_points() {
     combinations_.resize(gram_.size());
-    parallel_for(gram_.size(), 1, [&](size_t g, size_t) {
+    parallel_for(num_groups(), 1, [&](size_t g, size_t) {
+        if (gram_[g].size() == 0) return;
         combinations_[g] = orthonormal_combinations(
             gram_[g].bottomRightCorner(num_point_axes(), num_point_axes()));
     });
 }
 
 MatrixXf GroupAxes::point_axes(uint32_t g, const MatrixXf& points) const {
+    PAIM_CHECK(has_point_axes(g));
     return points.middleCols(Index{g} * num_points_each_ + first_free_, num_point_axes()) *
            combinations_[g].transpose().cast<float>();
 }
 
 MatrixXf GroupAxes::decoded_coordinates(uint32_t g) const {
+    PAIM_CHECK(has_point_axes(g));
     const MatrixXd of_points = combinations_[g] * gram_[g].bottomRows(num_point_axes());
     return of_points.cast<float>() * factors_.middleCols(begin(g), begin(g + 1) - begin(g));
 }
 
 uint64_t GroupAxes::bytes(uint64_t num_vertices, uint64_t num_groups, uint64_t num_points_each) {
-    return num_vertices * (2 * num_points_each * sizeof(float) + sizeof(uint32_t)) +
-           num_groups * 2 * num_points_each * num_points_each * sizeof(double);
+    // Factors and axes; factors and axes of a group as doubles while these are made, which is all of
+    // them if there is one group. Only groups of more than R vertices have products.
+    const uint64_t values = num_vertices * num_points_each;
+    const uint64_t num_products = std::min(num_groups, num_vertices / num_points_each);
+    return num_vertices * sizeof(uint32_t) + 2 * values * (sizeof(float) + sizeof(double)) +
+           2 * num_products * num_points_each * num_points_each * sizeof(double);
 }
 
 }  // namespace paim

@@ -1,4 +1,6 @@
 // Orthonormal axes of the vertices that share points (codec/point_groups.h).
+// Based on: Vandereycken, Low-Rank Matrix Completion by Riemannian Optimization, 2013 (tangent space
+//           of matrices of fixed rank)
 #pragma once
 
 #include <Eigen/Core>
@@ -11,10 +13,11 @@
 
 namespace paim {
 
-// The values of a group are a matrix, a row a vertex. A codec that fits it by points can change it in
-// two ways to first order. If points move, columns change along the axes of the vertices, which are
-// the group's factors made orthonormal. If the factors of a vertex move, its row changes along the
-// axes of the points, which are the group's points made orthonormal.
+// The values of a group are a matrix of low rank: a row a vertex, a column a value. To first order, a
+// fit of it can change in two ways: points move, or factors do. Changes by points lie in the column
+// space of the matrix, which the *vertex axes* span: the factors made orthonormal. Changes by factors
+// lie in its row space, which the *point axes* span: the points made orthonormal. Together these are
+// the tangent space.
 class GroupAxes {
   public:
     explicit GroupAxes(const PointGroups& groups);
@@ -38,27 +41,33 @@ class GroupAxes {
     }
     Eigen::Index begin(uint32_t g) const { return static_cast<Eigen::Index>(begin_[g]); }
 
-    // [R][V_g] A column a member. Rows are orthonormal, or zero if factors depend on those before.
+    // Whether a group has point axes. One of at most R vertices has none, because its vertex axes
+    // span all that its vertices can do.
+    bool has_point_axes(uint32_t g) const { return begin(g + 1) - begin(g) > num_points_each_; }
+
+    // [R][V_g] A column a member. Rows are orthonormal, or zero: those of factors that depend on
+    // those before, and those beyond V_g.
     auto vertex_axes(uint32_t g) const {
         return vertex_axes_.middleCols(begin(g), begin(g + 1) - begin(g));
     }
-    // [K'][R'] Those of a plane of the points. Over all planes, with their weights, they are
-    // orthonormal, or zero if points depend on those before.
+    // [K'][R'] In a plane of the points, of a group that has point axes (checked). Over all planes,
+    // with their weights, they are orthonormal, or zero if points depend on those before.
     Eigen::MatrixXf point_axes(uint32_t g, const Eigen::MatrixXf& points) const;
-    // [R'][V_g] Coordinates of the decoded members along the axes of the points.
+    // [R'][V_g] Coordinates of the decoded members along the point axes.
     Eigen::MatrixXf decoded_coordinates(uint32_t g) const;
 
-    // Memory for R points of each of G groups.
+    // Memory for groups of R points, with that of the constructor.
     static uint64_t bytes(uint64_t num_vertices, uint64_t num_groups, uint64_t num_points_each);
 
   private:
     Eigen::Index num_points_each_, first_free_;
-    std::vector<size_t> begin_;                  // [G + 1]
-    std::vector<uint32_t> members_;              // [V]
-    Eigen::MatrixXf factors_;                    // [R][V] of the members
-    Eigen::MatrixXf vertex_axes_;                // [R][V]
-    std::vector<Eigen::MatrixXd> gram_;          // [G] of [R][R], the products of the points
-    std::vector<Eigen::MatrixXd> combinations_;  // [G] of [R'][R'], points to their axes
+    std::vector<size_t> begin_;      // [G + 1]
+    std::vector<uint32_t> members_;  // [V]
+    Eigen::MatrixXf factors_;        // [R][V] of the members
+    Eigen::MatrixXf vertex_axes_;    // [R][V]
+    // [G], empty for groups without point axes.
+    std::vector<Eigen::MatrixXd> gram_;          // [R][R] products of the points
+    std::vector<Eigen::MatrixXd> combinations_;  // [R'][R'] points to their axes
 };
 
 }  // namespace paim

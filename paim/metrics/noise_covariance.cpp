@@ -17,8 +17,10 @@ using Eigen::MatrixXf;
 namespace {
 
 constexpr Index kColumnsAtOnce = 1024;
+// Fixed, so that sums do not depend on how a processor's caches are used.
+constexpr size_t kMembersAtOnce = 64;
 
-// The columns of the members, [K'][V_g].
+// The columns of the members, [K'][members].
 MatrixXf gather(const MatrixXf& vertices, std::span<const uint32_t> members) {
     MatrixXf values(vertices.rows(), static_cast<Index>(members.size()));
     for (size_t j = 0; j < members.size(); ++j) {
@@ -27,7 +29,16 @@ MatrixXf gather(const MatrixXf& vertices, std::span<const uint32_t> members) {
     return values;
 }
 
-// Calls body(first, count) for runs of `size` columns, in parallel.
+// Calls body(first, members) for runs of the members of a group.
+template <typename Body>
+void for_each_run_of_members(std::span<const uint32_t> members, const Body& body) {
+    for (size_t first = 0; first < members.size(); first += kMembersAtOnce) {
+        body(static_cast<Index>(first),
+             members.subspan(first, std::min(kMembersAtOnce, members.size() - first)));
+    }
+}
+
+// Calls body(run, first, count) for runs of `size` columns, in parallel.
 template <typename Body>
 void for_each_run(Index size, const Body& body) {
     const auto num_runs = static_cast<size_t>((size + kColumnsAtOnce - 1) / kColumnsAtOnce);
@@ -52,6 +63,7 @@ NoiseCovariance::NoiseCovariance(const TransferLayout& layout, uint32_t num_vert
     if (points_) {
         PAIM_CHECK_EQ(points_->groups.group.size(), size_t{num_vertices});
         axes_.emplace(points_->groups);
+        points_->groups = {};
         for (uint32_t plane = 0; plane < layout.num_planes(); ++plane) {
             const auto along = points_along_span(plane);
             if (along) axes_->add_points(*along, spectrum.weight(layout.input_band(plane)));
@@ -82,14 +94,17 @@ std::optional<MatrixXf> NoiseCovariance::points_along_span(uint32_t plane) const
     return along;
 }
 
-// [K'][rows]
 MatrixXf NoiseCovariance::rows_of(const MatrixXf& vertices) const {
     const Index size = axes_->num_vertex_axes();
-    MatrixXf rows(vertices.rows(), Index{axes_->num_groups()} * size);
+    MatrixXf rows = MatrixXf::Zero(vertices.rows(), Index{axes_->num_groups()} * size);
     parallel_for(axes_->num_groups(), 1, [&](size_t j, size_t) {
         const auto g = static_cast<uint32_t>(j);
-        rows.middleCols(Index{g} * size, size).noalias() =
-            gather(vertices, axes_->members(g)) * axes_->vertex_axes(g).transpose();
+        auto of_group = rows.middleCols(Index{g} * size, size);
+        for_each_run_of_members(axes_->members(g), [&](Index first, auto members) {
+            const auto axes =
+                axes_->vertex_axes(g).middleCols(first, static_cast<Index>(members.size()));
+            of_group.noalias() += gather(vertices, members) * axes.transpose();
+        });
     });
     return rows;
 }
@@ -99,9 +114,10 @@ void NoiseCovariance::survey(uint32_t plane, const Plane& baked, const Plane& no
     is_surveyed_ = true;
     find_along_span(baked, baked_along_);
     find_along_span(noise, noise_along_);
-    const auto add_squares = [](MatrixXf& sums, const MatrixXf& rows) {
+    const auto add_squares = [](MatrixXd& sums, const MatrixXf& rows) {
         for_each_run(rows.cols(), [&](size_t, Index first, Index count) {
-            sums.middleCols(first, count) += rows.middleCols(first, count).cwiseAbs2();
+            sums.middleCols(first, count) +=
+                rows.middleCols(first, count).cast<double>().cwiseAbs2();
         });
     };
     if (!axes_) {
@@ -119,14 +135,16 @@ void NoiseCovariance::survey(uint32_t plane, const Plane& baked, const Plane& no
 void NoiseCovariance::survey_points(const MatrixXf& points, double weight) {
     parallel_for(axes_->num_groups(), 1, [&](size_t j, size_t) {
         const auto g = static_cast<uint32_t>(j);
-        const auto members = axes_->members(g);
+        if (!axes_->has_point_axes(g)) return;
         const MatrixXf axes = static_cast<float>(weight) * axes_->point_axes(g, points);
-        const auto add = [&](MatrixXf& coordinates, const MatrixXf& values) {
-            coordinates.middleCols(axes_->begin(g), static_cast<Index>(members.size())).noalias() +=
-                axes.transpose() * gather(values, members);
-        };
-        add(baked_coordinates_, baked_along_);
-        add(noise_coordinates_, noise_along_);
+        for_each_run_of_members(axes_->members(g), [&](Index first, auto members) {
+            const auto add = [&](MatrixXf& coordinates, const MatrixXf& values) {
+                coordinates.middleCols(axes_->begin(g) + first, static_cast<Index>(members.size()))
+                    .noalias() += axes.transpose() * gather(values, members);
+            };
+            add(baked_coordinates_, baked_along_);
+            add(noise_coordinates_, noise_along_);
+        });
     });
 }
 
@@ -142,32 +160,39 @@ void NoiseCovariance::finish_survey() {
     if (axes_) compare_coordinates();
 }
 
-// Shares of the coordinates along the axes of the points. What is left of the coordinates of the
-// noise is what the axes of the vertices do not have.
+// Shares of the coordinates along the point axes. Of the coordinates of the noise, what the vertex
+// axes do not have is left.
 void NoiseCovariance::compare_coordinates() {
     const Index size = axes_->num_point_axes();
     axis_class_.resize(static_cast<size_t>(Index{axes_->num_groups()} * size));
     NoiseShares shares;
     for (uint32_t g = 0; g < axes_->num_groups(); ++g) {
+        if (!axes_->has_point_axes(g)) continue;
         const auto num_members = static_cast<Index>(axes_->members(g).size());
-        if (num_members == 0) continue;
-        MatrixXd baked = baked_coordinates_.middleCols(axes_->begin(g), num_members).cast<double>();
-        MatrixXd decoded = axes_->decoded_coordinates(g).cast<double>();
-        if (axes_->is_affine()) {
-            for (MatrixXd* const values : {&baked, &decoded}) {
-                const Eigen::VectorXd mean = values->rowwise().mean();
-                values->colwise() -= mean;
-            }
-        }
+        const auto baked = baked_coordinates_.middleCols(axes_->begin(g), num_members);
+        const MatrixXf decoded = axes_->decoded_coordinates(g);
         auto noise = noise_coordinates_.middleCols(axes_->begin(g), num_members);
         for (Index j = 0; j < size; ++j) {
-            const double energy = baked.row(j).squaredNorm();
-            const uint8_t c = NoiseShares::class_of(energy, double{noise.row(j).squaredNorm()});
+            Eigen::RowVectorXd x = baked.row(j).cast<double>();
+            Eigen::RowVectorXd x_hat = decoded.row(j).cast<double>();
+            if (axes_->is_affine()) {
+                x.array() -= x.mean();
+                x_hat.array() -= x_hat.mean();
+            }
+            const double energy = x.squaredNorm();
+            const uint8_t c =
+                NoiseShares::class_of(energy, noise.row(j).cast<double>().squaredNorm());
             axis_class_[static_cast<size_t>(Index{g} * size + j)] = c;
-            shares.add_values(c, decoded.row(j).dot(baked.row(j)), energy);
+            shares.add_values(c, x_hat.dot(x), energy);
         }
-        const MatrixXf axes = axes_->vertex_axes(g);
-        noise -= (noise * axes.transpose()).eval() * axes;
+        MatrixXf along_vertex_axes = MatrixXf::Zero(size, axes_->num_vertex_axes());
+        for_each_run_of_members(axes_->members(g), [&](Index first, auto members) {
+            const auto count = static_cast<Index>(members.size());
+            along_vertex_axes.noalias() +=
+                noise.middleCols(first, count) *
+                axes_->vertex_axes(g).middleCols(first, count).transpose();
+        });
+        noise.noalias() -= along_vertex_axes * axes_->vertex_axes(g);
     }
     baked_coordinates_.resize(0, 0);
     for (NoiseShares& of_band : axis_shares_) of_band = shares;
@@ -207,18 +232,20 @@ void NoiseCovariance::add_rows(uint32_t band, const MatrixXf& baked, const Matri
 
 void NoiseCovariance::add_coordinates(uint32_t band, const MatrixXf& points) {
     const Index size = axes_->num_point_axes();
-    MatrixXd sums(size, Index{axes_->num_groups()});
+    MatrixXd sums = MatrixXd::Zero(size, Index{axes_->num_groups()});
     parallel_for(axes_->num_groups(), 1, [&](size_t j, size_t) {
         const auto g = static_cast<uint32_t>(j);
-        const auto members = axes_->members(g);
-        const MatrixXf here =
-            axes_->point_axes(g, points).transpose() * gather(noise_along_, members);
-        sums.col(Index{g}) =
-            noise_coordinates_.middleCols(axes_->begin(g), static_cast<Index>(members.size()))
-                .cwiseProduct(here)
-                .rowwise()
-                .sum()
-                .cast<double>();
+        if (!axes_->has_point_axes(g)) return;
+        const MatrixXf axes = axes_->point_axes(g, points);
+        for_each_run_of_members(axes_->members(g), [&](Index first, auto members) {
+            const MatrixXf here = axes.transpose() * gather(noise_along_, members);
+            sums.col(Index{g}) +=
+                noise_coordinates_.middleCols(axes_->begin(g) + first, here.cols())
+                    .cwiseProduct(here)
+                    .rowwise()
+                    .sum()
+                    .cast<double>();
+        });
     });
     for (Index j = 0; j < sums.size(); ++j) {
         axis_shares_[band].add_noise(axis_class_[static_cast<size_t>(j)], sums.data()[j]);
@@ -240,9 +267,11 @@ uint64_t NoiseCovariance::bytes(uint64_t num_vertices, uint64_t span_size, uint6
     uint64_t floats = 3 * span_size * num_vertices;
     uint64_t bytes = span_size * num_rows;
     if (num_points > 0) {
+        PAIM_CHECK_LE(1u, num_points_each);
         // The same of rows, and the points; coordinates of the vertices.
         floats += 4 * span_size * num_points + 2 * num_points_each * num_vertices;
-        bytes += GroupAxes::bytes(num_vertices, num_points / num_points_each, num_points_each);
+        const uint64_t num_groups = (num_points + num_points_each - 1) / num_points_each;
+        bytes += GroupAxes::bytes(num_vertices, num_groups, num_points_each);
     }
     return bytes + floats * sizeof(float);
 }

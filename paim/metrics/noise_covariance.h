@@ -1,6 +1,7 @@
 // The noise of a bake that a decoder lets through.
 // Based on: Efron, The Estimation of Prediction Error: Covariance Penalties and Cross-Validation,
-//           2004 (docs/metrics.md)
+//           2004; Candès, Sing-Long and Trzasko, Unbiased Risk Estimates for Singular Value
+//           Thresholding and Spectral Estimators, 2013 (docs/metrics.md)
 #pragma once
 
 #include <Eigen/Core>
@@ -25,8 +26,10 @@ struct DecodedPoints {
     std::function<std::optional<Eigen::MatrixXf>(uint32_t plane)> decode;
 };
 
-// Estimates tr cov(x̂, x − t) by band, in the letters of docs/metrics.md. Planes are [V][P], a column
-// a pose. The same bits come out on any number of threads.
+// Estimates tr cov(x̂, x − t) by band, in the letters of docs/metrics.md: the noise is projected on
+// the tangent space of what the decoder can fit, and multiplied by the share that the decoder keeps of
+// the data there. Planes are [V][P], a column a pose. The same bits come out on any number of threads.
+// All depends on the light's band power by the point axes of GroupAxes.
 class NoiseCovariance {
   public:
     using Plane = Eigen::Ref<const Eigen::MatrixXf>;
@@ -44,8 +47,8 @@ class NoiseCovariance {
     // [bands]
     std::vector<double> result() const;
 
-    // Memory that it holds, with what add() takes. survey() takes more by no more than the decoded
-    // plane that is not there yet.
+    // Memory that it holds, with what add() takes. survey() takes more, but no more than planes of
+    // decoded values, which are not there yet.
     // num_points, num_points_each  of shared points, N and R; 0 if the points are the vertices
     static uint64_t bytes(uint64_t num_vertices, uint64_t span_size, uint64_t num_points,
                           uint64_t num_points_each);
@@ -75,8 +78,9 @@ class NoiseCovariance {
     bool is_surveyed_ = false;
     MatrixXf baked_along_, noise_along_, decoded_along_;  // [K'][V] of the plane at work
 
-    // A row is a vertex, or the sum of the vertices of a group along one of their axes.
-    MatrixXf row_energy_, row_noise_;      // [K'][rows] over all planes, until classes are known
+    // A row is a vertex, or the sum of the vertices of a group, weighted by one of their axes.
+    // [K'][rows] Sums of squares over all planes, until classes are known.
+    Eigen::MatrixXd row_energy_, row_noise_;
     std::vector<uint8_t> row_class_;       // [rows][K']
     std::vector<NoiseShares> row_shares_;  // [bands]
 

@@ -16,13 +16,13 @@ class NoiseShares {
   public:
     static constexpr int kNumClasses = 40;
 
-    // Classes are steps of √2 of the ratio, from 1/2 to 2^19. Class 0 is also for values of no
-    // energy.
+    // Classes are steps of √2 of the ratio, from 1/2 to 2^18.5 and beyond. Values of no energy are in
+    // class 0.
     // baked, noise  sums of squares of the same values
     static uint8_t class_of(double baked, double noise) {
-        if (!(baked > 0.0 && noise >= 0.0)) return 0;
         const double steps = 2.0 * (std::log2(baked) - std::log2(noise)) + 2.0;
-        return static_cast<uint8_t>(std::clamp(steps, 0.0, double{kNumClasses - 1}));
+        if (!(steps > 0.0)) return 0;  // or not a number
+        return static_cast<uint8_t>(std::min(steps, double{kNumClasses - 1}));
     }
 
     // Σ x̂ x and Σ x² of values of a class.
@@ -30,7 +30,8 @@ class NoiseShares {
         decoded_baked_(c) += decoded_baked;
         baked_(c) += baked;
     }
-    // Σ d² of what the values of a class have of the noise.
+    // Σ d² of values of a class, or of their part that is projected: then it can be below 0 by chance,
+    // which counts as 0.
     void add_noise(int c, double noise) { noise_(c) += noise; }
     void add(const NoiseShares& other) {
         decoded_baked_ += other.decoded_baked_;
@@ -41,14 +42,16 @@ class NoiseShares {
     // Σ over classes of Σ x̂ x / Σ x², from 0 to 1, times Σ d². NaN stays NaN.
     double passing() const {
         double sum = 0.0;
-        for (int c = 0; c < kNumClasses; ++c) sum += share(c) * std::max(0.0, noise_(c));
+        for (int c = 0; c < kNumClasses; ++c) sum += share(c) * (noise_(c) < 0.0 ? 0.0 : noise_(c));
         return sum;
-    }
-    double share(int c) const {
-        return baked_(c) > 0.0 ? std::clamp(decoded_baked_(c) / baked_(c), 0.0, 1.0) : 0.0;
     }
 
   private:
+    double share(int c) const {
+        if (baked_(c) == 0.0) return 0.0;
+        return std::clamp(decoded_baked_(c) / baked_(c), 0.0, 1.0);
+    }
+
     using Sums = Eigen::Array<double, kNumClasses, 1>;
     Sums decoded_baked_ = Sums::Zero(), baked_ = Sums::Zero(), noise_ = Sums::Zero();
 };

@@ -37,6 +37,18 @@ size_t find_worst(const Values& values) {
     return worst;
 }
 
+const MatrixXd& checked(const MatrixXd& span, uint32_t num_poses) {
+    PAIM_CHECK_EQ(span.rows(), static_cast<Index>(num_poses));
+    PAIM_CHECK(span.cols() >= 1 && span.cols() <= span.rows());
+    // Far below any error that is measured.
+    constexpr double kRounding = 1e-9;
+    const VectorXd constant = VectorXd::Constant(span.rows(), 1.0 / std::sqrt(num_poses));
+    const MatrixXd identity = MatrixXd::Identity(span.cols(), span.cols());
+    PAIM_CHECK_LT((span.col(0) - constant).cwiseAbs().maxCoeff(), kRounding);
+    PAIM_CHECK_LT((span.transpose() * span - identity).cwiseAbs().maxCoeff(), kRounding);
+    return span;
+}
+
 }  // namespace
 
 TransferErrorMeter::TransferErrorMeter(const TransferLayout& layout, uint32_t num_vertices,
@@ -46,7 +58,8 @@ TransferErrorMeter::TransferErrorMeter(const TransferLayout& layout, uint32_t nu
       num_vertices_(static_cast<Index>(num_vertices)),
       num_poses_(static_cast<Index>(num_poses)),
       spectrum_(std::move(spectrum)),
-      covariance_(layout, num_vertices, spectrum_, span, std::move(points)),
+      covariance_(layout, num_vertices, spectrum_, checked(span, num_poses), std::move(points)),
+      surveyed_(layout.num_planes(), false),
       added_(layout.num_planes(), false),
       energy_(layout.in_bands),
       vertex_error_to_bake_(num_vertices, 0.0),
@@ -54,14 +67,6 @@ TransferErrorMeter::TransferErrorMeter(const TransferLayout& layout, uint32_t nu
     PAIM_CHECK_LE(1u, num_vertices);
     PAIM_CHECK_LE(1u, num_poses);
     PAIM_CHECK_LE(1u, layout.in_bands);
-    PAIM_CHECK_EQ(span.rows(), num_poses_);
-    PAIM_CHECK(span.cols() >= 1 && span.cols() <= num_poses_);
-    // Far below any error that is measured.
-    constexpr double kRounding = 1e-9;
-    const VectorXd constant = VectorXd::Constant(num_poses_, 1.0 / std::sqrt(num_poses));
-    const MatrixXd identity = MatrixXd::Identity(span.cols(), span.cols());
-    PAIM_CHECK_LT((span.col(0) - constant).cwiseAbs().maxCoeff(), kRounding);
-    PAIM_CHECK_LT((span.transpose() * span - identity).cwiseAbs().maxCoeff(), kRounding);
 }
 
 TransferErrorMeter::RowSums TransferErrorMeter::measure_rows(Index first, Index count,
@@ -89,8 +94,18 @@ TransferErrorMeter::RowSums TransferErrorMeter::measure_rows(Index first, Index 
     return sums;
 }
 
+void TransferErrorMeter::check_shapes(std::initializer_list<const Plane*> planes) const {
+    for (const Plane* const plane : planes) {
+        PAIM_CHECK_EQ(plane->rows(), num_vertices_);
+        PAIM_CHECK_EQ(plane->cols(), num_poses_);
+    }
+}
+
 void TransferErrorMeter::survey(uint32_t plane, const Plane& baked, const Plane& noise) {
     PAIM_CHECK_LT(plane, layout_.num_planes());
+    PAIM_CHECK(!surveyed_[plane]);
+    check_shapes({&baked, &noise});
+    surveyed_[plane] = true;
     covariance_.survey(plane, baked, noise);
 }
 
@@ -98,10 +113,7 @@ void TransferErrorMeter::add(uint32_t plane, const Plane& baked, const Plane& no
                              const Plane& decoded) {
     PAIM_CHECK_LT(plane, layout_.num_planes());
     PAIM_CHECK(!added_[plane]);
-    for (const Plane* const values : {&baked, &noise, &decoded}) {
-        PAIM_CHECK_EQ(values->rows(), num_vertices_);
-        PAIM_CHECK_EQ(values->cols(), num_poses_);
-    }
+    check_shapes({&baked, &noise, &decoded});
     added_[plane] = true;
     covariance_.add(plane, baked, noise, decoded);
     const uint32_t band = layout_.input_band(plane);

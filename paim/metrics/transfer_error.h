@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <vector>
 
@@ -19,7 +20,8 @@ namespace paim {
 // one, and d the stored noise. Each is a vector of all values, over vertices, poses, channels and
 // coefficients.
 
-// Sums of squares over all values of a band, not weighted by the light.
+// Sums of squares over all values of a band, not weighted by the light. The covariance depends on the
+// light, because clusters are fitted by it.
 struct TransferBandEnergy {
     double baked = 0.0;  // ‖x‖²
     double noise = 0.0;  // ‖d‖², an estimate of the squared error of the bake, ‖x − t‖²
@@ -64,7 +66,7 @@ class TransferErrorMeter {
                        BandPower spectrum, const Eigen::MatrixXd& span,
                        std::optional<DecodedPoints> points = {});
 
-    // Call it once for every plane that the file has, before the first add(). Planes in the same
+    // Call it once (checked) for every plane that the file has, before the first add(). Planes in the same
     // order give the same bits on any number of threads, here and in add().
     // noise    BakedPose::noise: one draw with the variance of the bake's error, uncorrelated with
     //          it
@@ -88,6 +90,7 @@ class TransferErrorMeter {
         Eigen::VectorXd pose_error_to_bake;  // [P] Σ (x̂ − x)², not weighted
     };
 
+    void check_shapes(std::initializer_list<const Plane*> planes) const;
     RowSums measure_rows(Eigen::Index first, Eigen::Index count, double weight, const Plane& baked,
                          const Plane& noise, const Plane& decoded);
 
@@ -95,7 +98,7 @@ class TransferErrorMeter {
     Eigen::Index num_vertices_, num_poses_;
     BandPower spectrum_;
     NoiseCovariance covariance_;
-    std::vector<bool> added_;                   // [planes]
+    std::vector<bool> surveyed_, added_;        // [planes]
     std::vector<TransferBandEnergy> energy_;    // [bands]
     std::vector<double> vertex_error_to_bake_;  // [V] ‖x̂ − x‖²_β
     Eigen::VectorXd pose_error_to_bake_;        // [P] ‖x̂ − x‖²_β

@@ -11,8 +11,9 @@ namespace paim {
 uint64_t measuring_memory_bytes(uint64_t file_bytes, uint64_t num_vertices, uint64_t num_poses,
                                 uint64_t still_mesh_bytes) {
     // Half floats become floats in memory, and the bytes that are read are in memory together with
-    // the values that are made of them. There are at most as many directions that a decoder can follow
-    // as poses. So values along them take three planes, and their classes less than one. The still mesh is there as baked, in the order of the file, and decoded.
+    // the values that are made of them. Baked, noise and decoded values along the
+    // directions that a decoder can follow take at most three planes, and their classes less than
+    // one. The still mesh is there as baked, in the order of the file, and decoded.
     const uint64_t plane_bytes = sizeof(float) * num_vertices * num_poses;
     return std::max(3 * file_bytes, kProgramBytes + 2 * file_bytes) +
            (kPlanesMeasured + 4) * plane_bytes + 3 * still_mesh_bytes;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "paim/base/parallel.h"
 #include "paim/codec/cpca/basis_table.h"
@@ -90,8 +91,11 @@ std::optional<PointGroups> CpcaTransfer::point_groups() const {
     for (uint32_t row = 0; row < num_rows; ++row) {
         for (size_t v = 0; v < clusters.cluster.size(); ++v) {
             const float coefficient = row == 0 ? 1.0f : clusters.coefficients[row - 1][v];
+            const float scale = clusters.scales[size_t{clusters.cluster[v]} * num_rows + row];
+            // Beyond the range of floats where the points are zero.
+            constexpr double kMost = std::numeric_limits<float>::max();
             groups.factors(static_cast<Eigen::Index>(v), row) =
-                coefficient * clusters.scales[size_t{clusters.cluster[v]} * num_rows + row];
+                static_cast<float>(std::clamp(double{coefficient} * double{scale}, -kMost, kMost));
         }
     }
     return groups;
