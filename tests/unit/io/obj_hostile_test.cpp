@@ -6,6 +6,7 @@
 #include <chrono>
 #include <random>
 
+#include "compressor/io/obj_parse.h"
 #include "tests/unit/io/obj_test_files.h"
 
 namespace paim {
