@@ -85,6 +85,19 @@ class Scanner {
         return std::move(scan_);
     }
 
+    // Lines that others are continued on begin with no keyword.
+    std::vector<Vec3d> run_positions() {
+        for (; !text_.at_end(); text_.next_line()) {
+            if (text_.read_keyword() != "v") continue;
+            Vec3d position = Vec3d::Zero();
+            for (int axis = 0; axis < 3 && text_.find_word(); ++axis) {
+                position[axis] = text_.read_number("vertex coordinate");
+            }
+            scan_.positions.push_back(position);
+        }
+        return std::move(scan_.positions);
+    }
+
   private:
     void vertex() {
         int num_values = 0;
@@ -296,6 +309,10 @@ ObjScan scan_obj(const std::string& name, std::span<char> text, const ObjScanOpt
         }
     }
     return Scanner(name, text, options).run();
+}
+
+std::vector<Vec3d> scan_positions(const std::string& name, std::span<char> text) {
+    return Scanner(name, text, {}).run_positions();
 }
 
 }  // namespace paim

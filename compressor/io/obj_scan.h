@@ -67,4 +67,8 @@ struct ObjScanOptions {
 //   the reference.
 ObjScan scan_obj(const std::string& name, std::span<char> text, const ObjScanOptions& options = {});
 
+// The positions of a text that scan_obj() has let pass before, without a look at its other lines.
+// text  as it was before that scan; rewritten in parts
+std::vector<Vec3d> scan_positions(const std::string& name, std::span<char> text);
+
 }  // namespace paim

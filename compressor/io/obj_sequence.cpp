@@ -299,17 +299,26 @@ uint64_t ObjSequence::pose_checksum(uint32_t p) const {
     return checksums_[p];
 }
 
+std::vector<Vec3f> ObjSequence::load_positions(uint32_t p) const {
+    PAIM_CHECK_LT(p, num_poses());
+    std::vector<char> text = read_unchanged(p);
+    return local(p, scan_positions(pose_name(p), text));
+}
+
 Pose ObjSequence::load_pose(uint32_t p) const {
     PAIM_CHECK_LT(p, num_poses());
+    Pose pose;
+    if (!options_.normals_from_file) {
+        pose.positions = load_positions(p);
+        pose.normals = vertex_normals(distinct_, pose.positions, seams_);
+        return pose;
+    }
     const std::string name = pose_name(p);
     std::vector<char> text = read_unchanged(p);
-    const ObjScan scan = scan_obj(name, text, {options_.normals_from_file, nullptr, true});
-    Pose pose;
+    const ObjScan scan = scan_obj(name, text, {true, nullptr, true});
+    const ParsedObj parsed = parse_obj(name, text, scan);
     pose.positions = local(p, scan.positions);
-    pose.normals =
-        options_.normals_from_file
-            ? obj_normals(distinct_, scan.faces, parse_obj(name, text, scan), pose.positions)
-            : vertex_normals(distinct_, pose.positions, seams_);
+    pose.normals = obj_normals(distinct_, scan.faces, parsed, pose.positions);
     return pose;
 }
 

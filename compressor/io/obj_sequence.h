@@ -59,6 +59,7 @@ class ObjSequence : public PoseSource {
     uint64_t pose_checksum(uint32_t p) const override;  // of the bytes of the file
     // Error (bad input) if the file has changed since the sequence was opened.
     Pose load_pose(uint32_t p) const override;
+    std::vector<Vec3f> load_positions(uint32_t p) const override;  // the same error
 
     // Closed parts of the first pose that face inwards, or did before they were turned.
     size_t num_inward() const { return num_inward_; }

@@ -31,6 +31,10 @@ TEST(ObjScan, TakesTheFormsThatFilesUse) {
         EXPECT_EQ(bad_input_of([&] { EXPECT_EQ(scan_text(text).faces, expected.faces) << text; }),
                   "no error")
             << text;
+        std::string whole = text, again = text;
+        EXPECT_EQ(scan_positions("x", again),
+                  scan_obj("x", whole, {.read_positions = true}).positions)
+            << text;
     }
 }
 
