@@ -1,4 +1,4 @@
-// Normals and colours of OBJ text, by tinyobjloader.
+// Normals of OBJ text, by tinyobjloader.
 #include "compressor/io/obj_parse.h"
 
 #include <algorithm>
@@ -43,10 +43,9 @@ ParsedObj parse_obj(const std::string& name, std::span<char> text, const ObjScan
     std::vector<tinyobj::shape_t> shapes;
     std::vector<tinyobj::material_t> materials;
     std::string warnings, errors;
-    // Does not triangulate, because the result would depend on the geometry of each pose. Vertices
-    // without a colour are white only if all of the faces have one.
+    // Does not triangulate, because the result would depend on the geometry of each pose.
     const bool loaded = tinyobj::LoadObj(&attributes, &shapes, &materials, &warnings, &errors,
-                                         &stream, nullptr, false, scan.has_colors);
+                                         &stream, nullptr, false, false);
     if (!loaded) throw_bad_input("{}: tinyobjloader: {}", name, printable(errors));
 
     std::vector<unsigned char> sizes;  // modulo 256
@@ -71,7 +70,6 @@ ParsedObj parse_obj(const std::string& name, std::span<char> text, const ObjScan
     }
 
     parsed.normals = to_vectors(attributes.normals);
-    if (scan.has_colors) parsed.colors = to_vectors(attributes.colors);
     return parsed;
 }
 

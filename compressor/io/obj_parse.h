@@ -1,4 +1,4 @@
-// Normals and colours of scanned OBJ text, by tinyobjloader.
+// Normals of scanned OBJ text, by tinyobjloader.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,6 @@
 namespace paim {
 
 struct ParsedObj {
-    // [V] r g b as written, or empty unless all vertices of faces have one; others may be white.
-    std::vector<Vec3d> colors;
     std::vector<Vec3d> normals;           // vn lines as written
     std::vector<int32_t> corner_normals;  // per corner: index into normals, or -1
 };

@@ -101,10 +101,12 @@ class Scanner {
   private:
     void vertex() {
         int num_values = 0;
-        Vec3d position = Vec3d::Zero();
+        Vec3d position = Vec3d::Zero(), color = Vec3d::Ones();
         for (; text_.find_word(); ++num_values) {
             if (num_values < 3 && options_.read_positions) {
                 position[num_values] = text_.read_number("vertex coordinate");
+            } else if (num_values >= 3 && num_values < 6 && options_.read_colors) {
+                color[num_values - 3] = text_.read_number("vertex attribute");
             } else {
                 text_.skip_number(num_values < 3 ? "vertex coordinate" : "vertex attribute");
             }
@@ -114,6 +116,9 @@ class Scanner {
         }
         vertex_has_color_.push_back(num_values >= 6);
         if (options_.read_positions) scan_.positions.push_back(position);
+        if (options_.read_colors) {
+            scan_.colors.push_back(num_values >= 6 ? color : Vec3d(Vec3d::Ones()));
+        }
         if (++vertices_.num_elements > kMaxIndex) {
             text_.fail(fmt::format("expected at most {} vertices", kMaxIndex));
         }
@@ -238,6 +243,7 @@ class Scanner {
         }
         scan_.has_colors = any && scan_.num_uncolored == 0;
         if (!any) scan_.num_uncolored = scan_.first_uncolored = 0;
+        if (!scan_.has_colors) scan_.colors = {};
     }
 
     void check_faces(const ObjReference& reference) const {

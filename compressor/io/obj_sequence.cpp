@@ -58,10 +58,11 @@ Triangulation ObjSequence::check_files() {
         std::vector<char> text = read_file(files_[i], kMaxFileBytes);
         checksums_[i] = xxh3(text.data(), text.size());
         const ObjReference reference{reference_name(files_[0], files_[i]), first_};
-        const bool read_materials = i == 0 && !options_.albedo;
-        ObjScan scan = scan_obj(
-            files_[i].string(), text,
-            {options_.normals_from_file, i > 0 ? &reference : nullptr, true, read_materials});
+        const bool finds_albedo = i == 0 && !options_.albedo;
+        if (finds_albedo) vertex_colours_.exporter = srgb_exporter(text);
+        ObjScan scan = scan_obj(files_[i].string(), text,
+                                {options_.normals_from_file, i > 0 ? &reference : nullptr, true,
+                                 finds_albedo, finds_albedo});
         for (const uint32_t v : scan.faces.corners) bounds[i].extend(scan.positions[v]);
         const UsualBounds most = usual_bounds(scan.positions, scan.faces.corners, bounds[i]);
         usual[i] = most.bounds;
@@ -202,19 +203,17 @@ std::vector<char> ObjSequence::read_unchanged(uint32_t p) const {
 Albedo ObjSequence::find_albedo() {
     if (options_.albedo) return {{*options_.albedo}};
     const std::string name = pose_name(0);
+    const std::string exporter = std::exchange(vertex_colours_.exporter, {});
     if (!first_.has_colors) {
         ObjLibraries libraries = read_obj_libraries(name, files_[0].parent_path(), first_);
         warnings_ = std::move(libraries.warnings);
         return albedo_of_materials(name, first_, libraries, warnings_);
     }
-    std::vector<char> text = read_unchanged(0);
     const ColourCurve curve = options_.vertex_colours;
-    vertex_colours_ = {true, curve == ColourCurve::srgb, curve != ColourCurve::automatic,
-                       srgb_exporter(text)};
-    if (curve == ColourCurve::automatic) vertex_colours_.srgb = !vertex_colours_.exporter.empty();
-    const ObjScan scan = scan_obj(name, text);  // for the rewritten text
-    return albedo_of_colours(name, parse_obj(name, text, scan).colors, vertex_colours_.srgb,
-                             warnings_);
+    const bool is_automatic = curve == ColourCurve::automatic;
+    const bool srgb = is_automatic ? !exporter.empty() : curve == ColourCurve::srgb;
+    vertex_colours_ = {true, srgb, !is_automatic, exporter};
+    return albedo_of_colours(name, std::exchange(first_.colors, {}), srgb, warnings_);
 }
 
 void ObjSequence::build(Triangulation cut) {

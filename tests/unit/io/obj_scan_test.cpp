@@ -38,6 +38,15 @@ TEST(ObjScan, TakesTheFormsThatFilesUse) {
     }
 }
 
+TEST(ObjScan, ReadsColorsWhereTheyAreWanted) {
+    std::string text = "v 0 0 0 1 0 0.1\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nv 9 9 9\nf 1 2 3\n";
+    std::string again = text, mixed = "v 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0 0 0 1\nf 1 2 3\n";
+    EXPECT_EQ(scan_obj("x", text, {.read_colors = true}).colors,
+              (std::vector<Vec3d>{{1, 0, 0.1}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}}));
+    EXPECT_TRUE(scan_obj("x", again).colors.empty());
+    EXPECT_TRUE(scan_obj("x", mixed, {.read_colors = true}).colors.empty());
+}
+
 TEST(ObjScan, SeesColorsOnlyIfAllHaveThem) {
     EXPECT_TRUE(scan_text("v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nf 1 2 3\n").has_colors);
     EXPECT_FALSE(scan_text("v 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0 0 0 1\nf 1 2 3\n").has_colors);
