@@ -12,8 +12,8 @@
 namespace paim {
 
 uint32_t pilot_rays(double transfer_error) {
-    // 64 rays leave 3.8 to 4.4 % in sequences of 21 to 73 poses, and errors fall as rays^-0.62. With
-    // fewer, components that matter do not stand out from noise, and errors are understated
+    // 64 rays leave 3.8 to 4.4 % in sequences of 21 to 73 poses, and errors fall as rays^-0.62.
+    // With fewer, components that matter do not stand out from noise, and errors are understated
     // (docs/results/noise.md).
     constexpr double kUsualError = 0.042, kUsualRays = 64.0, kPower = 0.62;
     constexpr double kLeast = 64.0, kMost = 1024.0;

@@ -194,7 +194,7 @@ void discard(const std::filesystem::path& directory) {
     }
 }
 
-// Chooses the rays of the bake by the noise of a pilot, which stays as the bake if it is good enough.
+// Chooses the rays of the bake by the noise of a pilot, which is the bake if it is good enough.
 // json  receives what the pilot was
 uint32_t choose_rays(CompressOptions options, const BakeInput& input,
                      const std::filesystem::path& directory, ordered_json& json) {
@@ -227,8 +227,8 @@ uint32_t choose_rays(CompressOptions options, const BakeInput& input,
     return std::max(rays, options.bake.rays);
 }
 
-// Bakes with as few rays as the target allows, again with more while noise is in its way, and encodes.
-// A bake that was there keeps its rays.
+// Bakes with as few rays as the target allows, again with more while noise is in its way, and
+// encodes. A bake that was there keeps its rays.
 ordered_json run_with_chosen_rays(CompressOptions options, const BakeInput& input,
                                   const std::filesystem::path& directory) {
     ordered_json json;

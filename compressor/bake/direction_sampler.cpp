@@ -121,8 +121,8 @@ class UniformSobolSampler : public DirectionSampler {
           relation_(relation),
           points_(relation == HalfRelation::interleaved ? 2 * num_points : num_points) {}
 
-    // Halves of one set are the first and the second part of the sequence, so that powers of two are
-    // nets by themselves and together. A random bit says which is which.
+    // Halves of one set are the first and the second part of the sequence, so that powers of two
+    // are nets by themselves and together. A random bit says which is which.
     void generate(const Vec3f& normal, const HalfKeys& keys, uint32_t half,
                   RaySet& out) const override {
         const bool is_one_set = relation_ == HalfRelation::interleaved;
