@@ -74,6 +74,10 @@ void CommandLine::define_both() {
     app.get_option("--output")->required(false);  // only where no command is given
     add_everyday_encode_options(app, options, encode_arguments);
     add_everyday_bake_options(app, options, bake_arguments);
+    CLI::Option* const rays = app.get_option("--rays");
+    rays->description(rays->get_description() +
+                      ". With --max-error the default is as few as meet it, which a short bake "
+                      "finds out");
     add_bake_options(app, options, bake_arguments);
     add_encode_options(app, options, encode_arguments);
     app.add_flag("--discard-bake", options.discard_bake, "Remove the bake once the file is written")
@@ -152,6 +156,10 @@ std::optional<CompressOptions> parse_options(int argc, const char* const* argv, 
     line.check_usage();
     apply(line.bake_arguments, line.options);
     apply(line.encode_arguments, line.options);
+    line.options.chooses_rays = line.options.command == CompressOptions::Command::bake_and_encode &&
+                                line.options.target && line.options.target->transfer_error &&
+                                !line.bake_arguments.rays &&
+                                line.options.bake.transfer_error == 0.0;
     return std::move(line.options);
 }
 

@@ -22,6 +22,8 @@ struct CompressOptions {
     std::vector<std::string> inputs;  // OBJ files, patterns, directories
     bool keep_order = false;
     BakeOptions bake;
+    // The bake has as many rays as the target needs, instead of bake.rays.
+    bool chooses_rays = false;
     std::string normals = "faces";  // or "file"
     bool orient = false;
     std::optional<Vec3f> albedo;

@@ -8,8 +8,12 @@
 
 #include "compressor/bake_input.h"
 #include "compressor/bake_report.h"
+#include "compressor/chosen_rays.h"
 #include "compressor/encode/memory/measuring_memory.h"
 #include "compressor/encode/memory/memory_plan.h"
+#include "compressor/encode/search/feasibility.h"
+#include "compressor/encode/search/less_noise.h"
+#include "compressor/encode/search/target_encode.h"
 #include "compressor/encode_report.h"
 #include "compressor/mesh_warnings.h"
 #include "compressor/outlier_notes.h"
@@ -57,20 +61,23 @@ void check_encoding_memory(const CompressOptions& options, const BakeInput& inpu
 }
 
 BakeReport bake(const CompressOptions& options, const BakeInput& input,
-                const std::filesystem::path& directory) {
+                const std::filesystem::path& directory, const char* label = "baking") {
     BakeReport report = input.report();
     report.bake = directory;
     report.options = options.bake;
     report.channels = input.layout(options.bake).channels;
-    cli::Progress baking("baking", "poses", input.last_pose() - input.first_pose() + 1,
+    cli::Progress baking(label, "poses", input.last_pose() - input.first_pose() + 1,
                          options.quiet || options.json);
     report.summary = bake_sequence(
         input.poses(), options.bake, options.normals, directory, input.first_pose(),
         input.last_pose(), [&](uint32_t) { baking.advance(); }, input.surroundings(),
         input.root_motion());
     baking.finish();
-    print_warnings(mesh_warnings(report.summary.total.mesh));
     return report;
+}
+
+void warn_of_mesh(const BakeReport& report) {
+    print_warnings(mesh_warnings(report.summary.total.mesh));
 }
 
 EncodeReport encode_streamed(const CompressOptions& options, const EncodeOptions& encode_options,
@@ -84,21 +91,29 @@ EncodeReport encode_streamed(const CompressOptions& options, const EncodeOptions
     return report;
 }
 
-TargetReport encode_target(const CompressOptions& options, const EncodeOptions& encode_options,
-                           const BakeReader& reader) {
+// Of 100 %.
+SearchProgress::Listener shown_on(cli::Progress& progress) {
+    return [&progress, percent = uint64_t{0}](const std::string& step, double done) mutable {
+        const auto now = static_cast<uint64_t>(100.0 * done);
+        progress.set_label("encoding, " + step);
+        progress.advance(now - percent);
+        percent = now;
+    };
+}
+
+EncodeTarget target_of(const CompressOptions& options, const BakeReader& reader) {
     EncodeTarget target = *options.target;
     target.spectrum = parse_band_power(options.band_power, reader.identity().layout.in_bands,
                                        options.env_mapping);
+    return target;
+}
+
+TargetReport encode_target(const CompressOptions& options, const EncodeOptions& encode_options,
+                           const BakeReader& reader) {
+    const EncodeTarget target = target_of(options, reader);
     cli::Progress encoding("encoding", "%", 100, options.quiet || options.json);
-    uint64_t percent = 0;
-    const auto on_progress = [&](const std::string& step, double done) {
-        const auto now = static_cast<uint64_t>(100.0 * done);
-        encoding.set_label("encoding, " + step);
-        encoding.advance(now - percent);
-        percent = now;
-    };
     TargetReport report{options.output, encode_to_target(reader, encode_options, target,
-                                                         options.output, on_progress)};
+                                                         options.output, shown_on(encoding))};
     encoding.set_label("encoding");
     encoding.finish();
     return report;
@@ -125,7 +140,9 @@ ordered_json tell_with_outliers(const CompressOptions& options, const BakeIdenti
 
 ordered_json run_bake(const CompressOptions& options) {
     check_output(options.output);
-    return tell(options, bake(options, BakeInput(options), options.output));
+    const BakeReport report = bake(options, BakeInput(options), options.output);
+    warn_of_mesh(report);
+    return tell(options, report);
 }
 
 // Nothing can be said about errors of transfer that is zero.
@@ -177,6 +194,68 @@ void discard(const std::filesystem::path& directory) {
     }
 }
 
+// Chooses the rays of the bake by the noise of a pilot, which is the bake if it is good enough.
+// json  receives what the pilot was
+uint32_t choose_rays(CompressOptions options, const BakeInput& input,
+                     const std::filesystem::path& directory, ordered_json& json) {
+    const std::filesystem::path pilot = pilot_directory(directory);
+    check_output(pilot);
+    options.bake.rays = pilot_rays(*options.target->transfer_error);
+    warn_of_mesh(bake(options, input, pilot, "baking a pilot"));
+    const BakeReader reader(pilot);
+    uint32_t rays = 0;
+    try {
+        const EncodeTarget target = target_of(options, reader);
+        cli::Progress encoding("encoding", "%", 100, options.quiet || options.json);
+        const EncodeProblem problem = read_problem(
+            reader, options.encode, target, std::make_shared<SearchProgress>(shown_on(encoding)));
+        encoding.set_label("encoding the pilot");
+        encoding.finish();
+        rays = rays_to_meet(problem, target);
+        json = {{"rays", options.bake.rays}, {"best_transfer_error", problem.least_error()}};
+        print_notes({chosen_rays_note(rays, options.bake.rays, target, problem)});
+    } catch (...) {
+        discard(pilot);
+        throw;
+    }
+    if (rays <= options.bake.rays) {
+        std::error_code failure;
+        std::filesystem::rename(pilot, follow_links(directory), failure);
+        if (!failure) return options.bake.rays;
+    }
+    discard(pilot);
+    return std::max(rays, options.bake.rays);
+}
+
+// Bakes with as few rays as the target allows, again with more while noise is in its way, and
+// encodes. A bake that was there keeps its rays.
+ordered_json run_with_chosen_rays(CompressOptions options, const BakeInput& input,
+                                  const std::filesystem::path& directory) {
+    ordered_json json;
+    const bool there = std::filesystem::exists(directory) && !std::filesystem::is_empty(directory);
+    if (!there) {
+        options.bake.rays = choose_rays(options, input, directory, json["pilot"]);
+    } else if (const auto rays = rays_of_bake_there(directory)) {
+        options.bake.rays = *rays;
+        print_notes({fmt::format("{}: is there, of {} rays a vertex, which are not chosen anew",
+                                 directory.string(), *rays)});
+    }
+    for (int num_bakes = 1;; ++num_bakes) {
+        const BakeReport report = bake(options, input, directory);
+        if (there) warn_of_mesh(report);
+        json["bake"] = tell(options, report);
+        try {
+            json["encode"] = run_encode(options, directory);
+            return json;
+        } catch (const TooNoisy& noisy) {
+            if (there || num_bakes == kMaxBakes) throw;
+            print_notes({fmt::format("{}; it is baked again with {}", noisy.what(), noisy.rays())});
+            options.bake.rays = noisy.rays();
+        }
+        discard(directory);
+    }
+}
+
 ordered_json run_both(const CompressOptions& options) {
     check_paim_output(options.output);
     check_band_power(options, options.bake.bands);
@@ -184,12 +263,20 @@ ordered_json run_both(const CompressOptions& options) {
     directory.replace_extension(".bake");
     check_output(directory);
     ordered_json json;
-    {
+    if (options.chooses_rays) {
         const BakeInput input(options);
         check_encoding_memory(options, input);
-        json["bake"] = tell(options, bake(options, input, directory));
+        json = run_with_chosen_rays(options, input, directory);
+    } else {
+        {
+            const BakeInput input(options);
+            check_encoding_memory(options, input);
+            const BakeReport report = bake(options, input, directory);
+            warn_of_mesh(report);
+            json["bake"] = tell(options, report);
+        }
+        json["encode"] = run_encode(options, directory);
     }
-    json["encode"] = run_encode(options, directory);
     if (options.discard_bake) discard(directory);
     return json;
 }

@@ -11,6 +11,29 @@
 
 namespace paim::bench {
 
+namespace {
+
+bool is_occluded(embree::Context& context, RTCScene scene, const Vec3f& origin,
+                 const Vec3f& direction) {
+    RTCRay ray;
+    ray.org_x = origin.x();
+    ray.org_y = origin.y();
+    ray.org_z = origin.z();
+    ray.dir_x = direction.x();
+    ray.dir_y = direction.y();
+    ray.dir_z = direction.z();
+    ray.tnear = 0.0f;
+    ray.tfar = std::numeric_limits<float>::infinity();
+    ray.time = 0.0f;
+    ray.mask = 0xffffffffu;
+    ray.id = 0;
+    ray.flags = 0;
+    context.occluded(scene, ray);
+    return ray.tfar < 0.0f;
+}
+
+}  // namespace
+
 struct BareScene::Impl {
     RTCDevice device = rtcNewDevice(nullptr);
     RTCScene scene = rtcNewScene(device);
@@ -38,6 +61,11 @@ BareScene::~BareScene() {
     rtcReleaseDevice(impl_->device);
 }
 
+bool BareScene::is_blocked(const Vec3f& origin, const Vec3f& direction) const {
+    embree::Context context;
+    return is_occluded(context, impl_->scene, origin, direction);
+}
+
 uint64_t BareScene::count_blocked(const RayList& rays, size_t origins_per_piece) const {
     std::atomic<uint64_t> total{0};
     parallel_for(rays.origins.size(), origins_per_piece, [&](size_t begin, size_t end) {
@@ -47,21 +75,7 @@ uint64_t BareScene::count_blocked(const RayList& rays, size_t origins_per_piece)
         for (size_t v = begin; v < end; ++v) {
             const Vec3f& origin = rays.origins[v];
             for (uint32_t j = 0; j < rays.per_origin; ++j, ++direction) {
-                RTCRay ray;
-                ray.org_x = origin.x();
-                ray.org_y = origin.y();
-                ray.org_z = origin.z();
-                ray.dir_x = direction->x();
-                ray.dir_y = direction->y();
-                ray.dir_z = direction->z();
-                ray.tnear = 0.0f;
-                ray.tfar = std::numeric_limits<float>::infinity();
-                ray.time = 0.0f;
-                ray.mask = 0xffffffffu;
-                ray.id = 0;
-                ray.flags = 0;
-                context.occluded(impl_->scene, ray);
-                num_occluded += ray.tfar < 0.0f ? 1 : 0;
+                num_occluded += is_occluded(context, impl_->scene, origin, *direction) ? 1 : 0;
             }
         }
         total += num_occluded;

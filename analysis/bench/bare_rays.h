@@ -24,6 +24,9 @@ class BareScene {
     BareScene(const Topology& topology, std::span<const Vec3f> positions);
     ~BareScene();
 
+    // One ray, by rtcOccluded1.
+    bool is_blocked(const Vec3f& origin, const Vec3f& direction) const;
+
     // Traces all rays on as many threads, in pieces of `origins_per_piece`. returns how many are
     // occluded
     uint64_t count_blocked(const RayList& rays, size_t origins_per_piece) const;

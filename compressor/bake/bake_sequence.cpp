@@ -64,7 +64,7 @@ BakeIdentity bake_identity(const PoseSource& source, const BakeOptions& options,
                            const std::string& normals, const Surroundings& surroundings,
                            const RootMotion& root_motion) {
     BakeIdentity identity;
-    identity.baker = kBakerVersion;
+    identity.baker = baker_version(options.sampler);
     identity.layout = TransferBaker::bake_layout(options, source.albedo(), surroundings.still_mesh);
     identity.bounces = options.bounces;
     identity.sampler = sampler_name(options.sampler);

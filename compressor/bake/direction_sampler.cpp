@@ -2,6 +2,7 @@
 #include "compressor/bake/direction_sampler.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <iterator>
 
@@ -115,21 +116,36 @@ class UniformSampler : public DirectionSampler {
 
 class UniformSobolSampler : public DirectionSampler {
   public:
-    explicit UniformSobolSampler(uint32_t num_points)
-        : DirectionSampler(num_points), points_(num_points) {}
+    UniformSobolSampler(uint32_t num_points, HalfRelation relation)
+        : DirectionSampler(num_points),
+          relation_(relation),
+          points_(relation == HalfRelation::interleaved ? 2 * num_points : num_points) {}
 
+    // Halves of one set are the first and the second part of the sequence, so that powers of two
+    // are nets by themselves and together. A random bit says which is which.
     void generate(const Vec3f& normal, const HalfKeys& keys, uint32_t half,
                   RaySet& out) const override {
+        const bool is_one_set = relation_ == HalfRelation::interleaved;
+        const uint64_t key = keys[is_one_set ? 0 : half];
+        const bool is_second = is_one_set && (half ^ (mix_bits(key) & 1u)) != 0;
+        const uint32_t first = is_second ? num_points() : 0;
         UniformSet set(normal, out);
-        const uint64_t key = keys[half];
-        for (uint32_t j = 0; j < num_points(); ++j) {
+        for (uint32_t j = first; j < first + num_points(); ++j) {
             set.add(scrambled_fraction(points_.reversed_x[j], static_cast<uint32_t>(key)),
                     scrambled_fraction(points_.reversed_y[j], static_cast<uint32_t>(key >> 32)));
         }
         set.finish();
     }
 
+    // As a spiral's halves (half_difference_ratio), for powers of two. Halves of other numbers of
+    // points are further apart, as they are no nets.
+    double noise_scale() const override {
+        if (relation_ == HalfRelation::independent) return 1.0;
+        return std::has_single_bit(num_points()) ? 1.0 / 1.37 : 1.0 / 1.48;
+    }
+
   private:
+    HalfRelation relation_;
     SobolPoints points_;
 };
 
@@ -143,7 +159,7 @@ std::unique_ptr<DirectionSampler> make_sampler(SamplerKind kind, uint32_t num_po
         case SamplerKind::uniform:
             return std::make_unique<UniformSampler>(num_points);
         case SamplerKind::uniform_sobol:
-            return std::make_unique<UniformSobolSampler>(num_points);
+            return std::make_unique<UniformSobolSampler>(num_points, relation);
     }
     return std::make_unique<SpiralSampler>(num_points, relation);
 }

@@ -21,8 +21,10 @@
 namespace paim {
 
 // Raised whenever the same options give other bytes, so that results of different builds are not
-// mixed.
-constexpr uint32_t kBakerVersion = 6;
+// mixed. Bakes of a sampler whose directions alone change have a version of their own.
+constexpr uint32_t baker_version(SamplerKind sampler) {
+    return sampler == SamplerKind::uniform_sobol ? 7 : 6;
+}
 
 // Every vertex traces its rays in two halves, which are one set of directions (split_estimate.h,
 // cosine_directions.h). The mean of their estimates is the transfer. Half their difference, scaled

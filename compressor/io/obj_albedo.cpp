@@ -21,28 +21,15 @@ Vec3d clamp_color(const Vec3d& color, size_t& num_clamped) {
     return clamped;
 }
 
-Albedo albedo_of_colors(const std::string& name, const std::vector<Vec3d>& colors, bool srgb,
-                        std::vector<std::string>& warnings) {
-    Albedo albedo{{}};
-    size_t num_clamped = 0;
-    for (const Vec3d& color : colors) {
-        const Vec3d clamped = clamp_color(color, num_clamped);
-        albedo.values.push_back((srgb ? linear_from_srgb(clamped) : clamped).cast<float>());
-    }
-    if (num_clamped > 0) {
-        warnings.push_back(fmt::format("{}: {} vertex colours clamped to 0..1", name, num_clamped));
-    }
-    return albedo;
-}
-
 // [materials + 1] colours to average; the last is for faces without a material.
-std::vector<Vec3d> material_colors(const std::string& name, const ParsedObj& parsed,
+std::vector<Vec3d> material_colors(const std::string& name,
+                                   const std::vector<ObjMaterial>& materials,
                                    std::vector<std::string>& warnings) {
     const Vec3d none = Albedo().values[0].cast<double>();
     std::vector<Vec3d> colors;
     size_t num_clamped = 0, num_textures = 0;
     std::string texture;
-    for (const ObjMaterial& material : parsed.materials) {
+    for (const ObjMaterial& material : materials) {
         colors.push_back(clamp_color(material.diffuse.value_or(none), num_clamped));
         if (material.diffuse_texture.empty()) continue;
         if (num_textures++ == 0) texture = material.diffuse_texture;
@@ -61,15 +48,29 @@ std::vector<Vec3d> material_colors(const std::string& name, const ParsedObj& par
 
 }  // namespace
 
-Albedo obj_albedo(const std::string& name, const Polygons& faces, const ParsedObj& parsed,
-                  bool srgb, std::vector<std::string>& warnings) {
-    if (!parsed.colors.empty()) return albedo_of_colors(name, parsed.colors, srgb, warnings);
-    if (parsed.materials.empty()) return {};
+Albedo albedo_of_colours(const std::string& name, const std::vector<Vec3d>& colours, bool srgb,
+                         std::vector<std::string>& warnings) {
+    Albedo albedo{{}};
+    size_t num_clamped = 0;
+    for (const Vec3d& color : colours) {
+        const Vec3d clamped = clamp_color(color, num_clamped);
+        albedo.values.push_back((srgb ? linear_from_srgb(clamped) : clamped).cast<float>());
+    }
+    if (num_clamped > 0) {
+        warnings.push_back(fmt::format("{}: {} vertex colours clamped to 0..1", name, num_clamped));
+    }
+    return albedo;
+}
 
-    PAIM_CHECK_EQ(parsed.face_materials.size(), faces.num_faces());
-    const std::vector<Vec3d> colors = material_colors(name, parsed, warnings);
+Albedo albedo_of_materials(const std::string& name, const ObjScan& scan,
+                           const ObjLibraries& libraries, std::vector<std::string>& warnings) {
+    if (libraries.materials.empty()) return {};
+    const Polygons& faces = scan.faces;
+    PAIM_CHECK_EQ(scan.face_materials.size(), faces.num_faces());
+    const std::vector<Vec3d> colors = material_colors(name, libraries.materials, warnings);
     const auto color_of_face = [&](size_t i) -> const Vec3d& {
-        const int32_t material = parsed.face_materials[i];
+        const int32_t named = scan.face_materials[i];
+        const int32_t material = named >= 0 ? libraries.of_name[static_cast<size_t>(named)] : -1;
         return material >= 0 ? colors[static_cast<size_t>(material)] : colors.back();
     };
     bool uniform = true;
@@ -78,8 +79,8 @@ Albedo obj_albedo(const std::string& name, const Polygons& faces, const ParsedOb
     }
     if (uniform) return {{color_of_face(0).cast<float>()}};
 
-    std::vector<Vec3d> sums(parsed.positions.size(), Vec3d::Zero());
-    std::vector<uint32_t> counts(parsed.positions.size(), 0);
+    std::vector<Vec3d> sums(scan.num_vertices, Vec3d::Zero());
+    std::vector<uint32_t> counts(scan.num_vertices, 0);
     size_t corner = 0;
     for (size_t i = 0; i < faces.num_faces(); ++i) {
         for (const size_t end = corner + faces.sizes[i]; corner < end; ++corner) {

@@ -1,4 +1,4 @@
-// Parsing through tinyobjloader.
+// Normals of OBJ text, by tinyobjloader.
 #include "compressor/io/obj_parse.h"
 
 #include <algorithm>
@@ -6,9 +6,7 @@
 #include <streambuf>
 #include <utility>
 
-#include "compressor/io/obj_libraries.h"
 #include "compressor/io/obj_text.h"
-#include "paim/base/check.h"
 #include "paim/base/error.h"
 
 // A copy of tinyobjloader with double coordinates. Its namespace differs from that of the packaged
@@ -37,8 +35,7 @@ std::vector<Vec3d> to_vectors(const std::vector<tinyobj::real_t>& values) {
 
 }  // namespace
 
-ParsedObj parse_obj(const std::string& name, std::span<char> text, const ObjScan& scan,
-                    const std::filesystem::path& folder) {
+ParsedObj parse_obj(const std::string& name, std::span<char> text, const ObjScan& scan) {
     MemoryBuffer buffer(text);
     std::istream stream(&buffer);
     ParsedObj parsed;
@@ -46,10 +43,9 @@ ParsedObj parse_obj(const std::string& name, std::span<char> text, const ObjScan
     std::vector<tinyobj::shape_t> shapes;
     std::vector<tinyobj::material_t> materials;
     std::string warnings, errors;
-    // Does not triangulate, because the result would depend on the geometry of each pose. Vertices
-    // without a colour are white only if all of the faces have one.
+    // Does not triangulate, because the result would depend on the geometry of each pose.
     const bool loaded = tinyobj::LoadObj(&attributes, &shapes, &materials, &warnings, &errors,
-                                         &stream, nullptr, false, scan.has_colors);
+                                         &stream, nullptr, false, false);
     if (!loaded) throw_bad_input("{}: tinyobjloader: {}", name, printable(errors));
 
     std::vector<unsigned char> sizes;  // modulo 256
@@ -73,19 +69,7 @@ ParsedObj parse_obj(const std::string& name, std::span<char> text, const ObjScan
                         name);
     }
 
-    PAIM_CHECK_EQ(scan.positions.size(), size_t{scan.num_vertices});
-    parsed.positions = scan.positions;
     parsed.normals = to_vectors(attributes.normals);
-    if (scan.has_colors) parsed.colors = to_vectors(attributes.colors);
-    if (!scan.face_materials.empty()) {
-        ObjLibraries libraries = read_obj_libraries(name, folder, scan);
-        for (const int32_t used : scan.face_materials) {
-            parsed.face_materials.push_back(used >= 0 ? libraries.of_name[static_cast<size_t>(used)]
-                                                      : -1);
-        }
-        parsed.materials = std::move(libraries.materials);
-        parsed.warnings = std::move(libraries.warnings);
-    }
     return parsed;
 }
 

@@ -85,13 +85,28 @@ class Scanner {
         return std::move(scan_);
     }
 
+    // Lines that others are continued on begin with no keyword.
+    std::vector<Vec3d> run_positions() {
+        for (; !text_.at_end(); text_.next_line()) {
+            if (text_.read_keyword() != "v") continue;
+            Vec3d position = Vec3d::Zero();
+            for (int axis = 0; axis < 3 && text_.find_word(); ++axis) {
+                position[axis] = text_.read_number("vertex coordinate");
+            }
+            scan_.positions.push_back(position);
+        }
+        return std::move(scan_.positions);
+    }
+
   private:
     void vertex() {
         int num_values = 0;
-        Vec3d position = Vec3d::Zero();
+        Vec3d position = Vec3d::Zero(), color = Vec3d::Ones();
         for (; text_.find_word(); ++num_values) {
             if (num_values < 3 && options_.read_positions) {
                 position[num_values] = text_.read_number("vertex coordinate");
+            } else if (num_values >= 3 && num_values < 6 && options_.read_colors) {
+                color[num_values - 3] = text_.read_number("vertex attribute");
             } else {
                 text_.skip_number(num_values < 3 ? "vertex coordinate" : "vertex attribute");
             }
@@ -101,6 +116,9 @@ class Scanner {
         }
         vertex_has_color_.push_back(num_values >= 6);
         if (options_.read_positions) scan_.positions.push_back(position);
+        if (options_.read_colors) {
+            scan_.colors.push_back(num_values >= 6 ? color : Vec3d(Vec3d::Ones()));
+        }
         if (++vertices_.num_elements > kMaxIndex) {
             text_.fail(fmt::format("expected at most {} vertices", kMaxIndex));
         }
@@ -225,6 +243,7 @@ class Scanner {
         }
         scan_.has_colors = any && scan_.num_uncolored == 0;
         if (!any) scan_.num_uncolored = scan_.first_uncolored = 0;
+        if (!scan_.has_colors) scan_.colors = {};
     }
 
     void check_faces(const ObjReference& reference) const {
@@ -296,6 +315,10 @@ ObjScan scan_obj(const std::string& name, std::span<char> text, const ObjScanOpt
         }
     }
     return Scanner(name, text, options).run();
+}
+
+std::vector<Vec3d> scan_positions(const std::string& name, std::span<char> text) {
+    return Scanner(name, text, {}).run_positions();
 }
 
 }  // namespace paim

@@ -28,6 +28,9 @@ struct ObjScan {
     std::vector<Vec3d> positions;  // [V] scene units, floats in range; empty unless read_positions
     // Every vertex of a face is x y z r g b. Vertices of no face need no colour.
     bool has_colors = false;
+    // [V] r g b to the nearest doubles, white where there is none; empty unless read_colors and
+    // has_colors.
+    std::vector<Vec3d> colors;
     // If only some vertices of faces have a colour: the number of those without, and the first.
     uint64_t num_uncolored = 0;
     uint32_t first_uncolored = 0;
@@ -55,6 +58,7 @@ struct ObjScanOptions {
     const ObjReference* reference = nullptr;
     bool read_positions = false;  // to the nearest double
     bool read_materials = false;
+    bool read_colors = false;
 };
 
 // name  of the file, for messages
@@ -66,5 +70,9 @@ struct ObjScanOptions {
 //   faces; another number of vertices than the reference; indices out of range; other faces than
 //   the reference.
 ObjScan scan_obj(const std::string& name, std::span<char> text, const ObjScanOptions& options = {});
+
+// The positions of a text that scan_obj() has let pass before, without a look at its other lines.
+// text  as it was before that scan; rewritten in parts
+std::vector<Vec3d> scan_positions(const std::string& name, std::span<char> text);
 
 }  // namespace paim

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "compressor/io/obj_albedo.h"
+#include "compressor/io/obj_libraries.h"
 #include "compressor/io/obj_normals.h"
 #include "compressor/io/obj_parse.h"
 #include "paim/base/check.h"
@@ -57,8 +58,11 @@ Triangulation ObjSequence::check_files() {
         std::vector<char> text = read_file(files_[i], kMaxFileBytes);
         checksums_[i] = xxh3(text.data(), text.size());
         const ObjReference reference{reference_name(files_[0], files_[i]), first_};
+        const bool finds_albedo = i == 0 && !options_.albedo;
+        if (finds_albedo) vertex_colours_.exporter = srgb_exporter(text);
         ObjScan scan = scan_obj(files_[i].string(), text,
-                                {options_.normals_from_file, i > 0 ? &reference : nullptr, true});
+                                {options_.normals_from_file, i > 0 ? &reference : nullptr, true,
+                                 finds_albedo, finds_albedo});
         for (const uint32_t v : scan.faces.corners) bounds[i].extend(scan.positions[v]);
         const UsualBounds most = usual_bounds(scan.positions, scan.faces.corners, bounds[i]);
         usual[i] = most.bounds;
@@ -195,41 +199,30 @@ std::vector<char> ObjSequence::read_unchanged(uint32_t p) const {
     return text;
 }
 
-ParsedObj ObjSequence::parse(uint32_t p) const {
-    const std::string name = pose_name(p);
-    std::vector<char> text = read_unchanged(p);
-    // Scanned again for the rewritten text, which takes a tenth of the time of parsing.
-    const ObjScan scan = scan_obj(name, text, {options_.normals_from_file, nullptr, true});
-    return parse_obj(name, text, scan);
-}
-
-// With materials, if they give the albedo, and with what the vertex colours are taken as.
-ParsedObj ObjSequence::parse_first() {
+// The albedo from the first file: that of the options, else vertex colours, else materials.
+Albedo ObjSequence::find_albedo() {
+    if (options_.albedo) return {{*options_.albedo}};
     const std::string name = pose_name(0);
-    std::vector<char> text = read_unchanged(0);
-    if (!options_.albedo && first_.has_colors) {
-        const ColourCurve curve = options_.vertex_colours;
-        vertex_colours_ = {true, curve == ColourCurve::srgb, curve != ColourCurve::automatic,
-                           srgb_exporter(text)};
-        if (curve == ColourCurve::automatic) {
-            vertex_colours_.srgb = !vertex_colours_.exporter.empty();
-        }
+    const std::string exporter = std::exchange(vertex_colours_.exporter, {});
+    if (!first_.has_colors) {
+        ObjLibraries libraries = read_obj_libraries(name, files_[0].parent_path(), first_);
+        warnings_ = std::move(libraries.warnings);
+        return albedo_of_materials(name, first_, libraries, warnings_);
     }
-    const bool materials_count = !options_.albedo && !first_.has_colors;
-    const ObjScan scan =
-        scan_obj(name, text, {options_.normals_from_file, nullptr, true, materials_count});
-    return parse_obj(name, text, scan, files_[0].parent_path());
+    const ColourCurve curve = options_.vertex_colours;
+    const bool is_automatic = curve == ColourCurve::automatic;
+    const bool srgb = is_automatic ? !exporter.empty() : curve == ColourCurve::srgb;
+    vertex_colours_ = {true, srgb, !is_automatic, exporter};
+    return albedo_of_colours(name, std::exchange(first_.colors, {}), srgb, warnings_);
 }
 
 void ObjSequence::build(Triangulation cut) {
-    ParsedObj parsed = parse_first();
     const std::string name = pose_name(0);
-    warnings_ = std::move(parsed.warnings);
-
     if (cut.triangles.empty()) {
         throw_bad_input("{}: no faces with three different vertices", name);
     }
     topology_ = {first_.num_vertices, std::move(cut.triangles)};
+    albedo_ = find_albedo();
     std::vector<std::vector<Vec3f>> poses;
     const std::vector<uint32_t> numbers = reference_poses(num_poses());
     for (size_t r = 0; r < references_.size(); ++r) {
@@ -241,10 +234,6 @@ void ObjSequence::build(Triangulation cut) {
     seams_ = find_seams(distinct_, places_, poses[0], longest_edge_);
     references_.clear();
     places_ = first_places_ = {};
-    albedo_ = options_.albedo
-                  ? Albedo{{*options_.albedo}}
-                  : obj_albedo(name, first_.faces, parsed, vertex_colours_.srgb, warnings_);
-
     if (!options_.albedo && first_.num_uncolored > 0) {
         warnings_.push_back(fmt::format(
             "{}: vertex colours ignored: {} vertices of faces have none, e.g. vertex {}", name,
@@ -309,14 +298,26 @@ uint64_t ObjSequence::pose_checksum(uint32_t p) const {
     return checksums_[p];
 }
 
+std::vector<Vec3f> ObjSequence::load_positions(uint32_t p) const {
+    PAIM_CHECK_LT(p, num_poses());
+    std::vector<char> text = read_unchanged(p);
+    return local(p, scan_positions(pose_name(p), text));
+}
+
 Pose ObjSequence::load_pose(uint32_t p) const {
     PAIM_CHECK_LT(p, num_poses());
-    const ParsedObj parsed = parse(p);
     Pose pose;
-    pose.positions = local(p, parsed.positions);
-    pose.normals = options_.normals_from_file
-                       ? obj_normals(distinct_, first_.faces, parsed, pose.positions)
-                       : vertex_normals(distinct_, pose.positions, seams_);
+    if (!options_.normals_from_file) {
+        pose.positions = load_positions(p);
+        pose.normals = vertex_normals(distinct_, pose.positions, seams_);
+        return pose;
+    }
+    const std::string name = pose_name(p);
+    std::vector<char> text = read_unchanged(p);
+    const ObjScan scan = scan_obj(name, text, {true, nullptr, true});
+    const ParsedObj parsed = parse_obj(name, text, scan);
+    pose.positions = local(p, scan.positions);
+    pose.normals = obj_normals(distinct_, scan.faces, parsed, pose.positions);
     return pose;
 }
 

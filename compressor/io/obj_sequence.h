@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "compressor/io/obj_parse.h"
 #include "compressor/io/obj_scan.h"
 #include "compressor/io/triangulate.h"
 #include "compressor/io/vertex_colours.h"
@@ -60,6 +59,7 @@ class ObjSequence : public PoseSource {
     uint64_t pose_checksum(uint32_t p) const override;  // of the bytes of the file
     // Error (bad input) if the file has changed since the sequence was opened.
     Pose load_pose(uint32_t p) const override;
+    std::vector<Vec3f> load_positions(uint32_t p) const override;  // the same error
 
     // Closed parts of the first pose that face inwards, or did before they were turned.
     size_t num_inward() const { return num_inward_; }
@@ -79,8 +79,7 @@ class ObjSequence : public PoseSource {
     void build(Triangulation cut);
     void check_orientation(std::span<const std::vector<Vec3f>> poses);
     std::string part_name(uint32_t vertex) const;
-    ParsedObj parse(uint32_t p) const;
-    ParsedObj parse_first();
+    Albedo find_albedo();
     std::vector<char> read_unchanged(uint32_t p) const;
     std::vector<Vec3f> local(size_t file, const std::vector<Vec3d>& positions) const;
     void choose_offsets(const std::vector<BoundsD>& bounds);

@@ -185,10 +185,13 @@ class PoseBounds {
     }
 
   private:
-    Pose load(size_t p) const { return load_from_origin(source_, static_cast<uint32_t>(p)); }
-    static std::vector<Vec3f> points_of(const Pose& pose, std::span<const uint32_t> vertices) {
+    std::vector<Vec3f> load(size_t p) const {
+        return load_positions_from_origin(source_, static_cast<uint32_t>(p));
+    }
+    static std::vector<Vec3f> points_of(std::span<const Vec3f> positions,
+                                        std::span<const uint32_t> vertices) {
         std::vector<Vec3f> points;
-        for (const uint32_t v : vertices) points.push_back(pose.positions[v]);
+        for (const uint32_t v : vertices) points.push_back(positions[v]);
         return points;
     }
     Vec3d to_local(size_t p, const Vec3f& point) const {
@@ -248,9 +251,9 @@ class PoseBounds {
         std::vector<std::vector<float>> planes(source_.num_poses());  // [P][3][tracked], local
         std::vector<Bounds> bounds(planes.size());
         parallel_for(planes.size(), 1, [&](size_t p, size_t) {
-            const Pose pose = load(p);
-            bounds[p].extend(points_of(pose, near));
-            std::vector<Vec3f> points = points_of(pose, tracked);
+            const std::vector<Vec3f> positions = load(p);
+            bounds[p].extend(points_of(positions, near));
+            std::vector<Vec3f> points = points_of(positions, tracked);
             for (Vec3f& point : points) point = to_local(p, point).cast<float>();
             planes[p] = to_planes(points);
         });

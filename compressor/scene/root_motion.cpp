@@ -38,12 +38,12 @@ std::vector<uint32_t> some_vertices(const Topology& topology) {
 }
 
 std::vector<Vec3d> points_of(const PoseSource& source, uint32_t p, const Reference& reference) {
-    const Pose pose = source.load_pose(p);
+    const std::vector<Vec3f> positions = source.load_positions(p);
     const Vec3d offset = source.pose_offset(p) - reference.centre;
     std::vector<Vec3d> points;
     points.reserve(reference.vertices.size());
     for (const uint32_t v : reference.vertices) {
-        points.emplace_back(pose.positions[v].cast<double>() + offset);
+        points.emplace_back(positions[v].cast<double>() + offset);
     }
     return points;
 }

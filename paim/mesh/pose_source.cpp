@@ -3,14 +3,27 @@
 
 namespace paim {
 
-Pose load_from_origin(const PoseSource& source, uint32_t p) {
-    Pose pose = source.load_pose(p);
-    const Vec3d offset = source.pose_offset(p);
-    if (offset.isZero(0.0)) return pose;
-    for (Vec3f& position : pose.positions) {
+namespace {
+
+void add(const Vec3d& offset, std::vector<Vec3f>& positions) {
+    if (offset.isZero(0.0)) return;
+    for (Vec3f& position : positions) {
         position = (position.cast<double>() + offset).cast<float>();
     }
+}
+
+}  // namespace
+
+Pose load_from_origin(const PoseSource& source, uint32_t p) {
+    Pose pose = source.load_pose(p);
+    add(source.pose_offset(p), pose.positions);
     return pose;
+}
+
+std::vector<Vec3f> load_positions_from_origin(const PoseSource& source, uint32_t p) {
+    std::vector<Vec3f> positions = source.load_positions(p);
+    add(source.pose_offset(p), positions);
+    return positions;
 }
 
 }  // namespace paim

@@ -46,10 +46,16 @@ class PoseSource {
 
     // Reads pose p < num_poses(). May be called from several threads at once.
     virtual Pose load_pose(uint32_t p) const = 0;
+
+    // Its positions alone, which may be less work. May be called from several threads at once.
+    virtual std::vector<Vec3f> load_positions(uint32_t p) const { return load_pose(p).positions; }
 };
 
 // Pose p with positions relative to the origin, which floats of a mesh that travels far hold less
 // exactly.
 Pose load_from_origin(const PoseSource& source, uint32_t p);
+
+// Its positions alone.
+std::vector<Vec3f> load_positions_from_origin(const PoseSource& source, uint32_t p);
 
 }  // namespace paim

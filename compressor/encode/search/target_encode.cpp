@@ -20,7 +20,7 @@ EncodedFile meet_error(const EncodeProblem& problem, EncodedFiles& files,
                        const EncodeTarget& target, double transfer_error) {
     std::string reason;
     std::optional<EncodedFile> file = files.meet(transfer_error, reason);
-    if (!file) throw_infeasible(reason);
+    if (!file) throw_missed(problem, transfer_error, reason);
     if (target.size_bytes && file->file.size_bytes() > *target.size_bytes) {
         throw_infeasible(
             fmt::format("{}: a transfer error of {:.3g} % takes {} bytes, --max-size allows {}",

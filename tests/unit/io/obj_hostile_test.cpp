@@ -6,6 +6,7 @@
 #include <chrono>
 #include <random>
 
+#include "compressor/io/obj_parse.h"
 #include "tests/unit/io/obj_test_files.h"
 
 namespace paim {
@@ -138,6 +139,8 @@ TEST(HostileObj, Garbage) {
             // What the scan lets pass, the parser reads the same way.
             if (scan == nullptr) continue;
             EXPECT_EQ(bad_input_of([&] { parse_obj("x", text, *scan); }), "no error") << soup;
+            std::string whole = soup;
+            EXPECT_EQ(scan_positions("x", whole), scan->positions) << soup;
         }
     }
 }

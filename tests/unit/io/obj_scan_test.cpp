@@ -31,7 +31,20 @@ TEST(ObjScan, TakesTheFormsThatFilesUse) {
         EXPECT_EQ(bad_input_of([&] { EXPECT_EQ(scan_text(text).faces, expected.faces) << text; }),
                   "no error")
             << text;
+        std::string whole = text, again = text;
+        EXPECT_EQ(scan_positions("x", again),
+                  scan_obj("x", whole, {.read_positions = true}).positions)
+            << text;
     }
+}
+
+TEST(ObjScan, ReadsColorsWhereTheyAreWanted) {
+    std::string text = "v 0 0 0 1 0 0.1\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nv 9 9 9\nf 1 2 3\n";
+    std::string again = text, mixed = "v 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0 0 0 1\nf 1 2 3\n";
+    EXPECT_EQ(scan_obj("x", text, {.read_colors = true}).colors,
+              (std::vector<Vec3d>{{1, 0, 0.1}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}}));
+    EXPECT_TRUE(scan_obj("x", again).colors.empty());
+    EXPECT_TRUE(scan_obj("x", mixed, {.read_colors = true}).colors.empty());
 }
 
 TEST(ObjScan, SeesColorsOnlyIfAllHaveThem) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <string>
 
 #include "compressor/encode/search/less_noise.h"
@@ -87,6 +88,51 @@ TEST_F(Feasibility, CountsWhatStandsStillToo) {
                                  less_noise_hint(bake_.identity(),
                                                  problem_->best_achievable.still->transfer, 0.02));
     EXPECT_EQ(problem_->least_error(), 0.03);
+}
+
+// Which kind of refusal it is: rays that would do, or nothing.
+TEST_F(Feasibility, SaysHowManyRaysWouldDo) {
+    const auto rays_of = [&](const auto& refuse) -> std::optional<uint32_t> {
+        try {
+            refuse();
+        } catch (const TooNoisy& noisy) {
+            return noisy.rays();
+        } catch (const Error&) {
+        }
+        return std::nullopt;
+    };
+    const BakeIdentity& identity = bake_.identity();
+    TransferError& best = problem_->best_achievable.transfer;
+    best.error = 0.04;
+    best.worst_vertex_error_to_bake = 0.1;
+    EXPECT_EQ(rays_of([&] { check_feasible(*problem_, 0.02); }), rays_for(identity, best, 0.02));
+    EXPECT_EQ(rays_of([&] { check_vertex_feasible(*problem_, 0.05); }),
+              rays_for(identity, best, 0.02));  // twice as large, either way
+    // Where little is left for coding. Where enough is, noise is not to blame.
+    EXPECT_EQ(rays_of([&] { throw_missed(*problem_, 0.041, "x"); }),
+              rays_for(identity, best, 0.041));
+    EXPECT_EQ(rays_of([&] { throw_missed(*problem_, 0.05, "x"); }), std::nullopt);
+    best.missing_bands = 0.03;
+    EXPECT_EQ(rays_of([&] { check_feasible(*problem_, 0.02); }), std::nullopt);
+}
+
+// As many as the part and the target need that need the most.
+TEST_F(Feasibility, RaysMeetTheWholeTarget) {
+    const BakeIdentity& identity = bake_.identity();
+    TransferError error;
+    error.error = 0.04;
+    problem_->best_achievable.transfer = error;
+    EncodeTarget target;
+    target.transfer_error = 0.02;
+    EXPECT_EQ(rays_to_meet(*problem_, target), rays_for(identity, error, 0.02));
+    problem_->best_achievable.still.emplace();
+    problem_->best_achievable.still->transfer.error = 0.08;
+    EXPECT_EQ(rays_to_meet(*problem_, target), rays_for(identity, error, 0.01));
+    problem_->best_achievable.transfer.worst_vertex_error_to_bake = 0.3;
+    target.vertex_error = 0.03;
+    EXPECT_EQ(rays_to_meet(*problem_, target), rays_for(identity, error, 0.004));
+    problem_->best_achievable.transfer.missing_bands = 0.02;
+    EXPECT_THROW(rays_to_meet(*problem_, target), Error);
 }
 
 }  // namespace
