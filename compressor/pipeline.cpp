@@ -237,7 +237,7 @@ ordered_json run_with_chosen_rays(CompressOptions options, const BakeInput& inpu
         options.bake.rays = choose_rays(options, input, directory, json["pilot"]);
     } else if (const auto rays = rays_of_bake_there(directory)) {
         options.bake.rays = *rays;
-        print_notes({fmt::format("{}: is there, of {} rays a vertex, which are not chosen anew",
+        print_notes({fmt::format("{}: is there and keeps its {} rays a vertex",
                                  directory.string(), *rays)});
     }
     for (int num_bakes = 1;; ++num_bakes) {

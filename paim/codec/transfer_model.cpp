@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "paim/codec/frame_cost.h"
+#include "paim/codec/point_groups.h"
 #include "paim/codec/rebuild_planes.h"
 #include "paim/codec/section_row.h"
 #include "paim/codec/transfer_player.h"
@@ -54,6 +55,10 @@ class DecodingPlayer : public TransferPlayer {
 };
 
 }  // namespace
+
+std::optional<PointGroups> TransferModel::point_groups() const {
+    return {};
+}
 
 TransferModel::~TransferModel() = default;
 

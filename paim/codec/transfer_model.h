@@ -18,13 +18,13 @@
 #include "paim/base/export.h"
 #include "paim/codec/decode_limits.h"
 #include "paim/codec/low_rank.h"
-#include "paim/codec/point_groups.h"
 #include "paim/transfer/layout.h"
 
 namespace paim {
 
 struct FrameCost;      // codec/frame_cost.h
 struct NamedNumber;    // codec/section_row.h
+struct PointGroups;    // codec/point_groups.h
 struct SectionRow;     // the same
 class TransferPlayer;  // codec/transfer_player.h
 
@@ -67,7 +67,7 @@ class PAIM_EXPORT TransferModel {
     virtual double vertex_gain() const { return 1.0; }
 
     // How vertices are made of points. Nothing if points_are_vertices().
-    virtual std::optional<PointGroups> point_groups() const { return {}; }
+    virtual std::optional<PointGroups> point_groups() const;
 
     // The numbers of the metadata that this codec has, in the order of the file.
     virtual std::vector<NamedNumber> numbers();

@@ -239,12 +239,12 @@ void NoiseCovariance::add_coordinates(uint32_t band, const MatrixXf& points) {
         const MatrixXf axes = axes_->point_axes(g, points);
         for_each_run_of_members(axes_->members(g), [&](Index first, auto members) {
             const MatrixXf here = axes.transpose() * gather(noise_along_, members);
-            sums.col(Index{g}) +=
-                noise_coordinates_.middleCols(axes_->begin(g) + first, here.cols())
-                    .cwiseProduct(here)
-                    .rowwise()
-                    .sum()
-                    .cast<double>();
+            const MatrixXf& coordinates = noise_coordinates_;
+            sums.col(Index{g}) += coordinates.middleCols(axes_->begin(g) + first, here.cols())
+                                      .cast<double>()
+                                      .cwiseProduct(here.cast<double>())
+                                      .rowwise()
+                                      .sum();
         });
     });
     for (Index j = 0; j < sums.size(); ++j) {

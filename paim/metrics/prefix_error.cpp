@@ -8,6 +8,7 @@
 
 #include "paim/base/check.h"
 #include "paim/base/parallel.h"
+#include "paim/codec/point_groups.h"
 #include "paim/mesh/face_vertices.h"
 
 namespace paim {

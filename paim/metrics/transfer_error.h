@@ -21,7 +21,7 @@ namespace paim {
 // coefficients.
 
 // Sums of squares over all values of a band, not weighted by the light. The covariance depends on the
-// light, because clusters are fitted by it.
+// light, because vertices that share points are fitted by it.
 struct TransferBandEnergy {
     double baked = 0.0;  // ‖x‖²
     double noise = 0.0;  // ‖d‖², an estimate of the squared error of the bake, ‖x − t‖²

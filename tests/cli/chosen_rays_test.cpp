@@ -73,7 +73,7 @@ TEST_F(ChosenRays, AreThoseOfABakeThatIsThere) {
     EXPECT_EQ(report["bake"]["rays"], 48);
     EXPECT_EQ(report["bake"]["poses_resumed"], 6);
     EXPECT_FALSE(report.contains("pilot"));
-    EXPECT_TRUE(contains(result.err, "is there, of 48 rays")) << result.err;
+    EXPECT_TRUE(contains(result.err, "is there and keeps its 48 rays")) << result.err;
     // It is not thrown away for one that is good enough.
     expect_failure(in_one_go({"--max-error", "1%"}), 5, {"the bake's noise leaves", "--rays"});
     EXPECT_EQ(rays_of_bake(), 48);

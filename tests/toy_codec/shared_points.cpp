@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "paim/codec/frame_cost.h"
+#include "paim/codec/point_groups.h"
 #include "paim/codec/transfer_player.h"
 
 namespace paim::toy {

@@ -9,6 +9,7 @@
 #include "paim/base/parallel.h"
 #include "paim/codec/cpca/basis_table.h"
 #include "paim/codec/cpca/cpca_player.h"
+#include "paim/codec/point_groups.h"
 
 namespace paim {
 

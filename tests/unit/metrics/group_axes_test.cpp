@@ -12,13 +12,13 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::MatrixXf;
 
-constexpr uint32_t kGroups = 3, kPoints = 4;
+constexpr uint32_t kGroups = 4, kPoints = 4;
 constexpr Index kDirections = 6;
 constexpr int kPlanes = 2;
 // Of floats that are sums of a few products of about 1.
 constexpr float kRounding = 1e-5f;
 
-// 40 vertices, in groups that alternate; group 2 has two vertices only, fewer than points.
+// 40 vertices, in groups that alternate. Group 2 has two vertices, fewer than points, and group 3 none.
 PointGroups some_groups() {
     PointGroups groups{kGroups, {}, gaussian(40, kPoints, 1).cast<float>(), true};
     for (uint32_t v = 0; v < 40; ++v) groups.group.push_back(v == 7 || v == 20 ? 2 : v % 2);
@@ -55,21 +55,22 @@ TEST(GroupAxes, OfVerticesAreOrthonormalAndSpanTheFactors) {
         const MatrixXf of_vertices = axes.vertex_axes(g);
         const auto members = axes.members(g);
         ASSERT_EQ(of_vertices.cols(), static_cast<Index>(members.size()));
-        const Index rank = g == 2 ? 2 : kPoints;
+        const Index rank = g < 2 ? kPoints : static_cast<Index>(members.size());
         const MatrixXf gram = of_vertices * of_vertices.transpose();
         MatrixXf expected = MatrixXf::Zero(kPoints, kPoints);
         expected.topLeftCorner(rank, rank).setIdentity();
         EXPECT_LT((gram - expected).cwiseAbs().maxCoeff(), kRounding) << g;
         const MatrixXf factors = groups.factors(members, Eigen::all).transpose();
         const MatrixXf along = factors * of_vertices.transpose() * of_vertices;
-        EXPECT_LT((along - factors).cwiseAbs().maxCoeff(), kRounding) << g;
+        EXPECT_LT((along - factors).norm(), 10.0f * kRounding) << g;
     }
 }
 
 TEST(GroupAxes, OfPointsAreOrthonormalOverAllPlanesWithTheirWeights) {
     const GroupAxes axes = make_axes(some_groups());
     ASSERT_EQ(axes.num_point_axes(), Index{kPoints} - 1);
-    for (uint32_t g = 0; g < kGroups; ++g) {
+    EXPECT_FALSE(axes.has_point_axes(2));
+    for (uint32_t g = 0; g < 2; ++g) {
         MatrixXd gram = MatrixXd::Zero(kPoints - 1, kPoints - 1);
         for (int plane = 0; plane < kPlanes; ++plane) {
             const MatrixXd of_plane = axes.point_axes(g, points_of(plane)).cast<double>();
@@ -92,7 +93,7 @@ TEST(GroupAxes, AreZeroForPointsThatDependOnThoseBefore) {
 TEST(GroupAxes, GiveTheCoordinatesOfDecodedVertices) {
     const PointGroups groups = some_groups();
     const GroupAxes axes = make_axes(groups);
-    for (uint32_t g = 0; g < kGroups; ++g) {
+    for (uint32_t g = 0; g < 2; ++g) {
         const auto members = axes.members(g);
         const MatrixXf factors = groups.factors(members, Eigen::all).transpose();  // [R][V_g]
         MatrixXf expected = MatrixXf::Zero(kPoints - 1, factors.cols());

@@ -108,6 +108,7 @@ CodecMemory made_up_memory(const TargetSize& size) {
     memory.coding_bytes = uint64_t{1} << 42;
     memory.preparing_bytes = uint64_t{1} << 44;
     memory.num_points = 2 * size.streamed.num_vertices;
+    memory.num_points_each = 4;
     return memory;
 }
 
