@@ -8,6 +8,7 @@
 
 #include "paim/format/bake/bake_directory.h"
 #include "paim/format/bake/bake_manifest.h"
+#include "paim/format/bake/bake_removal.h"
 
 namespace paim {
 
@@ -24,13 +25,24 @@ uint32_t pilot_rays(double transfer_error) {
     return static_cast<uint32_t>(std::clamp(rays, kLeast, kMost));
 }
 
-std::filesystem::path pilot_directory(std::filesystem::path bake) {
-    return bake.replace_extension(".pilot.bake");
+std::optional<uint32_t> rays_of_begun_bake(const std::filesystem::path& directory) {
+    if (!is_bake(directory)) return std::nullopt;
+    const uint32_t rays = read_manifest(directory / kManifestName).rays;
+    const std::filesystem::directory_iterator entries(directory);
+    const bool has_poses = std::any_of(begin(entries), end(entries), [](const auto& entry) {
+        return entry.path().filename().string().starts_with("pose_");
+    });
+    return has_poses ? std::optional(rays) : std::nullopt;
 }
 
-std::optional<uint32_t> rays_of_bake_there(const std::filesystem::path& directory) {
-    if (!is_bake(directory)) return std::nullopt;
-    return read_manifest(directory / "manifest.json").rays;
+void remove_bake_of_other_rays(const std::filesystem::path& directory, uint32_t rays) {
+    if (!is_bake(directory)) return;
+    if (read_manifest(directory / kManifestName).rays != rays) remove_bake(directory);
+}
+
+bool is_foreign_directory(const std::filesystem::path& directory) {
+    return std::filesystem::exists(directory) && !std::filesystem::is_empty(directory) &&
+           !is_bake(directory);
 }
 
 std::string chosen_rays_note(uint32_t rays, uint32_t pilot_rays, const EncodeTarget& target,

@@ -14,11 +14,15 @@ namespace paim {
 // about a quarter of what is usual, and no fewer than noise can be judged by.
 uint32_t pilot_rays(double transfer_error);
 
-// Where the pilot of a bake is.
-std::filesystem::path pilot_directory(std::filesystem::path bake);
+// The rays of a bake that is there with at least one pose; nothing otherwise. Error (bad input): its
+// manifest is damaged.
+std::optional<uint32_t> rays_of_begun_bake(const std::filesystem::path& directory);
 
-// The rays of the bake that is there, complete or not; nothing if there is none. Error (bad input): its manifest is damaged.
-std::optional<uint32_t> rays_of_bake_there(const std::filesystem::path& directory);
+// Removes a bake that is there without poses if it has other rays.
+void remove_bake_of_other_rays(const std::filesystem::path& directory, uint32_t rays);
+
+// Whether a directory with files that is no bake is there, into which nothing is baked.
+bool is_foreign_directory(const std::filesystem::path& directory);
 
 // How often a sequence is baked until its noise allows the error, the pilot not counted.
 constexpr int kMaxBakes = 4;

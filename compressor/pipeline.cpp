@@ -18,6 +18,7 @@
 #include "compressor/mesh_warnings.h"
 #include "compressor/outlier_notes.h"
 #include "compressor/output_check.h"
+#include "compressor/pilot_directory.h"
 #include "compressor/target_report.h"
 #include "paim/base/error.h"
 #include "paim/base/file.h"
@@ -26,6 +27,7 @@
 #include "paim/base/tbb_parallel.h"
 #include "paim/cli/light_options.h"
 #include "paim/cli/progress.h"
+#include "paim/format/bake/bake_removal.h"
 
 namespace paim {
 
@@ -185,24 +187,23 @@ ordered_json run_encode(const CompressOptions& options, const std::filesystem::p
     return json;
 }
 
-void discard(const std::filesystem::path& directory) {
-    std::error_code failure;
-    // Of a symbolic link, the bake that it leads to.
-    std::filesystem::remove_all(follow_links(directory), failure);
-    if (failure) {
-        throw_output_failed("{}: cannot remove: {}", directory.string(), failure.message());
-    }
+// An error about a pilot is one about the bake that it stands for.
+[[noreturn]] void throw_as_of_bake(const Error& error, const std::filesystem::path& pilot,
+                                   const std::filesystem::path& bake) {
+    std::string message = error.what();
+    const std::string name = pilot.string();
+    if (message.starts_with(name)) message.replace(0, name.size(), bake.string());
+    throw Error(error.code(), message);
 }
 
 // Chooses the rays of the bake by the noise of a pilot, which is the bake if it is good enough.
 // json  receives what the pilot was
 uint32_t choose_rays(CompressOptions options, const BakeInput& input,
                      const std::filesystem::path& directory, ordered_json& json) {
-    const std::filesystem::path pilot = pilot_directory(directory);
-    check_output(pilot);
+    const PilotDirectory pilot(directory);
     options.bake.rays = pilot_rays(*options.target->transfer_error);
-    warn_of_mesh(bake(options, input, pilot, "baking a pilot"));
-    const BakeReader reader(pilot);
+    warn_of_mesh(bake(options, input, pilot.path(), "baking a pilot"));
+    const BakeReader reader(pilot.path());
     uint32_t rays = 0;
     try {
         const EncodeTarget target = target_of(options, reader);
@@ -214,16 +215,10 @@ uint32_t choose_rays(CompressOptions options, const BakeInput& input,
         rays = rays_to_meet(problem, target);
         json = {{"rays", options.bake.rays}, {"best_transfer_error", problem.least_error()}};
         print_notes({chosen_rays_note(rays, options.bake.rays, target, problem)});
-    } catch (...) {
-        discard(pilot);
-        throw;
+    } catch (const Error& error) {
+        throw_as_of_bake(error, pilot.path(), directory);
     }
-    if (rays <= options.bake.rays) {
-        std::error_code failure;
-        std::filesystem::rename(pilot, follow_links(directory), failure);
-        if (!failure) return options.bake.rays;
-    }
-    discard(pilot);
+    if (rays <= options.bake.rays) pilot.become(directory);
     return std::max(rays, options.bake.rays);
 }
 
@@ -232,27 +227,34 @@ uint32_t choose_rays(CompressOptions options, const BakeInput& input,
 ordered_json run_with_chosen_rays(CompressOptions options, const BakeInput& input,
                                   const std::filesystem::path& directory) {
     ordered_json json;
-    const bool there = std::filesystem::exists(directory) && !std::filesystem::is_empty(directory);
-    if (!there) {
+    const std::optional<uint32_t> rays_there = rays_of_begun_bake(directory);
+    if (rays_there) {
+        options.bake.rays = *rays_there;
+        print_notes({fmt::format("{}: is there and keeps its {} rays a vertex", directory.string(),
+                                 *rays_there)});
+    } else if (!is_foreign_directory(directory)) {
         options.bake.rays = choose_rays(options, input, directory, json["pilot"]);
-    } else if (const auto rays = rays_of_bake_there(directory)) {
-        options.bake.rays = *rays;
-        print_notes({fmt::format("{}: is there and keeps its {} rays a vertex",
-                                 directory.string(), *rays)});
+        remove_bake_of_other_rays(directory, options.bake.rays);
     }
     for (int num_bakes = 1;; ++num_bakes) {
         const BakeReport report = bake(options, input, directory);
-        if (there) warn_of_mesh(report);
+        if (rays_there) warn_of_mesh(report);
         json["bake"] = tell(options, report);
         try {
             json["encode"] = run_encode(options, directory);
             return json;
         } catch (const TooNoisy& noisy) {
-            if (there || num_bakes == kMaxBakes) throw;
+            if (rays_there) {
+                throw_infeasible(fmt::format(
+                    "{}; this bake was there: remove it, and the rays are chosen, or choose another "
+                    "output",
+                    noisy.what()));
+            }
+            if (num_bakes == kMaxBakes) throw;
             print_notes({fmt::format("{}; it is baked again with {}", noisy.what(), noisy.rays())});
             options.bake.rays = noisy.rays();
         }
-        discard(directory);
+        remove_bake(directory);
     }
 }
 
@@ -277,7 +279,7 @@ ordered_json run_both(const CompressOptions& options) {
         }
         json["encode"] = run_encode(options, directory);
     }
-    if (options.discard_bake) discard(directory);
+    if (options.discard_bake) remove_bake(directory);
     return json;
 }
 

@@ -100,9 +100,9 @@ MatrixXf GroupAxes::decoded_coordinates(uint32_t g) const {
 
 uint64_t GroupAxes::bytes(uint64_t num_vertices, uint64_t num_groups, uint64_t num_points_each) {
     // Factors and axes; factors and axes of a group as doubles while these are made, which is all of
-    // them if there is one group. Only groups of more than R vertices have products.
+    // them if there is one group. Only groups of R / 2 vertices or more have products.
     const uint64_t values = num_vertices * num_points_each;
-    const uint64_t num_products = std::min(num_groups, num_vertices / num_points_each);
+    const uint64_t num_products = std::min(num_groups, 1 + 2 * num_vertices / num_points_each);
     return num_vertices * sizeof(uint32_t) + 2 * values * (sizeof(float) + sizeof(double)) +
            2 * num_products * num_points_each * num_points_each * sizeof(double);
 }

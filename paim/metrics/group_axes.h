@@ -41,9 +41,12 @@ class GroupAxes {
     }
     Eigen::Index begin(uint32_t g) const { return static_cast<Eigen::Index>(begin_[g]); }
 
-    // Whether a group has point axes. One of at most R vertices has none, because its vertex axes
-    // span all that its vertices can do.
-    bool has_point_axes(uint32_t g) const { return begin(g + 1) - begin(g) > num_points_each_; }
+    // Whether a group has point axes. One of fewer than R / 2 vertices has none, because its vertex axes
+    // are taken to span all that its vertices can do. So the memory that a file can ask for is bounded
+    // by its vertices.
+    bool has_point_axes(uint32_t g) const {
+        return 2 * (begin(g + 1) - begin(g)) >= num_points_each_;
+    }
 
     // [R][V_g] A column a member. Rows are orthonormal, or zero: those of factors that depend on
     // those before, and those beyond V_g.

@@ -16,6 +16,14 @@ class ChosenRays : public ToolTest {
         return compress(options);
     }
     json rays_of_bake() const { return parse_object(info({path("x.bake"), "--json"}))["rays"]; }
+    // Directories of pilots that are left.
+    int num_pilots() const {
+        int count = 0;
+        for (const auto& entry : std::filesystem::directory_iterator(path(""))) {
+            if (entry.path().filename().string().starts_with(".x.pilot-")) ++count;
+        }
+        return count;
+    }
     void remove_bake() const { std::filesystem::remove_all(path("x.bake")); }
 
     std::string poses_ = make_poses("octopus", 6, 1000);
@@ -37,7 +45,7 @@ TEST_F(ChosenRays, AreAsManyAsTheErrorNeeds) {
           fmt::format("{} leave", pilot)}) {
         EXPECT_TRUE(contains(result.err, part)) << part << " in " << result.err;
     }
-    EXPECT_FALSE(std::filesystem::exists(path("x.pilot.bake")));
+    EXPECT_EQ(num_pilots(), 0);
     EXPECT_EQ(analyze({path("x.bake"), "--verify", path("x.paim")}).exit_code, 0);
     // The bake is that of these rays.
     expect_success(compress(
@@ -51,7 +59,7 @@ TEST_F(ChosenRays, AreThoseOfThePilotIfTheyDo) {
     EXPECT_EQ(report["bake"]["rays"], report["pilot"]["rays"]);
     EXPECT_EQ(report["bake"]["poses_resumed"], 6);
     EXPECT_TRUE(contains(result.err, "rays a vertex do for")) << result.err;
-    EXPECT_FALSE(std::filesystem::exists(path("x.pilot.bake")));
+    EXPECT_EQ(num_pilots(), 0);
 }
 
 TEST_F(ChosenRays, GrowWhereTheFirstChoiceWasTooFew) {
@@ -75,7 +83,8 @@ TEST_F(ChosenRays, AreThoseOfABakeThatIsThere) {
     EXPECT_FALSE(report.contains("pilot"));
     EXPECT_TRUE(contains(result.err, "is there and keeps its 48 rays")) << result.err;
     // It is not thrown away for one that is good enough.
-    expect_failure(in_one_go({"--max-error", "1%"}), 5, {"the bake's noise leaves", "--rays"});
+    expect_failure(in_one_go({"--max-error", "1%"}), 5,
+                   {"the bake's noise leaves", "--rays", "this bake was there: remove it"});
     EXPECT_EQ(rays_of_bake(), 48);
 }
 
@@ -95,17 +104,50 @@ TEST_F(ChosenRays, AreNotChosenWhereTheyOrTheirNoiseAreGiven) {
 
 TEST_F(ChosenRays, AreNoneWhereNoRaysWouldDo) {
     expect_failure(in_one_go({"--max-error", "1%", "--light-spectrum", "natural"}), 5,
-                   {"its 3 bands leave out", "more --bands"});
+                   {"x.bake: a transfer error", "its 3 bands leave out", "more --bands"});
     EXPECT_FALSE(std::filesystem::exists(path("x.bake")));
-    EXPECT_FALSE(std::filesystem::exists(path("x.pilot.bake")));
+    EXPECT_EQ(num_pilots(), 0);
 }
 
 TEST_F(ChosenRays, LeaveFoldersAloneThatAreNoBakes) {
     std::filesystem::create_directory(path("x.bake"));
     write("x.bake/notes.txt", "mine");
     expect_failure(in_one_go({"--max-error", "10%"}), 2, {"is not empty and not a bake"});
-    EXPECT_FALSE(std::filesystem::exists(path("x.pilot.bake")));
+    EXPECT_EQ(num_pilots(), 0);
     EXPECT_TRUE(std::filesystem::exists(path("x.bake/notes.txt")));
+}
+
+TEST_F(ChosenRays, RemoveNothingThatIsNotTheirs) {
+    // What was a pilot's name before, and may be anybody's.
+    std::filesystem::create_directory(path("x.pilot.bake"));
+    write("x.pilot.bake/notes.txt", "mine");
+    expect_success(in_one_go({"--max-error", "20%"}));
+    EXPECT_TRUE(std::filesystem::exists(path("x.pilot.bake/notes.txt")));
+    // Of the bake, only its own files.
+    write("x.bake/notes.txt", "mine");
+    expect_success(in_one_go({"--max-error", "20%", "--discard-bake"}));
+    EXPECT_TRUE(std::filesystem::exists(path("x.bake/notes.txt")));
+    EXPECT_FALSE(std::filesystem::exists(path("x.bake/manifest.json")));
+    EXPECT_FALSE(std::filesystem::exists(path("x.bake/pose_000000.bin")));
+}
+
+TEST_F(ChosenRays, RemovePilotsOfKilledRuns) {
+    std::filesystem::create_directory(path(".x.pilot-1"));
+    write(".x.pilot-1/manifest.json", "cut");
+    write(".x.pilot-1/pose_000000.bin", "cut");
+    expect_success(in_one_go({"--max-error", "20%"}));
+    EXPECT_EQ(num_pilots(), 0);
+}
+
+TEST_F(ChosenRays, AreChosenWhereABakeHasNoPoseYet) {
+    expect_success(
+        compress({"bake", poses_, "-o", path("x.bake"), "--bands", "3", "--rays", "4096"}));
+    for (int p = 0; p < 6; ++p) {
+        std::filesystem::remove(path(fmt::format("x.bake/pose_{:06}.bin", p)));
+    }
+    const json report = parse_object(in_one_go({"--max-error", "10%"}));
+    EXPECT_TRUE(report.contains("pilot"));
+    EXPECT_LT(report["bake"]["rays"], 4096);
 }
 
 }  // namespace

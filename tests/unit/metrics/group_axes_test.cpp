@@ -12,16 +12,18 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::MatrixXf;
 
-constexpr uint32_t kGroups = 4, kPoints = 4;
+constexpr uint32_t kGroups = 5, kPoints = 4;
 constexpr Index kDirections = 6;
 constexpr int kPlanes = 2;
 // Of floats that are sums of a few products of about 1.
 constexpr float kRounding = 1e-5f;
 
-// 40 vertices, in groups that alternate. Group 2 has two vertices, fewer than points, and group 3 none.
+// 40 vertices, in groups that alternate. Group 2 has two vertices, half as many as points, group 3 one,
+// and group 4 none.
 PointGroups some_groups() {
     PointGroups groups{kGroups, {}, gaussian(40, kPoints, 1).cast<float>(), true};
-    for (uint32_t v = 0; v < 40; ++v) groups.group.push_back(v == 7 || v == 20 ? 2 : v % 2);
+    for (uint32_t v = 0; v < 40; ++v)
+        groups.group.push_back(v == 7 || v == 20 ? 2 : v == 30 ? 3 : v % 2);
     groups.factors.col(0).setConstant(0.5f);
     return groups;
 }
@@ -69,8 +71,9 @@ TEST(GroupAxes, OfVerticesAreOrthonormalAndSpanTheFactors) {
 TEST(GroupAxes, OfPointsAreOrthonormalOverAllPlanesWithTheirWeights) {
     const GroupAxes axes = make_axes(some_groups());
     ASSERT_EQ(axes.num_point_axes(), Index{kPoints} - 1);
-    EXPECT_FALSE(axes.has_point_axes(2));
-    for (uint32_t g = 0; g < 2; ++g) {
+    EXPECT_FALSE(axes.has_point_axes(3));
+    EXPECT_FALSE(axes.has_point_axes(4));
+    for (uint32_t g = 0; g < 3; ++g) {
         MatrixXd gram = MatrixXd::Zero(kPoints - 1, kPoints - 1);
         for (int plane = 0; plane < kPlanes; ++plane) {
             const MatrixXd of_plane = axes.point_axes(g, points_of(plane)).cast<double>();
@@ -93,7 +96,7 @@ TEST(GroupAxes, AreZeroForPointsThatDependOnThoseBefore) {
 TEST(GroupAxes, GiveTheCoordinatesOfDecodedVertices) {
     const PointGroups groups = some_groups();
     const GroupAxes axes = make_axes(groups);
-    for (uint32_t g = 0; g < 2; ++g) {
+    for (uint32_t g = 0; g < 3; ++g) {
         const auto members = axes.members(g);
         const MatrixXf factors = groups.factors(members, Eigen::all).transpose();  // [R][V_g]
         MatrixXf expected = MatrixXf::Zero(kPoints - 1, factors.cols());
