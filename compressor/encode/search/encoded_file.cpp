@@ -88,13 +88,39 @@ std::optional<RefinedAsset> EncodedFiles::meet_all_but_vertices(const Targets& t
             return std::nullopt;
         }
         auto refined = refine(problem_, still_of(targets), std::move(*coding), targets);
-        if (refined) return refined;
+        if (refined) return use_all_of(targets, smaller, std::move(*refined), candidates);
     }
     reason = fmt::format(
         "{}: {:.3g} % of the transfer was not met by any step that was tried: ask for a little "
         "more, or use --precision f32",
         bake_name(), 100.0 * targets.transfer);
     return std::nullopt;
+}
+
+// Estimates take the noise of the bake's best components for granted. A decoder that follows less of it
+// has an error to spare, which is given to the estimates as well.
+RefinedAsset EncodedFiles::use_all_of(const Targets& targets, Targets aim, RefinedAsset refined,
+                                      std::vector<Candidate>& candidates) {
+    constexpr double kUsed = 0.97;
+    constexpr int kMaxRounds = 6;
+    for (int round = 0; round < kMaxRounds; ++round) {
+        const double error = refined.error.transfer.total();
+        if (error >= kUsed * targets.transfer) break;
+        aim.transfer = std::sqrt(aim.transfer * aim.transfer + targets.transfer * targets.transfer -
+                                 error * error);
+        std::string unused;
+        std::vector<Candidate> others;
+        auto coding = search_.choose(aim, others, unused);
+        if (!coding) break;
+        auto smaller = refine(problem_, still_of(targets), std::move(*coding), targets);
+        const auto bytes = [](const RefinedAsset& of) {
+            return of.coding.transfer.candidate.bytes;
+        };
+        if (!smaller || bytes(*smaller) >= bytes(refined)) break;
+        refined = std::move(*smaller);
+        candidates = std::move(others);
+    }
+    return refined;
 }
 
 std::optional<EncodedFile> EncodedFiles::meet(double transfer_error, std::string& reason) {

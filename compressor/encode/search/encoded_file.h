@@ -53,6 +53,10 @@ class EncodedFiles {
     std::optional<RefinedAsset> meet_all_but_vertices(const Targets& targets,
                                                       std::vector<Candidate>& candidates,
                                                       std::string& reason);
+    // What is chosen again for as long as the target leaves room and files become smaller.
+    // aim  that the refined one was chosen for
+    RefinedAsset use_all_of(const Targets& targets, Targets aim, RefinedAsset refined,
+                            std::vector<Candidate>& candidates);
     std::optional<EncodedFile> pack(const Targets& targets, std::vector<Candidate> candidates,
                                     RefinedAsset refined, std::string& reason) const;
     const QuantisedStill& still_of(const Targets& targets);

@@ -70,6 +70,7 @@ std::optional<RefinedAsset> refine(const EncodeProblem& problem, const Quantised
         if (best && !good) break;  // a step too far
         if (good) best = RefinedAsset{std::move(*asset), measured, coding};
         if (good && (transfer >= kRoom * targets.transfer || round >= 3)) break;
+        if (good && transfer <= best_error) break;  // no step is known to give more
         adjust(coding.transfer, transfer, targets.transfer, best_error);
     }
     return best;

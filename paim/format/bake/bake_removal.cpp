@@ -38,7 +38,7 @@ void remove_bake(const fs::path& directory) {
     }
     for (const fs::path& file : files) remove_file(file);
     remove_file(directory / kManifestName);
-    if (!fs::is_symlink(directory, failure)) fs::remove(directory, failure);
+    fs::remove(follow_links(directory), failure);
 }
 
 }  // namespace paim
