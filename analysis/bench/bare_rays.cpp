@@ -15,19 +15,7 @@ namespace {
 
 bool is_occluded(embree::Context& context, RTCScene scene, const Vec3f& origin,
                  const Vec3f& direction) {
-    RTCRay ray;
-    ray.org_x = origin.x();
-    ray.org_y = origin.y();
-    ray.org_z = origin.z();
-    ray.dir_x = direction.x();
-    ray.dir_y = direction.y();
-    ray.dir_z = direction.z();
-    ray.tnear = 0.0f;
-    ray.tfar = std::numeric_limits<float>::infinity();
-    ray.time = 0.0f;
-    ray.mask = 0xffffffffu;
-    ray.id = 0;
-    ray.flags = 0;
+    RTCRay ray = embree::make_ray(origin, direction);
     context.occluded(scene, ray);
     return ray.tfar < 0.0f;
 }

@@ -7,7 +7,29 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <limits>
+
+#include "paim/base/vector.h"
+
 namespace paim::embree {
+
+// A ray without end, of any mask.
+inline RTCRay make_ray(const Vec3f& origin, const Vec3f& direction) {
+    RTCRay ray;
+    ray.org_x = origin.x();
+    ray.org_y = origin.y();
+    ray.org_z = origin.z();
+    ray.dir_x = direction.x();
+    ray.dir_y = direction.y();
+    ray.dir_z = direction.z();
+    ray.tnear = 0.0f;
+    ray.tfar = std::numeric_limits<float>::infinity();
+    ray.time = 0.0f;
+    ray.mask = 0xffffffffu;
+    ray.id = 0;
+    ray.flags = 0;
+    return ray;
+}
 
 // Traces a ray, or sixteen, with default settings. `valid` says which of sixteen are traced (-1) or
 // not (0). All rays of one thread may share a context.

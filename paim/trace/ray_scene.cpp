@@ -66,23 +66,6 @@ void set_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, cons
     if (buffer != nullptr) std::uninitialized_copy_n(data, count, static_cast<T*>(buffer));
 }
 
-RTCRay make_ray(const Vec3f& origin, const Vec3f& direction) {
-    RTCRay ray;
-    ray.org_x = origin.x();
-    ray.org_y = origin.y();
-    ray.org_z = origin.z();
-    ray.dir_x = direction.x();
-    ray.dir_y = direction.y();
-    ray.dir_z = direction.z();
-    ray.tnear = 0.0f;
-    ray.tfar = std::numeric_limits<float>::infinity();
-    ray.time = 0.0f;
-    ray.mask = 0xffffffffu;
-    ray.id = 0;
-    ray.flags = 0;
-    return ray;
-}
-
 // Factor of the coordinates that are given to Embree, which misses hits if they are beyond about
 // 1e±18. It makes the median vertex about 1, so that a single one far away does not make the others
 // too small. Embree passes over triangles of vertices that are beyond its range then.
@@ -231,7 +214,7 @@ std::optional<Hit> RayScene::intersect_first(const Vec3f& origin, const Vec3f& d
     embree::Context context;
     RTCRayHit query;
     for (float after = 0.0f;;) {
-        query.ray = make_ray(impl_->scale * origin, direction);
+        query.ray = embree::make_ray(impl_->scale * origin, direction);
         query.ray.tnear = after;
         query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
         query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
