@@ -1,6 +1,7 @@
 // Error of an image to a reference.
 #include "paim/metrics/image_error.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -12,9 +13,23 @@ double ImageError::visual_error() const {
                               : std::numeric_limits<double>::quiet_NaN();
 }
 
+double ImageError::rmse() const {
+    if (num_values == 0) return std::numeric_limits<double>::quiet_NaN();
+    return std::sqrt(squared_sum / static_cast<double>(num_values));
+}
+
+double ImageError::psnr_db() const {
+    const double error = rmse();
+    if (error == 0.0) return std::numeric_limits<double>::infinity();
+    return 20.0 * std::log10(reference_peak / error);
+}
+
 void ImageError::add(const ImageError& other) {
     absolute_sum += other.absolute_sum;
     reference_sum += other.reference_sum;
+    squared_sum += other.squared_sum;
+    num_values += other.num_values;
+    reference_peak = std::max(reference_peak, other.reference_peak);
     if (other.worst > worst) {
         worst = other.worst;
         worst_x = other.worst_x;
@@ -33,6 +48,9 @@ ImageError compare_images(const Image& image, const Image& reference) {
             const double difference = (a - b).cwiseAbs().maxCoeff();
             error.absolute_sum += (a - b).cwiseAbs().sum();
             error.reference_sum += b.cwiseAbs().sum();
+            error.squared_sum += (a - b).squaredNorm();
+            if (!a.isZero(0.0) || !b.isZero(0.0)) error.num_values += 3;
+            error.reference_peak = std::max(error.reference_peak, b.cwiseAbs().maxCoeff());
             if (difference > error.worst) {
                 error.worst = difference;
                 error.worst_x = x;

@@ -40,6 +40,27 @@ TEST(ImageError, SumsAndFindsTheWorstPixel) {
     EXPECT_TRUE(std::isinf(compare_images(reference, Image(2, 2)).visual_error()));
 }
 
+// Over the channels of pixels that either image shows: here one pixel of each, and one of both.
+TEST(ImageError, MeanSquaresAreOfWhatIsShown) {
+    Image reference(4, 1), image(4, 1);
+    reference.at(0, 0) = Vec3f(2, 0, 0);
+    image.at(1, 0) = Vec3f(0, 0, 1);
+    reference.at(2, 0) = Vec3f(1, 1, 1);
+    image.at(2, 0) = Vec3f(1, 1, 4);
+    const ImageError error = compare_images(image, reference);
+    // Squares 4, 1 and 9 over nine values; the peak is 2.
+    EXPECT_DOUBLE_EQ(error.rmse(), std::sqrt(14.0 / 9.0));
+    EXPECT_DOUBLE_EQ(error.psnr_db(), 10.0 * std::log10(4.0 * 9.0 / 14.0));
+    ImageError twice = error;
+    twice.add(error);
+    EXPECT_DOUBLE_EQ(twice.rmse(), error.rmse());
+    EXPECT_DOUBLE_EQ(twice.psnr_db(), error.psnr_db());
+    EXPECT_TRUE(std::isinf(compare_images(image, image).psnr_db()));
+    EXPECT_TRUE(std::isnan(compare_images(Image(2, 2), Image(2, 2)).rmse()));
+    EXPECT_TRUE(std::isnan(compare_images(Image(2, 2), Image(2, 2)).psnr_db()));
+    EXPECT_LT(compare_images(image, Image(4, 1)).psnr_db(), -1e300);
+}
+
 // In black pictures nothing is to be seen, so that no error was measured: 0 would say that nothing
 // is lost.
 TEST(ImageError, OfBlackPicturesIsNoNumber) {
