@@ -30,35 +30,6 @@ void expect_equal(const BakeReader& bake, const char* what, uint64_t expected, u
                     bake.directory().string(), expected, what, got);
 }
 
-// [V] The vertex of the bake for each vertex of the file.
-std::vector<uint32_t> check_same_part(const Asset& asset, size_t number, const BakeReader& bake,
-                                      const BakedPart& baked) {
-    const CodedMesh& mesh = asset.parts[number];
-    const bool still = number > 0;
-    expect_equal(bake, still ? "vertices of still meshes" : "vertices", baked.num_vertices(),
-                 mesh.topology.num_vertices);
-    expect_equal(bake, "poses", baked.num_poses(), mesh.num_poses());
-    std::vector<uint32_t> old_vertex = match_vertices(
-        mesh.topology, asset.vertex_order, baked.topology(), bake.directory().string(),
-        still ? "triangles of the still meshes" : "triangles");
-    // Positions and transfer are compared in local coordinates.
-    if (mesh.root_motion != baked.root_motion() ||
-        mesh.num_following != new_number_of_first(baked.num_following(), old_vertex)) {
-        throw_bad_input("{}: expected a file made from this bake, got one of another root motion",
-                        bake.directory().string());
-    }
-    const TransferLayout& layout = bake.identity().layout;
-    if (mesh.layout.kind != layout.kind || mesh.layout.in_bands > layout.in_bands ||
-        (mesh.layout.channels != 1 && mesh.layout.channels != layout.channels)) {
-        throw_bad_input(
-            "{}: expected a file made from this bake, of {} bands and {} channels at most, got {} "
-            "and {}",
-            bake.directory().string(), layout.in_bands, layout.channels, mesh.layout.in_bands,
-            mesh.layout.channels);
-    }
-    return old_vertex;
-}
-
 // Keeps the rows of these vertices, ascending, in place.
 void keep_rows(MatrixXf& matrix, const std::vector<uint32_t>& vertices) {
     if (static_cast<Index>(vertices.size()) == matrix.rows()) return;
@@ -166,11 +137,40 @@ void take_out(const PositionOutliers& outliers, uint32_t p, std::span<float> dec
 
 }  // namespace
 
+std::vector<uint32_t> match_part(const Asset& asset, size_t number, const BakeReader& bake) {
+    expect_equal(bake, "parts", num_baked_parts(bake), asset.parts.size());
+    const BakedPart baked(bake, number);
+    const CodedMesh& mesh = asset.parts[number];
+    const bool still = number > 0;
+    expect_equal(bake, still ? "vertices of still meshes" : "vertices", baked.num_vertices(),
+                 mesh.topology.num_vertices);
+    expect_equal(bake, "poses", baked.num_poses(), mesh.num_poses());
+    std::vector<uint32_t> old_vertex = match_vertices(
+        mesh.topology, asset.vertex_order, baked.topology(), bake.directory().string(),
+        still ? "triangles of the still meshes" : "triangles");
+    // Positions and transfer are compared in local coordinates.
+    if (mesh.root_motion != baked.root_motion() ||
+        mesh.num_following != new_number_of_first(baked.num_following(), old_vertex)) {
+        throw_bad_input("{}: expected a file made from this bake, got one of another root motion",
+                        bake.directory().string());
+    }
+    const TransferLayout& layout = bake.identity().layout;
+    if (mesh.layout.kind != layout.kind || mesh.layout.in_bands > layout.in_bands ||
+        (mesh.layout.channels != 1 && mesh.layout.channels != layout.channels)) {
+        throw_bad_input(
+            "{}: expected a file made from this bake, of {} bands and {} channels at most, got {} "
+            "and {}",
+            bake.directory().string(), layout.in_bands, layout.channels, mesh.layout.in_bands,
+            mesh.layout.channels);
+    }
+    return old_vertex;
+}
+
 PartMeter::PartMeter(const Asset& asset, size_t number, const BakeReader& bake,
                      const std::optional<PositionOutliers>& outliers)
     : bake_(bake),
       baked_(bake, number),
-      old_vertex_(check_same_part(asset, number, bake, baked_)),
+      old_vertex_(match_part(asset, number, bake)),
       outliers_((outliers ? *outliers : find_outliers(baked_)).reordered(old_vertex_)),
       num_following_(asset.parts[number].num_following),
       shape_(asset.parts[number].topology, sample_poses()) {}

@@ -33,13 +33,17 @@ struct AssetError : MeshError {
     std::optional<MeshError> still;
 };
 
+// [V] The vertex of the bake for each vertex of this part of a file. Errors: bad input if the part was
+// not made from this bake; the message says what differs.
+std::vector<uint32_t> match_part(const Asset& asset, size_t number, const BakeReader& bake);
+
 // Decodes one part and measures its errors, any number of times. Vertices that no face has do not
 // count (mesh/face_vertices.h). It keeps what belongs to the mesh, and a reference to the bake.
 class PartMeter {
   public:
     // number  of the part, in the asset and in the bake
     // bake    verified (BakeReader::verify_all)
-    // Errors: bad input if the part was not made from this bake; the message says what differs.
+    // Errors: those of match_part().
     // outliers  of the bake's part where they are known; otherwise they are found
     PartMeter(const Asset& asset, size_t number, const BakeReader& bake,
               const std::optional<PositionOutliers>& outliers = {});
