@@ -7,11 +7,14 @@
 #include <string>
 #include <vector>
 
+#include "analysis/picture_errors.h"
+#include "analysis/stable_time.h"
 #include "paim/codec/asset.h"
 #include "paim/codec/mesh_decoder.h"
 #include "paim/format/bake/bake_directory.h"
 #include "paim/image/image.h"
 #include "paim/metrics/array_error.h"
+#include "paim/metrics/shape_error.h"
 
 namespace paim {
 
@@ -24,12 +27,12 @@ struct CurvePoint {
     double energy_error = 0.0;
     uint64_t size_bytes = 0;  // of the .paim with this setting, and everything else
 
-    // [lights] E6 over all measured poses; not a number if the bake's own pictures are black.
-    std::vector<double> visual_error;
-    DistanceError distance;     // of positions to the bake's
-    ArrayError transfer;        // to the bake's transfer; dropped values count as zero
-    double decode_ms = 0.0;     // to rebuild one pose on the CPU, median over measured poses
-    std::vector<Image> images;  // [lights] of the first measured pose
+    std::vector<PictureErrors> seen;  // [lights] against the reference
+    DistanceError distance;           // of positions to the bake's
+    ShapeError shape;                 // of the measured poses; without what belongs to time
+    ArrayError transfer;              // to the bake's transfer; dropped values count as zero
+    PoseTime decode;                  // to rebuild one pose on the CPU
+    std::vector<Image> images;        // [lights] of the first measured pose in the first view
 };
 
 struct Curve {

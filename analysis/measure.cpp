@@ -4,10 +4,10 @@
 #include "analysis/measure.h"
 
 #include <algorithm>
-#include <chrono>
+#include <optional>
 #include <span>
+#include <utility>
 
-#include "paim/base/median.h"
 #include "paim/codec/mesh_decoder.h"
 #include "paim/mesh/face_vertices.h"
 #include "paim/metrics/image_error.h"
@@ -15,12 +15,6 @@
 namespace paim {
 
 namespace {
-
-// Sums over the poses of one setting.
-struct Sums {
-    std::vector<ImageError> images;  // [lights]
-    std::vector<double> times_ms;    // [poses]
-};
 
 // Adds a decoded pose. Planes that it does not have count as zero.
 void add_transfer(ArrayError& error, const DecodedPose& decoded, const DecodedPose& baked,
@@ -41,60 +35,86 @@ void add_transfer(ArrayError& error, const DecodedPose& decoded, const DecodedPo
 
 }  // namespace
 
-std::vector<Image> measure_curves(const BakeReader& bake, const Asset& asset, const Stage& stage,
-                                  std::vector<Curve>& curves,
-                                  const std::function<void()>& on_step) {
-    using Clock = std::chrono::steady_clock;
+MeasuredReference measure_curves(const BakeReader& bake, const Asset& asset, const Stage& stage,
+                                 const ReferenceSource& reference, std::vector<Curve>& curves,
+                                 const std::function<void()>& on_step) {
     MeshDecoder decoder(asset.moving());
     const std::vector<uint32_t> counted = face_vertices(bake.topology());
     const PositionOutliers& outliers = stage.outliers();
-    const auto positions_of = [&](const DecodedPose& pose, uint32_t p) {
+    const auto without_outliers = [&](const DecodedPose& pose, uint32_t p) {
         std::vector<float> planes = pose.positions;
         outliers.replace(p, bake.identity().num_vertices, 0, planes);
+        return planes;
+    };
+    const auto positions_of = [&](std::vector<float> planes) {
         keep_vertices(planes, bake.identity().num_vertices, counted);
         return planes;
     };
+    const ShapeNeighbours neighbours(bake.topology());
+    const size_t num_lights = stage.lights().size();
     std::vector<CurvePoint*> points;
+    std::vector<ShapeErrorMeter> shapes;
     for (Curve& curve : curves) {
-        for (CurvePoint& point : curve.points) points.push_back(&point);
+        for (CurvePoint& point : curve.points) {
+            point.seen.resize(num_lights);
+            points.push_back(&point);
+            shapes.emplace_back(neighbours);
+        }
     }
-    std::vector<Sums> sums(points.size(), {std::vector<ImageError>(stage.lights().size()), {}});
-    std::vector<Image> first_reference;
+    MeasuredReference measured;
+    RelativeNoise noise(num_lights);
     DecodedPose decoded;
     for (const uint32_t p : stage.poses()) {
-        BakedPose file = bake.read_pose(p);
-        const DecodedPose baked{bake.identity().layout, std::move(file.positions),
-                                std::move(file.transfer), root_at(bake.identity().root_motion, p),
-                                bake.identity().num_following};
-        std::vector<Image> reference = stage.render_pose(baked);
+        const bool is_first = p == stage.poses().front();
+        const DecodedPose baked = baked_pose(bake, p, bake.read_pose(p));
+        ReferencePictures expected = reference(p, baked);
+        noise.add(expected);
+        const std::vector<float> baked_planes = without_outliers(baked, p);
         for (size_t j = 0; j < points.size(); ++j) {
             CurvePoint& point = *points[j];
-            // Allocates memory, so that the timed call does not.
             decoder.decode(p, point.limits, decoded);
-            const auto start = Clock::now();
-            decoder.decode(p, point.limits, decoded);
-            sums[j].times_ms.push_back(
-                std::chrono::duration<double, std::milli>(Clock::now() - start).count());
-            std::vector<Image> images = stage.render_pose(decoded);
-            for (size_t light = 0; light < images.size(); ++light) {
-                sums[j].images[light].add(compare_images(images[light], reference[light]));
+            std::vector<Image> pictures = stage.render_pose(decoded);
+            for (size_t k = 0; k < pictures.size(); ++k) {
+                point.seen[k % num_lights].add(compare_images(pictures[k], expected.pictures[k]), p,
+                                               k / num_lights);
             }
-            point.distance.add(positions_of(decoded, p), positions_of(baked, p), p);
+            const std::vector<float> planes = without_outliers(decoded, p);
+            point.distance.add(positions_of(planes), positions_of(baked_planes), p);
+            const ShapeErrorMeter::Pose pose{planes, baked_planes};
+            shapes[j].add({&pose, 1});
             add_transfer(point.transfer, decoded, baked, p);
-            if (p == stage.poses().front()) point.images = std::move(images);
+            if (is_first) {
+                pictures.resize(num_lights);
+                point.images = std::move(pictures);
+            }
             on_step();
         }
-        if (p == stage.poses().front()) first_reference = std::move(reference);
-    }
-    for (size_t j = 0; j < points.size(); ++j) {
-        points[j]->decode_ms = median(sums[j].times_ms);
-        uint32_t& worst_vertex = points[j]->distance.worst_vertex;
-        worst_vertex = counted[worst_vertex];
-        for (const ImageError& error : sums[j].images) {
-            points[j]->visual_error.push_back(error.visual_error());
+        if (is_first) {
+            expected.pictures.resize(num_lights);
+            measured.images = std::move(expected.pictures);
         }
     }
-    return first_reference;
+    for (size_t j = 0; j < points.size(); ++j) {
+        points[j]->shape = shapes[j].result().whole;
+        points[j]->shape.sted_time = 0.0;  // the measured poses do not follow one another
+        uint32_t& worst_vertex = points[j]->distance.worst_vertex;
+        worst_vertex = counted[worst_vertex];
+    }
+    measured.noise = noise.relative();
+    return measured;
+}
+
+void time_curves(const Asset& asset, std::vector<Curve>& curves,
+                 const std::function<void()>& on_step) {
+    MeshDecoder decoder(asset.moving());
+    DecodedPose decoded;
+    for (Curve& curve : curves) {
+        for (CurvePoint& point : curve.points) {
+            point.decode = time_poses(
+                asset.num_poses(), [&](uint32_t p) { decoder.decode(p, point.limits, decoded); });
+            on_step();
+        }
+    }
 }
 
 }  // namespace paim

@@ -3,6 +3,7 @@
 
 #include <charconv>
 
+#include "analysis/reference/enough_rays.h"
 #include "paim/base/error.h"
 #include "paim/base/vector.h"
 #include "paim/cli/light_options.h"
@@ -59,6 +60,14 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
     app.add_option("BAKE", options.bake_directory, "The .bake directory to measure")->required();
     app.add_option("-o,--output", options.output,
                    "Directory for the results, required without --verify");
+    app.add_flag(
+        "--curves", options.curves,
+        "Measure curves of components and bands, which is what is done unless another section "
+        "(--budget) is asked for");
+    app.add_option(
+        "--budget", options.budget,
+        "A .paim made from this bake: find how much of its difference from traced pictures "
+        "comes from interpolation, bands, noise, truncation and quantisation");
     app.add_option("--env", options.environments,
                    "Environment map (OpenEXR) of the light; may be given several times; default: "
                    "the built-in sky");
@@ -67,11 +76,31 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
     app.add_option("--bands", bands,
                    "Band counts to measure, besides all; those above the bake's are left out")
         ->capture_default_str();
-    app.add_option("--size", options.size_pixels,
+    cli::add_choice<ReferenceKind>(
+        app, "--reference", options.reference,
+        {{"bake", ReferenceKind::bake},
+         {"traced", ReferenceKind::traced},
+         {"traced-pixels", ReferenceKind::traced_pixels}},
+        "What pictures are compared with. 'bake': all that the bake has, which shows what "
+        "compression costs. 'traced': light of the whole map, traced with rays at the vertices, which "
+        "shows what bands and noise cost as well. 'traced-pixels': traced at every pixel, which adds "
+        "what interpolation over triangles costs");
+    app.add_option(
+           "--reference-rays", options.reference_rays,
+           "Rays of a traced vertex or pixel, 0 to 32768; 0 takes as many as it takes for the "
+           "noise of the reference to be below a fifth of the smallest error")
+        ->check(cli::in_range(0u, kMostReferenceRays))
+        ->capture_default_str();
+    app.add_option("--size", options.stage.size_pixels,
                    "Width and height of the images, pixels, 16 to 4096")
         ->check(cli::in_range(16, 4096))
         ->capture_default_str();
-    app.add_option("--poses", options.num_poses,
+    app.add_option("--views", options.stage.num_views,
+                   "Camera positions, evenly about the vertical axis, 1 to 64; the first is at "
+                   "--azimuth")
+        ->check(cli::in_range(1u, 64u))
+        ->capture_default_str();
+    app.add_option("--poses", options.stage.num_poses,
                    "Poses that are rendered, evenly spaced over the sequence, 1 to 1048576")
         ->check(cli::in_range(1u, 1u << 20))
         ->capture_default_str();
@@ -110,8 +139,8 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
     if (options.verify.empty() && options.output.empty()) throw_usage("--output is required");
     options.components = parse_list(components, "--components", 0, 1u << 20);
     options.bands = parse_list(bands, "--bands", 1, sh::kMaxBands);
-    options.azimuth_rad = azimuth_deg * kPi / 180.0;
-    options.elevation_rad = elevation_deg * kPi / 180.0;
+    options.stage.azimuth_rad = azimuth_deg * kPi / 180.0;
+    options.stage.elevation_rad = elevation_deg * kPi / 180.0;
     return options;
 }
 

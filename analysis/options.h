@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "analysis/reference/reference_kind.h"
+#include "analysis/stage.h"
 #include "paim/light/env_mapping.h"
 
 namespace paim {
@@ -13,19 +15,23 @@ namespace paim {
 struct AnalyzeOptions {
     std::filesystem::path bake_directory;
     std::filesystem::path output;
-    std::filesystem::path verify;                     // a .paim to check instead; empty: none
-    std::string band_power;                           // for --verify; empty: that of the file
+    std::filesystem::path verify;  // a .paim to check instead; empty: none
+    std::string band_power;        // for --verify; empty: that of the file
+    bool curves = false;           // asked for by name
+    std::filesystem::path budget;  // a .paim whose error is taken apart; empty: none
     std::vector<std::filesystem::path> environments;  // none: the built-in sky
     EnvMapping env_mapping = EnvMapping::automatic;   // of all maps
     std::vector<uint32_t> components{20, 7, 4, 2};    // in addition to all
     std::vector<uint32_t> bands{7, 4, 2};             // in addition to all
-    int size_pixels = 256;
-    uint32_t num_poses = 4;
-    double azimuth_rad = 0.0;
-    double elevation_rad = 0.0;
+    ReferenceKind reference = ReferenceKind::bake;
+    uint32_t reference_rays = 0;  // 0: as many as are needed
+    StageOptions stage;
     int num_threads = 0;
     bool json = false;
     bool quiet = false;
+
+    // Unless something else alone was asked for.
+    bool measures_curves() const { return curves || budget.empty(); }
 };
 
 // Parses the command line. Returns nothing when the tool is done, with the exit code in exit_code.

@@ -2,17 +2,13 @@
 #include "analysis/plots.h"
 
 #include <fmt/format.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <limits>
 
-#include "paim/base/error.h"
-#include "paim/base/file.h"
+#include "analysis/gnuplot.h"
 
 namespace paim {
 
@@ -20,28 +16,6 @@ namespace {
 
 // Errors of 0 are drawn at this value of the logarithmic axis.
 constexpr double kFloor = 1e-7;
-
-// Runs a gnuplot script given on its standard input.
-void run_gnuplot(const std::string& script, const std::filesystem::path& output) {
-    std::FILE* pipe = ::popen("gnuplot", "w");
-    if (pipe == nullptr) throw_output_failed("{}: cannot start gnuplot", output.string());
-    const bool written = std::fwrite(script.data(), 1, script.size(), pipe) == script.size();
-    const int status = ::pclose(pipe);
-    if (!written || status != 0 || !std::filesystem::exists(output)) {
-        throw_output_failed("{}: gnuplot failed (status {})", output.string(), status);
-    }
-}
-
-// Text in gnuplot's single quotes. Control characters, which file names may have, become blanks: a
-// line feed would end the string, and gnuplot would run the text after it as a command.
-std::string quoted(const std::string& text) {
-    std::string result = "'";
-    for (const char c : text) {
-        if (c == '\'') result += '\'';
-        result += std::iscntrl(static_cast<unsigned char>(c)) != 0 ? ' ' : c;
-    }
-    return result + "'";
-}
 
 struct Series {
     std::string title;
@@ -68,13 +42,12 @@ std::string plot_script(const std::filesystem::path& output, const std::string& 
                         const std::string& x_label, bool from_zero,
                         const std::vector<Series>& series) {
     const auto [lowest, highest] = x_range(series, from_zero);
-    std::string script = fmt::format(
-        "set terminal svg size 640,420 noenhanced font 'sans,13' background 'white'\n"
-        "set output {}\nset title {} noenhanced\nset xlabel {}\n"
-        "set ylabel 'error (fraction of 1)'\nset logscale y\nset format y '%g'\n"
+    std::string script = gnuplot_begin(output, title);
+    script += fmt::format(
+        "set xlabel {}\nset ylabel 'error (fraction of 1)'\nset logscale y\nset format y '%g'\n"
         "set yrange [{:g}:2]\nset xrange [{:.9g}:{:.9g}]\n"
         "set grid\nset key inside left bottom\n",
-        quoted(output.string()), quoted(title), quoted(x_label), kFloor, lowest, highest);
+        gnuplot_text(x_label), kFloor, lowest, highest);
     for (size_t j = 0; j < series.size(); ++j) {
         script += fmt::format("$data{} << EOD\n", j);
         for (const auto& [x, y] : series[j].points) {
@@ -86,7 +59,7 @@ std::string plot_script(const std::filesystem::path& output, const std::string& 
     for (size_t j = 0; j < series.size(); ++j) {
         script += fmt::format("{}$data{} using 1:2 with {} lw 2 title {}", j > 0 ? ", " : "", j,
                               series[j].measured ? "linespoints pt 7 ps 0.6" : "lines",
-                              quoted(series[j].title));
+                              gnuplot_text(series[j].title));
     }
     return script + "\n";
 }
@@ -107,7 +80,7 @@ std::vector<Series> visual_series(const Curve& curve, const std::vector<NamedLig
     for (size_t light = 0; light < lights.size(); ++light) {
         Series series{"seen, " + lights[light].name, {}};
         for (const CurvePoint& point : curve.points) {
-            const double error = point.visual_error[light];
+            const double error = point.seen[light].visual_error();
             if (std::isfinite(error)) series.points.emplace_back(x(point), error);
         }
         all.push_back(std::move(series));
@@ -116,10 +89,6 @@ std::vector<Series> visual_series(const Curve& curve, const std::vector<NamedLig
 }
 
 }  // namespace
-
-bool have_gnuplot() {
-    return std::system("gnuplot --version > /dev/null 2>&1") == 0;
-}
 
 void write_plots(const std::filesystem::path& directory, const Curve& curve,
                  const std::vector<NamedLight>& lights) {
@@ -147,7 +116,8 @@ void write_plots(const std::filesystem::path& directory, const Curve& curve,
              return static_cast<double>(point.size_bytes) / 1e6;
          }));
     draw("_time", "ms to decode a pose",
-         visual_series(curve, lights, [](const CurvePoint& point) { return point.decode_ms; }),
+         visual_series(curve, lights,
+                       [](const CurvePoint& point) { return point.decode.median_ms; }),
          true);
 }
 

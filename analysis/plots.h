@@ -10,9 +10,6 @@
 
 namespace paim {
 
-// Whether gnuplot can be run.
-bool have_gnuplot();
-
 // Writes NAME.svg (error against the setting) and NAME_bytes.svg, NAME_time.svg (visual error
 // against bytes and decode time) into the directory. A plot without any error is not drawn, and
 // removed if it is there. Error (output failed) if gnuplot fails, which says why on stderr.

@@ -1,20 +1,19 @@
-// The HTML page with curves, tables and images.
+// The sections of error curves on the page of results.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "analysis/curves.h"
+#include "analysis/page.h"
 #include "analysis/stage.h"
 
 namespace paim {
 
-// references  [lights] the bake in the first measured pose
-// Writes the images of all points (and their differences from the bake, times four) as PNG into
-// directory/images, and index.html. Errors: output failed.
-void write_report(const std::filesystem::path& directory, const std::string& title,
-                  const std::string& summary, const std::vector<Curve>& curves, const Stage& stage,
-                  const std::vector<Image>& references, bool with_plots);
+// Adds curves, tables, and pictures of all points with their differences from the reference.
+// references      [lights] the reference in the first measured pose and the first view
+// reference_name  what they are: "the bake"
+void add_curves(Page& page, const std::vector<Curve>& curves, const Stage& stage,
+                const std::vector<Image>& references, const std::string& reference_name);
 
 }  // namespace paim

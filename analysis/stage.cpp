@@ -31,7 +31,8 @@ std::vector<NamedLight> load_lights(const std::vector<std::filesystem::path>& en
              ++copy) {
             name = fmt::format("{} ({})", stem, copy);
         }
-        lights.push_back({name, light.coefficients(static_cast<int>(bands)), light.is_black()});
+        lights.push_back(
+            {name, light, light.coefficients(static_cast<int>(bands)), light.is_black()});
     };
     if (environments.empty()) add("sky", EnvironmentLight(make_sky()));
     for (const auto& path : environments) {
@@ -78,7 +79,7 @@ std::vector<float> scaled(std::vector<float> values, float scale) {
 
 }  // namespace
 
-Camera Stage::camera(double azimuth_rad, double elevation_rad) const {
+std::vector<Camera> Stage::make_cameras(const StageOptions& options) const {
     Bounds bounds = pose_bounds_;
     bounds.lower *= scale_;
     bounds.upper *= scale_;
@@ -88,35 +89,49 @@ Camera Stage::camera(double azimuth_rad, double elevation_rad) const {
             bounds_of_vertices(scaled(still.pose.positions, scale_), face_vertices(still.topology));
         bounds = framed_bounds(bounds, still_bounds);
     }
-    return frame_bounds(bounds, 1.0f, static_cast<float>(azimuth_rad),
-                        static_cast<float>(elevation_rad));
+    std::vector<Camera> cameras;
+    for (uint32_t view = 0; view < options.num_views; ++view) {
+        const double azimuth = options.azimuth_rad + 2.0 * kPi * view / options.num_views;
+        cameras.push_back(frame_bounds(bounds, 1.0f, static_cast<float>(azimuth),
+                                       static_cast<float>(options.elevation_rad)));
+    }
+    return cameras;
 }
 
-Stage::Stage(const BakeReader& bake, std::vector<NamedLight> lights, double azimuth_rad,
-             double elevation_rad, int size_pixels, uint32_t num_poses)
+Stage::Stage(const BakeReader& bake, std::vector<NamedLight> lights, const StageOptions& options)
     : bake_(bake),
       lights_(std::move(lights)),
-      size_pixels_(size_pixels),
+      size_pixels_(options.size_pixels),
       outliers_(find_outliers(BakedPart(bake, 0))),
       pose_bounds_(bounds_of_poses(bake, outliers_)),
       scale_(scale_of(pose_bounds_)),
-      camera_(camera(azimuth_rad, elevation_rad)),
-      topology_(bake.topology()) {
+      cameras_(make_cameras(options)),
+      topology_(bake.topology()),
+      albedo_(bake.albedo()) {
     if (bake.still_mesh()) {
-        topology_.append(bake.still_mesh()->topology);
-        still_positions_ = from_planes(scaled(bake.still_mesh()->pose.positions, scale_));
+        const BakedStillMesh& still = *bake.still_mesh();
+        albedo_.append(still.albedo, topology_.num_vertices, still.topology.num_vertices);
+        topology_.append(still.topology);
+        still_positions_ = from_planes(scaled(still.pose.positions, scale_));
     }
-    const uint32_t count = std::min(num_poses, bake.num_poses());
+    const uint32_t count = std::min(options.num_poses, bake.num_poses());
     for (uint32_t j = 0; j < count; ++j) {
         poses_.push_back(static_cast<uint32_t>(uint64_t{j} * bake.num_poses() / count));
     }
 }
 
-std::vector<Image> Stage::render_pose(const DecodedPose& pose) const {
+std::vector<Vec3f> Stage::place(const DecodedPose& pose, const DecodedPose* still) const {
     std::vector<float> planes = pose.positions;
     move_to_scene(pose.root, planes, pose.num_following);
     std::vector<Vec3f> positions = from_planes(scaled(std::move(planes), scale_));
-    positions.insert(positions.end(), still_positions_.begin(), still_positions_.end());
+    const std::vector<Vec3f> around =
+        still == nullptr ? still_positions_ : from_planes(scaled(still->positions, scale_));
+    positions.insert(positions.end(), around.begin(), around.end());
+    return positions;
+}
+
+std::vector<std::vector<Vec3f>> Stage::light(const DecodedPose& pose,
+                                             const DecodedPose* still) const {
     std::vector<std::vector<Vec3f>> radiance(lights_.size());
     std::vector<Vec3f> scratch;
     for (size_t j = 0; j < lights_.size(); ++j) {
@@ -129,12 +144,45 @@ std::vector<Image> Stage::render_pose(const DecodedPose& pose) const {
         // Light in as many bands as the pose has.
         LightCoefficients kept = light;
         kept.bands = std::min(light.bands, static_cast<int>(pose.layout.in_bands));
-        std::vector<Vec3f> still;
-        shade(bake_.identity().layout, bake_.still_mesh()->pose.transfer,
-              bake_.still_mesh()->albedo, kept, still);
-        radiance[j].insert(radiance[j].end(), still.begin(), still.end());
+        const BakedStillMesh& baked = *bake_.still_mesh();
+        std::vector<Vec3f> around;
+        if (still == nullptr) {
+            shade(bake_.identity().layout, baked.pose.transfer, baked.albedo, kept, around);
+        } else {
+            shade(still->layout, still->transfer, baked.albedo, kept, around);
+        }
+        radiance[j].insert(radiance[j].end(), around.begin(), around.end());
     }
-    return render_images(topology_, positions, radiance, camera_, size_pixels_, size_pixels_);
+    return radiance;
+}
+
+std::vector<VisiblePoints> Stage::look(const std::vector<Vec3f>& positions) const {
+    std::vector<VisiblePoints> visible;
+    for (const Camera& camera : cameras_) {
+        visible.push_back(find_visible(topology_, positions, camera, size_pixels_, size_pixels_));
+    }
+    return visible;
+}
+
+std::vector<Image> Stage::draw(const std::vector<VisiblePoints>& visible,
+                               const std::vector<std::vector<Vec3f>>& radiance) const {
+    std::vector<Image> pictures;
+    for (const VisiblePoints& points : visible) {
+        for (const auto& values : radiance) {
+            pictures.push_back(interpolate_image(points, topology_, values));
+        }
+    }
+    return pictures;
+}
+
+std::vector<Image> Stage::render_pose(const DecodedPose& pose, const DecodedPose* still) const {
+    return draw(look(place(pose, still)), light(pose, still));
+}
+
+DecodedPose baked_pose(const BakeReader& bake, uint32_t p, BakedPose pose) {
+    const BakeIdentity& identity = bake.identity();
+    return {identity.layout, std::move(pose.positions), std::move(pose.transfer),
+            root_at(identity.root_motion, p), identity.num_following};
 }
 
 }  // namespace paim

@@ -1,4 +1,4 @@
-// The scene of measurements: lights, camera and poses.
+// The scene of measurements: lights, cameras and poses.
 #pragma once
 
 #include <filesystem>
@@ -10,15 +10,17 @@
 #include "paim/format/bake/bake_directory.h"
 #include "paim/image/image.h"
 #include "paim/light/env_mapping.h"
-#include "paim/light/light.h"
+#include "paim/light/environment.h"
 #include "paim/mesh/bounds.h"
 #include "paim/mesh/outliers.h"
+#include "paim/render/render.h"
 #include "paim/shade/camera.h"
 
 namespace paim {
 
 struct NamedLight {
     std::string name;
+    EnvironmentLight map;
     LightCoefficients coefficients;
     bool black = false;  // nothing can be seen under it
 };
@@ -32,24 +34,52 @@ std::vector<NamedLight> load_lights(const std::vector<std::filesystem::path>& en
 // Why a visual error under this light is not a number, as a phrase.
 std::string why_nothing_is_seen(const NamedLight& light);
 
-// Renders baked or decoded poses of one character under several lights, against black.
+// Where pictures are taken from, and of what.
+struct StageOptions {
+    double azimuth_rad = 0.0;  // of the first view
+    double elevation_rad = 0.0;
+    uint32_t num_views = 1;  // evenly about the vertical axis
+    int size_pixels = 256;   // width and height
+    uint32_t num_poses = 4;  // evenly over the sequence; at most all
+};
+
+// Renders baked or decoded poses of one character under several lights, against black. Where a
+// function takes or returns a list of pictures, picture view · lights + light is that of the light in
+// the view.
 class Stage {
   public:
-    // num_poses poses, evenly spaced, are measured. The camera sees the whole sequence from this
-    // direction (frame_bounds()).
-    Stage(const BakeReader& bake, std::vector<NamedLight> lights, double azimuth_rad,
-          double elevation_rad, int size_pixels, uint32_t num_poses);
+    // Cameras see the whole sequence (frame_bounds()). Keeps a reference to the bake.
+    Stage(const BakeReader& bake, std::vector<NamedLight> lights, const StageOptions& options);
 
     const std::vector<NamedLight>& lights() const { return lights_; }
     const std::vector<uint32_t>& poses() const { return poses_; }
+    size_t num_views() const { return cameras_.size(); }
+    size_t num_pictures() const { return num_views() * lights_.size(); }
     // Of the bake, by its vertices.
     const PositionOutliers& outliers() const { return outliers_; }
 
-    // Image of a pose under each light, with the bake's colours. [lights]
-    std::vector<Image> render_pose(const DecodedPose& pose) const;
+    // Pictures of a pose, with the bake's colours. [pictures]
+    // still  the still meshes, decoded; nullptr: as baked
+    std::vector<Image> render_pose(const DecodedPose& pose,
+                                   const DecodedPose* still = nullptr) const;
+
+    // The steps of render_pose(), for radiance from elsewhere. Vertices are those of the bake and,
+    // after them, those of its still meshes.
+    const Topology& topology() const { return topology_; }
+    const Albedo& albedo() const { return albedo_; }
+    // Positions of a pose, as they are drawn: in the scene, scaled. [V + S]
+    std::vector<Vec3f> place(const DecodedPose& pose, const DecodedPose* still = nullptr) const;
+    // Radiance of a pose by its transfer. [lights][V + S]
+    std::vector<std::vector<Vec3f>> light(const DecodedPose& pose,
+                                          const DecodedPose* still = nullptr) const;
+    // [views]
+    std::vector<VisiblePoints> look(const std::vector<Vec3f>& positions) const;
+    // [pictures]
+    std::vector<Image> draw(const std::vector<VisiblePoints>& visible,
+                            const std::vector<std::vector<Vec3f>>& radiance) const;
 
   private:
-    Camera camera(double azimuth_rad, double elevation_rad) const;
+    std::vector<Camera> make_cameras(const StageOptions& options) const;
 
     const BakeReader& bake_;
     std::vector<NamedLight> lights_;
@@ -59,10 +89,14 @@ class Stage {
     // Scale of the rendered scene. The camera of a huge scene would otherwise be beyond the range
     // of floats.
     float scale_;
-    Camera camera_;  // of the scaled scene
+    std::vector<Camera> cameras_;  // of the scaled scene
     std::vector<uint32_t> poses_;
-    Topology topology_;                   // of the poses and, after them, of the still meshes
-    std::vector<Vec3f> still_positions_;  // scaled
+    Topology topology_;
+    Albedo albedo_;
+    std::vector<Vec3f> still_positions_;  // as baked, scaled
 };
+
+// A pose of a bake as if it had been decoded, with all that the bake knows of it.
+DecodedPose baked_pose(const BakeReader& bake, uint32_t p, BakedPose pose);
 
 }  // namespace paim

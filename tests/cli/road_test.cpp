@@ -1,5 +1,6 @@
 // The whole road as a user walks it: paim-poses, paim-compress, paim-info, paim-analyze.
 #include <algorithm>
+#include <cmath>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -100,6 +101,71 @@ TEST_F(Road, CompressReportsInJson) {
     EXPECT_EQ(json["paim"], path("y.paim"));
 }
 
+Arguments curve_header(const std::string& curve) {
+    return {"light",
+            curve,
+            "all",
+            "theory_error [fraction]",
+            "energy_error [fraction]",
+            "visual_error [fraction]",
+            "visual_error_least [fraction]",
+            "visual_error_median [fraction]",
+            "visual_error_most [fraction]",
+            "visual_error_deviation [fraction]",
+            "worst_picture_pose",
+            "worst_picture_view",
+            "reference_noise [fraction]",
+            "rmse [radiance]",
+            "psnr [dB]",
+            "position_rms [scene units]",
+            "position_worst [scene units]",
+            "worst_vertex",
+            "worst_pose",
+            "edge_distortion [fraction]",
+            "normal_angle [degrees]",
+            "transfer_error [fraction]",
+            "size [bytes]",
+            "decode [ms per pose]"};
+}
+
+// Every number of a line of a curve's CSV, to its digits, under the light "sky".
+void expect_csv_is_in_json(const Arguments& row, const nlohmann::json& point,
+                           const nlohmann::json& reference) {
+    const auto& spread = point["visual_error_spread"]["sky"];
+    const std::vector<nlohmann::json> numbers{point["theory_error"],
+                                              point["energy_error"],
+                                              point["visual_error"]["sky"],
+                                              spread["least"],
+                                              spread["median"],
+                                              spread["most"],
+                                              spread["deviation"],
+                                              spread["worst_pose"],
+                                              spread["worst_view"],
+                                              reference["noise"]["sky"],
+                                              point["rmse"]["sky"],
+                                              point["psnr_db"]["sky"],
+                                              point["position_rms"],
+                                              point["position_worst"]["distance"],
+                                              point["position_worst"]["vertex"],
+                                              point["position_worst"]["pose"],
+                                              point["edge_distortion"],
+                                              point["normal_angle_deg"],
+                                              point["transfer_error"],
+                                              point["size_bytes"],
+                                              point["decode_ms"]};
+    ASSERT_EQ(row.size(), 3 + numbers.size());
+    for (size_t n = 0; n < numbers.size(); ++n) {
+        const std::string& text = row[3 + n];
+        if (numbers[n].is_null()) {  // JSON has no infinity, and no "not a number"
+            EXPECT_TRUE(text == "inf" || text == "nan") << n << ": " << text;
+            continue;
+        }
+        const double value = numbers[n].get<double>();
+        // The CSV has at least three digits.
+        EXPECT_NEAR(std::stod(text), value, 5e-3 * std::abs(value)) << n;
+    }
+}
+
 TEST_F(Road, AnalysisHoldsTogether) {
     const std::string bake = make_bake("x.bake");
     const ToolResult result = analyze({bake, "-o", path("out"), "--size", "16", "--poses", "2",
@@ -112,19 +178,16 @@ TEST_F(Road, AnalysisHoldsTogether) {
     for (const std::string curve : {"geometry_components", "transfer_components", "bands"}) {
         const auto rows = read_csv("out/" + curve + ".csv");
         ASSERT_GE(rows.size(), 2u);
-        EXPECT_EQ(rows[0], (Arguments{"light", curve, "all", "theory_error [fraction]",
-                                      "energy_error [fraction]", "visual_error [fraction]",
-                                      "position_rms [scene units]", "position_worst [scene units]",
-                                      "worst_vertex", "worst_pose", "transfer_error [fraction]",
-                                      "size [bytes]", "decode [ms per pose]"}));
+        EXPECT_EQ(rows[0], curve_header(curve));
         ASSERT_EQ(rows.size() - 1, json[curve].size());  // one light
         for (size_t j = 1; j < rows.size(); ++j) {
-            ASSERT_EQ(rows[j].size(), 13u);
+            ASSERT_EQ(rows[j].size(), rows[0].size());
             const auto& point = json[curve][j - 1];
             EXPECT_EQ(rows[j][0], "sky");
             EXPECT_EQ(rows[j][1], std::to_string(point["kept"].get<int>()));
             EXPECT_EQ(rows[j][2], j == 1 ? "yes" : "no");
-            EXPECT_EQ(rows[j][11], std::to_string(point["size_bytes"].get<uint64_t>()));
+            EXPECT_EQ(rows[j][22], std::to_string(point["size_bytes"].get<uint64_t>()));
+            expect_csv_is_in_json(rows[j], point, json["reference"]);
         }
         // Everything kept loses nothing but rounding; less loses more, and saves bytes.
         EXPECT_LT(json[curve][0]["visual_error"]["sky"], 1e-5);

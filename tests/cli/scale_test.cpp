@@ -48,10 +48,10 @@ TEST_F(Scale, AnalysisRendersTheSameImages) {
         const Contents images = contents_of(output + "/images");
         if (exponent == 0) unscaled = images;
         EXPECT_GE(images.size(), 5u);
-        // The baked image to the byte; of the others only that they are there, for what the encoder
+        // The image of the bake to the byte; of the others only that they are there, for what the encoder
         // rounds may differ.
         EXPECT_EQ(names_of(images), names_of(unscaled));
-        EXPECT_TRUE(images.at("baked_0.png") == unscaled.at("baked_0.png")) << exponent;
+        EXPECT_TRUE(images.at("reference_0.png") == unscaled.at("reference_0.png")) << exponent;
     }
 }
 

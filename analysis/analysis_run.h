@@ -1,0 +1,39 @@
+// What every section of an analysis works on, and where it puts its results.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "analysis/options.h"
+#include "analysis/page.h"
+#include "analysis/reference/reference_kind.h"
+#include "analysis/stage.h"
+#include "paim/format/bake/bake_directory.h"
+
+namespace paim {
+
+struct AnalysisRun {
+    const AnalyzeOptions& options;
+    const BakeReader& bake;  // verified
+    const Stage& stage;
+    const bool with_plots;
+    Page& page;
+    nlohmann::ordered_json& json;  // the object that --json prints
+    std::optional<Reference> made_reference = {};
+
+    bool quiet() const { return options.quiet || options.json; }
+
+    // What pictures are compared with; made when it is needed for the first time.
+    const Reference& reference();
+
+    // "the bake", or how many rays were traced.
+    std::string reference_text();
+};
+
+// Measures curves of components and bands.
+void curves_section(AnalysisRun& run);
+
+// Finds where the error of a file comes from.
+void budget_section(AnalysisRun& run);
+
+}  // namespace paim
