@@ -36,4 +36,13 @@ void curves_section(AnalysisRun& run);
 // Finds where the error of a file comes from.
 void budget_section(AnalysisRun& run);
 
+// Measures the flicker of a file. Errors: bad input of a single pose.
+void flicker_section(AnalysisRun& run);
+
+// Encodes every other pose and measures the others. Errors: bad input of fewer than three poses.
+void held_out_section(AnalysisRun& run);
+
+// Measures several files and shows them side by side.
+void compare_section(AnalysisRun& run);
+
 }  // namespace paim

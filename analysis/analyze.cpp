@@ -65,7 +65,10 @@ void analyze(const AnalyzeOptions& options) {
     json["machine"] = machine_name();
     AnalysisRun run{options, bake, stage, with_plots, page, json};
     if (options.measures_curves()) curves_section(run);
+    if (!options.compare.empty()) compare_section(run);
     if (!options.budget.empty()) budget_section(run);
+    if (!options.temporal.empty()) flicker_section(run);
+    if (options.held_out) held_out_section(run);
     page.write();
     if (options.json) {
         fmt::print("{}\n", json_text(json, 2));

@@ -56,6 +56,21 @@ nlohmann::ordered_json curve_json(const Curve& curve, const std::vector<NamedLig
     return points;
 }
 
+// On stderr, for each number that is more than there is.
+void say_what_was_left_out(const std::vector<Curve>& curves,
+                           const std::vector<uint32_t>& components,
+                           const std::vector<uint32_t>& bands) {
+    for (const Curve& curve : curves) {
+        const bool is_bands = curve.name == "bands";
+        const uint32_t all = curve.points.front().value;
+        for (const uint32_t wanted : is_bands ? bands : components) {
+            if (wanted <= all) continue;
+            fmt::print(stderr, "paim-analyze: note: {}: {} asked for, there are {}\n", curve.name,
+                       wanted, all);
+        }
+    }
+}
+
 // On stderr, for each light under which nothing was to be seen.
 void say_what_was_not_measured(const std::vector<Curve>& curves,
                                const std::vector<NamedLight>& lights) {
@@ -110,6 +125,9 @@ void curves_section(AnalysisRun& run) {
     const Asset asset = encode_in_memory(bake, everything, output);
     const Reference& reference = run.reference();
     std::vector<Curve> curves = plan_curves(bake, asset, run.options.components, run.options.bands);
+    if (run.options.lists_were_given) {
+        say_what_was_left_out(curves, run.options.components, run.options.bands);
+    }
     cli::Progress progress("measuring", "images", num_points(curves) * (stage.poses().size() + 1),
                            run.quiet());
     const MeasuredReference measured =

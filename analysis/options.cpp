@@ -41,6 +41,7 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
     AnalyzeOptions options;
     std::string components = "20,7,4,2";
     std::string bands = "7,4,2";
+    std::string held_out;
     double azimuth_deg = kDefaultAzimuth_rad * 180.0 / kPi;
     double elevation_deg = kDefaultElevation_rad * 180.0 / kPi;
     CLI::App app(
@@ -60,10 +61,20 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
     app.add_option("BAKE", options.bake_directory, "The .bake directory to measure")->required();
     app.add_option("-o,--output", options.output,
                    "Directory for the results, required without --verify");
-    app.add_flag(
-        "--curves", options.curves,
-        "Measure curves of components and bands, which is what is done unless another section "
-        "(--budget) is asked for");
+    app.add_flag("--curves", options.curves,
+                 "Measure curves of components and bands, which is what is done unless something "
+                 "else is asked for (--compare, --budget, --temporal, --held-out)");
+    app.add_option(
+        "--compare", options.compare,
+        "Files (.paim) made from this bake: one table of what they take and what they err, "
+        "and their pictures side by side");
+    app.add_option("--temporal", options.temporal,
+                   "A .paim made from this bake: measure its flicker, the error of the change from "
+                   "pose to pose");
+    app.add_option(
+        "--held-out", held_out,
+        "Encode every other pose to this transfer error, such as 5%, and compare the poses "
+        "in between with their own bakes");
     app.add_option(
         "--budget", options.budget,
         "A .paim made from this bake: find how much of its difference from traced pictures "
@@ -137,6 +148,8 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
     exit_code = cli::parse(app, argc, argv);
     if (exit_code >= 0) return std::nullopt;
     if (options.verify.empty() && options.output.empty()) throw_usage("--output is required");
+    if (!held_out.empty()) options.held_out = cli::parse_share(held_out, "--held-out");
+    options.lists_were_given = app.count("--components") + app.count("--bands") > 0;
     options.components = parse_list(components, "--components", 0, 1u << 20);
     options.bands = parse_list(bands, "--bands", 1, sh::kMaxBands);
     options.stage.azimuth_rad = azimuth_deg * kPi / 180.0;

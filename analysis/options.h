@@ -15,14 +15,18 @@ namespace paim {
 struct AnalyzeOptions {
     std::filesystem::path bake_directory;
     std::filesystem::path output;
-    std::filesystem::path verify;  // a .paim to check instead; empty: none
-    std::string band_power;        // for --verify; empty: that of the file
-    bool curves = false;           // asked for by name
-    std::filesystem::path budget;  // a .paim whose error is taken apart; empty: none
+    std::filesystem::path verify;                // a .paim to check instead; empty: none
+    std::string band_power;                      // for --verify; empty: that of the file
+    bool curves = false;                         // asked for by name
+    std::vector<std::filesystem::path> compare;  // .paim files side by side
+    std::filesystem::path temporal;              // a .paim whose flicker is measured; empty: none
+    std::optional<double> held_out;              // error that every other pose is encoded to
+    std::filesystem::path budget;                // a .paim whose error is taken apart; empty: none
     std::vector<std::filesystem::path> environments;  // none: the built-in sky
     EnvMapping env_mapping = EnvMapping::automatic;   // of all maps
     std::vector<uint32_t> components{20, 7, 4, 2};    // in addition to all
     std::vector<uint32_t> bands{7, 4, 2};             // in addition to all
+    bool lists_were_given = false;                    // one of these two, by a person
     ReferenceKind reference = ReferenceKind::bake;
     uint32_t reference_rays = 0;  // 0: as many as are needed
     StageOptions stage;
@@ -31,7 +35,9 @@ struct AnalyzeOptions {
     bool quiet = false;
 
     // Unless something else alone was asked for.
-    bool measures_curves() const { return curves || budget.empty(); }
+    bool measures_curves() const {
+        return curves || (budget.empty() && compare.empty() && temporal.empty() && !held_out);
+    }
 };
 
 // Parses the command line. Returns nothing when the tool is done, with the exit code in exit_code.

@@ -21,11 +21,12 @@ constexpr const char* kStyle =
     "h1,h2{font-weight:600}table{border-collapse:collapse;margin:1em 0}"
     ".wide{overflow-x:auto}dt{font-weight:600;float:left;margin-right:.5em}dd{margin:0 0 .2em 0}"
     "th,td{padding:.25em .8em;text-align:right;border-bottom:1px solid #ddd}"
-    "td:first-child,th:first-child{text-align:left}"
+    "td{white-space:nowrap}td:first-child,th:first-child{text-align:left}"
     ".strip{display:flex;gap:6px;overflow-x:auto;margin:.5em 0}.strip figure{margin:0}"
     ".strip img{width:180px;height:180px;display:block;background:#000}"
+    ".none{width:180px}"
     "figcaption{font-size:13px;text-align:center;color:#555;max-width:180px}"
-    ".plots{display:flex;flex-wrap:wrap;gap:8px}.plots img{width:32%;min-width:320px}";
+    ".plots{display:flex;flex-wrap:wrap;gap:8px}.plots img{width:49%;min-width:520px}";
 
 }  // namespace
 
@@ -118,6 +119,11 @@ void Page::add_link(const std::string& file) {
 void Page::add_pictures(const std::vector<Picture>& pictures, const ToneCurve& tone) {
     html_ += "<div class=\"strip\">";
     for (const Picture& picture : pictures) {
+        if (picture.image == nullptr) {
+            html_ += "<figure class=\"none\"><figcaption>" + escape_html(picture.caption) +
+                     "</figcaption></figure>";
+            continue;
+        }
         ensure_directory((directory_ / picture.file).parent_path());
         write_png(directory_ / picture.file, *picture.image, tone);
         html_ += fmt::format(

@@ -41,7 +41,7 @@ class Page {
     struct Picture {
         std::string file;  // in the directory, ends in .png
         std::string caption;
-        const Image* image;
+        const Image* image;  // nullptr: the caption stands alone
     };
     // Pictures side by side, which are written. Error: output failed.
     void add_pictures(const std::vector<Picture>& pictures, const ToneCurve& tone);

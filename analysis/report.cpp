@@ -28,17 +28,16 @@ void add_strips(Page& page, const Curve& curve, const Stage& stage,
         page.add_paragraph(text);
         const std::string of_reference = fmt::format("images/reference_{}.png", light);
         std::vector<Page::Picture> pictures{{of_reference, reference_name, &reference}};
-        std::vector<Page::Picture> differences;
+        std::vector<Page::Picture> differences{{"", "difference, times four", nullptr}};
         std::vector<Image> images;  // that `differences` point to
         images.reserve(curve.points.size());
         for (const CurvePoint& point : curve.points) {
             const std::string stem = fmt::format("images/{}_{}_{}", curve.name, light, point.value);
             pictures.push_back({stem + ".png", label(curve, point), &point.images[light]});
             images.push_back(difference_image(point.images[light], reference));
-            differences.push_back(
-                {stem + "_difference.png",
-                 "difference × 4; seen: " + percent_text(point.seen[light].visual_error()),
-                 &images.back()});
+            differences.push_back({stem + "_difference.png",
+                                   "seen: " + percent_text(point.seen[light].visual_error()),
+                                   &images.back()});
         }
         page.add_pictures(pictures, tone);
         page.add_pictures(differences, tone);

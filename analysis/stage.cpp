@@ -185,4 +185,19 @@ DecodedPose baked_pose(const BakeReader& bake, uint32_t p, BakedPose pose) {
             root_at(identity.root_motion, p), identity.num_following};
 }
 
+void keep_bands(DecodedPose& pose, uint32_t bands) {
+    if (bands >= pose.layout.in_bands) return;
+    const TransferLayout kept = pose.layout.with_bands(bands);
+    const size_t num_vertices = pose.positions.size() / 3;
+    std::vector<uint32_t> planes;
+    planes_of(pose.layout, kept, planes);
+    std::vector<float> transfer;
+    for (const uint32_t plane : planes) {
+        const auto first = pose.transfer.begin() + static_cast<ptrdiff_t>(plane * num_vertices);
+        transfer.insert(transfer.end(), first, first + static_cast<ptrdiff_t>(num_vertices));
+    }
+    pose.layout = kept;
+    pose.transfer = std::move(transfer);
+}
+
 }  // namespace paim

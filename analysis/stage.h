@@ -99,4 +99,7 @@ class Stage {
 // A pose of a bake as if it had been decoded, with all that the bake knows of it.
 DecodedPose baked_pose(const BakeReader& bake, uint32_t p, BakedPose pose);
 
+// Keeps the first bands of a pose's transfer.
+void keep_bands(DecodedPose& pose, uint32_t bands);
+
 }  // namespace paim

@@ -125,7 +125,7 @@ void add_budget(Page& page, const std::string& file, const ErrorBudget& budget,
             {fmt::format("images/budget_{}_truth.png", light), "traced", &budget.truth[light]}};
         std::vector<Image> changes;
         changes.reserve(budget.terms.size());  // pictures point to them
-        std::vector<Page::Picture> differences;
+        std::vector<Page::Picture> differences{{"", "change, times four", nullptr}};
         const Image* before = &budget.truth[light];
         for (size_t n = 0; n < budget.terms.size(); ++n) {
             const BudgetTerm& term = budget.terms[n];

@@ -31,7 +31,4 @@ class TransferTruth {
     TransferBaker baker_;
 };
 
-// Keeps the first bands of a pose's transfer.
-void keep_bands(DecodedPose& pose, uint32_t bands);
-
 }  // namespace paim

@@ -34,11 +34,6 @@ class LightTools : public ToolTest {
         return parse_object(info(arguments));
     }
 
-    std::string text_of(const std::string& name) const {
-        const auto bytes = read_file(directory_ / name, 1 << 24);
-        return {bytes.begin(), bytes.end()};
-    }
-
     // Analyses the bake under these lights in small pictures.
     ToolResult analyze_under(const std::string& bake, const Arguments& more) const {
         Arguments arguments{bake,          "-o",      path("out"), "--size",  "16", "--components",

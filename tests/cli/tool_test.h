@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -145,6 +146,23 @@ class ToolTest : public testing::Test {
 
     void write(const std::string& name, const std::string& text) const {
         write_file(directory_ / name, text);
+    }
+
+    std::string text_of(const std::string& name) const {
+        const auto bytes = read_file(directory_ / name, 1 << 24);
+        return {bytes.begin(), bytes.end()};
+    }
+
+    // Lines of fields of a CSV file without commas in its fields.
+    std::vector<Arguments> read_csv(const std::string& name) const {
+        std::istringstream text(text_of(name));
+        std::vector<Arguments> rows;
+        for (std::string line; std::getline(text, line);) {
+            std::istringstream fields(line);
+            rows.emplace_back();
+            for (std::string field; std::getline(fields, field, ',');) rows.back().push_back(field);
+        }
+        return rows;
     }
 
     TemporaryDirectory directory_;

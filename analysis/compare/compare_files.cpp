@@ -1,0 +1,96 @@
+// Several .paim files of one bake side by side.
+#include "analysis/compare/compare_files.h"
+
+#include <memory>
+#include <utility>
+
+#include "analysis/file_poses.h"
+#include "paim/codec/frame_cost.h"
+#include "paim/codec/playback.h"
+#include "paim/format/paim/paim_read.h"
+#include "paim/metrics/image_error.h"
+#include "paim/metrics/rates.h"
+
+namespace paim {
+
+namespace {
+
+ComparedFile describe(const std::filesystem::path& path, const Asset& asset) {
+    const CodedMesh& mesh = asset.moving();
+    ComparedFile file;
+    file.path = path;
+    file.codec = mesh.transfer->codec_name();
+    file.bands = mesh.layout.in_bands;
+    file.geometry_components = mesh.positions.num_components;
+    file.transfer_components = mesh.transfer->matrix.num_components;
+    file.size_bytes = std::filesystem::file_size(path);
+    file.bits_per_vertex_per_pose =
+        bits_per_vertex_per_pose(file.size_bytes, mesh.topology.num_vertices, mesh.num_poses());
+    file.multiply_adds = positions_cost(file.geometry_components).per_vertex() +
+                         mesh.transfer->cost(mesh.layout, {}, true).per_vertex();
+    return file;
+}
+
+PoseTime time_frames(const std::shared_ptr<const Asset>& asset, const NamedLight& light) {
+    Playback playback(asset);
+    playback.set_light(DistantLight(light.coefficients));
+    return time_poses(asset->num_poses(), [&](uint32_t p) { playback.update(p); });
+}
+
+}  // namespace
+
+size_t compare_steps(size_t num_files, const BakeReader& bake, const Stage& stage) {
+    return num_files * (2 + bake.num_poses()) + stage.poses().size() * num_files;
+}
+
+FileComparison compare_files(const std::vector<std::filesystem::path>& paths,
+                             const BakeReader& bake, const Stage& stage,
+                             const ReferenceSource& reference,
+                             const std::function<void()>& on_step) {
+    const size_t num_lights = stage.lights().size();
+    FileComparison comparison;
+    std::vector<std::shared_ptr<const Asset>> assets;
+    std::vector<std::unique_ptr<FilePoses>> poses;
+    for (const std::filesystem::path& path : paths) {
+        assets.push_back(std::make_shared<const Asset>(read_paim(path)));
+        poses.push_back(std::make_unique<FilePoses>(*assets.back(), bake));
+        comparison.files.push_back(describe(path, *assets.back()));
+        comparison.files.back().seen.resize(num_lights);
+    }
+    const BandPower flat = BandPower::flat(bake.identity().layout.in_bands);
+    for (size_t j = 0; j < paths.size(); ++j) {
+        ComparedFile& file = comparison.files[j];
+        file.error = measure_asset(*assets[j], bake, flat);
+        on_step();
+        file.frame = time_frames(assets[j], stage.lights().front());
+        on_step();
+        file.flicker = measure_flicker(bake, *poses[j], stage, on_step);
+    }
+    RelativeNoise noise(num_lights);
+    for (const uint32_t p : stage.poses()) {
+        const bool is_first = p == stage.poses().front();
+        ReferencePictures expected = reference(p, baked_pose(bake, p, bake.read_pose(p)));
+        noise.add(expected);
+        for (size_t j = 0; j < paths.size(); ++j) {
+            const DecodedPose* const still = poses[j]->still() ? &*poses[j]->still() : nullptr;
+            std::vector<Image> pictures = stage.render_pose(poses[j]->pose(p), still);
+            for (size_t k = 0; k < pictures.size(); ++k) {
+                comparison.files[j].seen[k % num_lights].add(
+                    compare_images(pictures[k], expected.pictures[k]), p, k / num_lights);
+            }
+            if (is_first) {
+                pictures.resize(num_lights);
+                comparison.files[j].images = std::move(pictures);
+            }
+            on_step();
+        }
+        if (is_first) {
+            expected.pictures.resize(num_lights);
+            comparison.reference = std::move(expected.pictures);
+        }
+    }
+    comparison.reference_noise = noise.relative();
+    return comparison;
+}
+
+}  // namespace paim
