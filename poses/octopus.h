@@ -8,7 +8,7 @@
 namespace paim::poses {
 
 constexpr uint32_t kMinOctopusVertices = 1'000;
-constexpr uint32_t kMaxOctopusVertices = 500'000;
+constexpr uint32_t kMaxOctopusVertices = 2'000'000;
 
 // A smooth closed surface of exactly num_vertices vertices (kMin … kMaxOctopusVertices, else
 // Error(usage)): closed, oriented outwards, one component, without handles, in every pose. It

@@ -27,7 +27,7 @@
 namespace paim::poses {
 
 constexpr uint32_t kMinShapeVertices = 50;
-constexpr uint32_t kMaxShapeVertices = 500'000;
+constexpr uint32_t kMaxShapeVertices = 2'000'000;
 
 // num_vertices outside kMin … kMaxShapeVertices: Error(usage).
 std::unique_ptr<Sequence> make_sphere_sequence(uint32_t num_vertices);

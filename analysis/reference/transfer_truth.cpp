@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "paim/base/check.h"
-#include "paim/mesh/planes.h"
+#include "analysis/reference/baked_poses.h"
 
 namespace paim {
 
@@ -15,22 +14,10 @@ namespace {
 constexpr uint64_t kTruthSeed = 0x7a7e;
 
 BakeOptions truth_options(const BakeIdentity& identity, uint32_t rays) {
-    BakeOptions options;
-    options.bands = identity.layout.in_bands;
+    BakeOptions options = options_of(identity);
     options.rays = rays;
-    options.seed = identity.seed + kTruthSeed;
-    options.bounces = identity.bounces;
+    options.seed += kTruthSeed;
     return options;
-}
-
-StillMesh still_mesh_of(const BakeReader& bake) {
-    StillMesh mesh;
-    if (!bake.still_mesh()) return mesh;
-    const BakedStillMesh& baked = *bake.still_mesh();
-    mesh.topology = baked.topology;
-    mesh.albedo = baked.albedo;
-    mesh.pose = {from_planes(baked.pose.positions), from_planes(baked.pose.normals)};
-    return mesh;
 }
 
 }  // namespace
@@ -39,20 +26,14 @@ TransferTruth::TransferTruth(const BakeReader& bake)
     : bake_(bake),
       rays_(std::min(kMostTruthRays,
                      kTruthRaysByRays * std::min(bake.identity().rays, kMostTruthRays))),
-      baker_(truth_options(bake.identity(), rays_), bake.albedo(), still_mesh_of(bake)) {
+      baker_(truth_options(bake.identity(), rays_), bake.albedo(),
+             surroundings_of(bake).still_mesh) {
     // Poses need its light if it bounces.
     if (bake.still_mesh() && bake.identity().bounces > 0) baker_.bake_still_mesh();
 }
 
 DecodedPose TransferTruth::pose(uint32_t p) const {
-    const BakeIdentity& identity = bake_.identity();
-    BakedPose baked = bake_.read_pose(p);
-    const RigidTransform root = root_at(identity.root_motion, p);
-    move_to_scene(root, baked.positions, identity.num_following);
-    transform_planes(root.rotation.toRotationMatrix(), Vec3d::Zero(), baked.normals,
-                     identity.num_following);
-    const Pose pose{from_planes(baked.positions), from_planes(baked.normals)};
-    BakedPose truth = baker_.bake(bake_.topology(), pose, p);
+    BakedPose truth = baker_.bake(bake_.topology(), BakedPoses(bake_).load_pose(p), p);
     DecodedPose decoded;
     decoded.layout = baker_.layout();
     decoded.positions = std::move(truth.positions);

@@ -15,7 +15,7 @@ from svg import BLUE, Figure, ORANGE, SOFT
 # Each line changes one size of these.
 USUAL = {"vertices": 5000, "poses": 24, "bands": 5}
 SERIES = {
-    "vertices": (10_000, 30_000, 100_000, 300_000),
+    "vertices": (10_000, 30_000, 100_000, 300_000, 1_000_000),
     "poses": (10, 30, 100, 300, 1000),
     "bands": (2, 3, 4, 5, 6, 7),
 }

@@ -42,9 +42,9 @@ TEST(PosesTool, RefusesWhatItDoesNotKnow) {
     expect_failure(run_poses({"squid", "-o", out}), 1,
                    "NAME: expected one of octopus, sphere, box, plates, cavity, bowl, got 'squid'");
     expect_failure(run_poses({"octopus", "-o", out, "--vertices", "999"}), 1,
-                   "--vertices of octopus: expected 1000 to 500000, got 999");
+                   "--vertices of octopus: expected 1000 to 2000000, got 999");
     expect_failure(run_poses({"box", "-o", out, "--vertices", "-3"}), 1,
-                   "--vertices of box: expected 50 to 500000, got -3");
+                   "--vertices of box: expected 50 to 2000000, got -3");
     expect_failure(run_poses({"box", "-o", out, "--poses", "0"}), 1,
                    "--poses: expected 1 to 10000, got 0");
     expect_failure(run_poses({"box", "-o", out, "--poses", "99999999999"}), 1,
