@@ -3,22 +3,9 @@
 
 #include <fmt/format.h>
 
+#include "analysis/csv_field.h"
+
 namespace paim {
-
-namespace {
-
-// A field, in quotes if it needs them (RFC 4180).
-std::string field(const std::string& text) {
-    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-    std::string quoted = "\"";
-    for (const char c : text) {
-        if (c == '"') quoted += '"';
-        quoted += c;
-    }
-    return quoted + '"';
-}
-
-}  // namespace
 
 std::string curve_csv(const Curve& curve, const std::vector<NamedLight>& lights) {
     std::string csv = fmt::format(
@@ -31,7 +18,7 @@ std::string curve_csv(const Curve& curve, const std::vector<NamedLight>& lights)
             const DistanceError& distance = point.distance;
             csv += fmt::format(
                 "{},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{},{},{:.9g},{},{:.4g}\n",
-                field(lights[light].name), point.value, point.all ? "yes" : "no",
+                csv_field(lights[light].name), point.value, point.all ? "yes" : "no",
                 point.theory_error, point.energy_error, point.visual_error[light], distance.rms(),
                 distance.worst, distance.worst_vertex, distance.worst_pose,
                 point.transfer.relative(), point.size_bytes, point.decode_ms);
