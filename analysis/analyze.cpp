@@ -14,6 +14,7 @@
 #include "analysis/plots.h"
 #include "analysis/report.h"
 #include "analysis/stage.h"
+#include "analysis/trade/seen_error.h"
 #include "compressor/encode/encode.h"
 #include "paim/base/error.h"
 #include "paim/base/file.h"
@@ -138,6 +139,10 @@ void analyze(const AnalyzeOptions& options) {
         stage.poses().size(), asset.moving().layout.in_bands);
     write_report(options.output, "Error analysis of " + asset.name, summary, curves, stage,
                  references, with_plots);
+    if (options.trade) {
+        json["trade"] = run_trade(bake, *options.trade, options.output, play_on_stage(bake, stage),
+                                  quiet, options.json);
+    }
     if (options.json) {
         fmt::print("{}\n", json_text(json, 2));
     } else {

@@ -3,6 +3,7 @@
 
 #include <charconv>
 
+#include "analysis/trade/trade_arguments.h"
 #include "paim/base/error.h"
 #include "paim/base/vector.h"
 #include "paim/cli/light_options.h"
@@ -55,7 +56,7 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
         "energy_error its root-mean-square form, visual_error what is seen in rendered images "
         "(E6).\n"
         "Exit codes: 0 ok, 1 usage, 2 bad input, 3 unsupported, 4 output failed, 5 an error is "
-        "larger than stated.");
+        "larger than stated, or no file of the sweep is within the target.");
     app.add_option("BAKE", options.bake_directory, "The .bake directory to measure")->required();
     app.add_option("-o,--output", options.output,
                    "Directory for the results, required without --verify");
@@ -83,6 +84,8 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
                    "Camera angle above the horizon, degrees, -89 to 89")
         ->check(cli::in_range(-89.0, 89.0))
         ->capture_default_str();
+    TradeArguments trade;
+    add_trade_options(app, trade);
     CLI::Option* const verify = app.add_option(
         "--verify", options.verify,
         "A .paim made from this bake: measure its errors again and compare them with those that it "
@@ -108,6 +111,7 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
     exit_code = cli::parse(app, argc, argv);
     if (exit_code >= 0) return std::nullopt;
     if (options.verify.empty() && options.output.empty()) throw_usage("--output is required");
+    options.trade = trade_options(trade);
     options.components = parse_list(components, "--components", 0, 1u << 20);
     options.bands = parse_list(bands, "--bands", 1, sh::kMaxBands);
     options.azimuth_rad = azimuth_deg * kPi / 180.0;

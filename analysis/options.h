@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/trade/trade.h"
 #include "paim/light/env_mapping.h"
 
 namespace paim {
@@ -23,6 +24,7 @@ struct AnalyzeOptions {
     uint32_t num_poses = 4;
     double azimuth_rad = 0.0;
     double elevation_rad = 0.0;
+    std::optional<TradeOptions> trade;  // a sweep, if one is asked for
     int num_threads = 0;
     bool json = false;
     bool quiet = false;
