@@ -8,6 +8,7 @@
 #include "analysis/page.h"
 #include "analysis/reference/reference_kind.h"
 #include "analysis/stage.h"
+#include "analysis/trade/trade.h"
 #include "paim/format/bake/bake_directory.h"
 
 namespace paim {
@@ -41,6 +42,9 @@ void flicker_section(AnalysisRun& run);
 
 // Encodes every other pose and measures the others. Errors: bad input of fewer than three poses.
 void held_out_section(AnalysisRun& run);
+
+// Measures what accuracy costs, and finds what to run for a limit (check_limit()).
+Trade trade_section(AnalysisRun& run);
 
 // Measures several files and shows them side by side.
 void compare_section(AnalysisRun& run);

@@ -69,12 +69,16 @@ void analyze(const AnalyzeOptions& options) {
     if (!options.budget.empty()) budget_section(run);
     if (!options.temporal.empty()) flicker_section(run);
     if (options.held_out) held_out_section(run);
+    Trade trade;
+    if (options.trade) trade = trade_section(run);
     page.write();
     if (options.json) {
         fmt::print("{}\n", json_text(json, 2));
     } else {
+        fmt::print("{}", recommendation_text(bake.directory(), trade));
         fmt::print("{}\n", (options.output / "index.html").string());
     }
+    check_limit(trade);
 }
 
 }  // namespace paim

@@ -3,17 +3,9 @@
 
 #include <fmt/format.h>
 
-namespace paim {
+#include "analysis/csv_field.h"
 
-std::string csv_field(const std::string& text) {
-    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-    std::string quoted = "\"";
-    for (const char c : text) {
-        if (c == '"') quoted += '"';
-        quoted += c;
-    }
-    return quoted + '"';
-}
+namespace paim {
 
 std::string curve_csv(const Curve& curve, const std::vector<NamedLight>& lights,
                       const std::vector<double>& reference_noise) {

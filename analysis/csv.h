@@ -9,9 +9,6 @@
 
 namespace paim {
 
-// A field, in quotes if it needs them.
-std::string csv_field(const std::string& text);
-
 // One line for each point and light.
 // reference_noise  [lights] of the pictures that were compared with, relative
 std::string curve_csv(const Curve& curve, const std::vector<NamedLight>& lights,

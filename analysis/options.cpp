@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "analysis/reference/enough_rays.h"
+#include "analysis/trade/trade_arguments.h"
 #include "paim/base/error.h"
 #include "paim/base/vector.h"
 #include "paim/cli/light_options.h"
@@ -57,13 +58,13 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
         "energy_error its root-mean-square form, visual_error what is seen in rendered images "
         "(E6).\n"
         "Exit codes: 0 ok, 1 usage, 2 bad input, 3 unsupported, 4 output failed, 5 an error is "
-        "larger than stated.");
+        "larger than stated, or no file of the sweep is within the target.");
     app.add_option("BAKE", options.bake_directory, "The .bake directory to measure")->required();
     app.add_option("-o,--output", options.output,
                    "Directory for the results, required without --verify");
     app.add_flag("--curves", options.curves,
                  "Measure curves of components and bands, which is what is done unless something "
-                 "else is asked for (--compare, --budget, --temporal, --held-out)");
+                 "else is asked for (--compare, --budget, --temporal, --held-out, --sweep)");
     app.add_option(
         "--compare", options.compare,
         "Files (.paim) made from this bake: one table of what they take and what they err, "
@@ -123,6 +124,8 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
                    "Camera angle above the horizon, degrees, -89 to 89")
         ->check(cli::in_range(-89.0, 89.0))
         ->capture_default_str();
+    TradeArguments trade;
+    add_trade_options(app, trade);
     CLI::Option* const verify = app.add_option(
         "--verify", options.verify,
         "A .paim made from this bake: measure its errors again and compare them with those that it "
@@ -150,6 +153,7 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
     if (options.verify.empty() && options.output.empty()) throw_usage("--output is required");
     if (!held_out.empty()) options.held_out = cli::parse_share(held_out, "--held-out");
     options.lists_were_given = app.count("--components") + app.count("--bands") > 0;
+    options.trade = trade_options(trade);
     options.components = parse_list(components, "--components", 0, 1u << 20);
     options.bands = parse_list(bands, "--bands", 1, sh::kMaxBands);
     options.stage.azimuth_rad = azimuth_deg * kPi / 180.0;

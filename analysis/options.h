@@ -8,6 +8,7 @@
 
 #include "analysis/reference/reference_kind.h"
 #include "analysis/stage.h"
+#include "analysis/trade/trade.h"
 #include "paim/light/env_mapping.h"
 
 namespace paim {
@@ -30,13 +31,15 @@ struct AnalyzeOptions {
     ReferenceKind reference = ReferenceKind::bake;
     uint32_t reference_rays = 0;  // 0: as many as are needed
     StageOptions stage;
+    std::optional<TradeOptions> trade;  // a sweep, if one is asked for
     int num_threads = 0;
     bool json = false;
     bool quiet = false;
 
     // Unless something else alone was asked for.
     bool measures_curves() const {
-        return curves || (budget.empty() && compare.empty() && temporal.empty() && !held_out);
+        return curves ||
+               (budget.empty() && compare.empty() && temporal.empty() && !held_out && !trade);
     }
 };
 

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/csv.h"
+#include "analysis/csv_field.h"
 #include "analysis/gnuplot.h"
 
 namespace paim {

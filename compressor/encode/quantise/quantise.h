@@ -16,6 +16,8 @@ struct Quantiser {
     double step = 1.0;                 // of a value whose plane weighs 1
     uint32_t num_components = 0;       // of the factors that are kept, at most
     std::vector<double> plane_weight;  // [planes] of squared errors, above 0
+
+    bool operator==(const Quantiser&) const = default;
 };
 
 // Components scaled to weights of unit RMS all have the step ‖plane weight‖^-½ · step: errors then

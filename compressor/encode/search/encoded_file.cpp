@@ -74,6 +74,14 @@ std::optional<EncodedFiles::Draft> EncodedFiles::draft(double transfer_error, st
     return draft;
 }
 
+std::optional<RefinedAsset> EncodedFiles::refine_steps(const Targets& targets, Coding coding) {
+    problem_.progress->begin(fmt::format("measuring a file of {:.3g} %", 100.0 * targets.transfer),
+                             0.98);
+    const RefinedPositions* const positions = positions_.refine(coding.positions, targets.surface);
+    if (positions == nullptr) return std::nullopt;
+    return refine(problem_, still_of(targets), *positions, std::move(coding), targets);
+}
+
 std::optional<RefinedAsset> EncodedFiles::meet_all_but_vertices(const Targets& targets,
                                                                 std::vector<Candidate>& candidates,
                                                                 std::string& reason) {
@@ -87,7 +95,7 @@ std::optional<RefinedAsset> EncodedFiles::meet_all_but_vertices(const Targets& t
             reason = bake_name() + ": " + reason;
             return std::nullopt;
         }
-        auto refined = refine(problem_, still_of(targets), std::move(*coding), targets);
+        auto refined = refine_steps(targets, std::move(*coding));
         if (refined) return use_all_of(targets, smaller, std::move(*refined), candidates);
     }
     reason = fmt::format(
@@ -112,7 +120,7 @@ RefinedAsset EncodedFiles::use_all_of(const Targets& targets, Targets aim, Refin
         std::vector<Candidate> others;
         auto coding = search_.choose(aim, others, unused);
         if (!coding) break;
-        auto smaller = refine(problem_, still_of(targets), std::move(*coding), targets);
+        auto smaller = refine_steps(targets, std::move(*coding));
         const auto bytes = [](const RefinedAsset& of) {
             return of.coding.transfer.candidate.bytes;
         };
@@ -148,7 +156,7 @@ std::optional<EncodedFile> EncodedFiles::meet(double transfer_error, std::string
 std::optional<EncodedFile> EncodedFiles::meet(double transfer_error, Draft draft,
                                               std::string& reason) {
     const Targets targets = this->targets(transfer_error);
-    auto refined = refine(problem_, still_of(targets), std::move(draft.coding), targets);
+    auto refined = refine_steps(targets, std::move(draft.coding));
     if (!refined || refined->error.transfer.worst_vertex_error_to_bake > targets.worst_vertex) {
         return meet(transfer_error, reason);
     }

@@ -21,12 +21,14 @@ struct EncodedFile {
 
 class EncodedFiles {
   public:
+    // Keeps references.
     EncodedFiles(const EncodeProblem& problem, const EncodeOptions& options,
-                 const EncodeTarget& target)
+                 const EncodeTarget& target, SearchMemo& memo)
         : problem_(problem),
           options_(options),
           target_(target),
-          search_(problem, options, target) {}
+          positions_(memo.positions),
+          search_(problem, options, target, memo) {}
 
     Targets targets(double transfer_error) const {
         return targets_of(target_, transfer_error, problem_.best_achievable.geometry.diagonal);
@@ -57,6 +59,8 @@ class EncodedFiles {
     // aim  that the refined one was chosen for
     RefinedAsset use_all_of(const Targets& targets, Targets aim, RefinedAsset refined,
                             std::vector<Candidate>& candidates);
+    // Nothing if no steps meet the targets.
+    std::optional<RefinedAsset> refine_steps(const Targets& targets, Coding coding);
     std::optional<EncodedFile> pack(const Targets& targets, std::vector<Candidate> candidates,
                                     RefinedAsset refined, std::string& reason) const;
     const QuantisedStill& still_of(const Targets& targets);
@@ -65,6 +69,7 @@ class EncodedFiles {
     const EncodeProblem& problem_;
     const EncodeOptions& options_;
     const EncodeTarget& target_;
+    PositionFinder& positions_;
     CodingSearch search_;
     QuantisedStill still_;  // of the last targets that were asked about
     std::optional<Targets> still_targets_;

@@ -28,43 +28,50 @@ const double kLostByTarget = std::sqrt(0.19);
 }  // namespace
 
 HeldPositions::HeldPositions(const BakeReader& bake, const PositionOutliers& outliers,
-                             const EncodeTarget& target, uint32_t in_flight)
-    : rows_(bake, outliers),
+                             uint32_t in_flight)
+    : bake_(bake),
+      rows_(bake, outliers),
       all_(principal_components(rows_, in_flight)),
-      is_known_(target.transfer_error.has_value()) {
-    const std::vector<uint32_t> counted = face_vertices(bake.topology());
-    num_positions_ = static_cast<double>(counted.size()) * bake.num_poses();
-    const PoseDiagonals diagonals = pose_diagonals(bake, outliers, counted);
-    target_ = targets_of(target, asked_error(target), diagonals.largest).surface;
+      counted_(face_vertices(bake.topology())),
+      diagonals_(pose_diagonals(bake, outliers, counted_)),
+      num_positions_(static_cast<double>(counted_.size()) * bake.num_poses()) {}
+
+void HeldPositions::aim_at(const EncodeTarget& target) {
+    const SurfaceTarget surface =
+        targets_of(target, asked_error(target), diagonals_.largest).surface;
+    const bool is_known = target.transfer_error.has_value();
+    if (target_ == surface && is_known_ == is_known) return;
+    target_ = surface;
+    is_known_ = is_known;
     least_components_ = components_for_motion(
-        rows_, all_, counted,
-        {kLostByTarget, std::max(target_.distance, kInvisibleMotion * diagonals.median),
-         motion_groups(bake.topology(), rows_)});
-    allow(kHeldDistance * target_.distance);
+        rows_, all_, counted_,
+        {kLostByTarget, std::max(target_->distance, kInvisibleMotion * diagonals_.median),
+         motion_groups(bake_.topology(), rows_)});
+    allow(kHeldDistance * target_->distance);
 }
 
 void HeldPositions::read(EncodeProblem& problem, const std::vector<uint32_t>& old_vertex,
                          uint32_t in_flight) const {
+    if (!problem.geometry.mean.empty() && problem.geometry.num_components() == num_components_) {
+        return;
+    }
+    problem.geometry = {};  // first, so that there is memory
     problem.geometry = read_factors(rows_, all_, num_components_, nullptr, old_vertex, in_flight);
+    LowRank positions = float_matrix(problem.geometry, num_components_, Precision::f32);
+    append_exceptions(problem.file_outliers, positions);
+    static_cast<SurfaceError&>(problem.best_achievable) = problem.meter->surface(positions);
 }
 
 bool HeldPositions::need_more(const EncodeProblem& problem) {
     // For a size, the distance is that of very good files already.
     if (!is_known_ || num_components_ >= all_.rank()) return false;
-    const double left = excess(best_surface(problem), target_);
+    const double left = excess(problem.best_achievable, *target_);
     if (!(left > kDroppedOfShape)) return false;
     constexpr double kAim = 0.8, kSmallest = 1e-3;
     const uint32_t before = num_components_;
     allow(std::max(kSmallest, kAim * kDroppedOfShape / left) * distance_);
     num_components_ = std::max(num_components_, before + 1);
     return true;
-}
-
-SurfaceError HeldPositions::best_surface(const EncodeProblem& problem) {
-    LowRank positions =
-        float_matrix(problem.geometry, problem.geometry.num_components(), Precision::f32);
-    append_exceptions(problem.file_outliers, positions);
-    return problem.meter->surface(positions);
 }
 
 void HeldPositions::allow(double distance) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "compressor/encode/data/bake_rows.h"
@@ -23,15 +24,19 @@ inline double asked_error(const EncodeTarget& target) {
 
 class HeldPositions {
   public:
-    // Keeps a reference to the bake.
-    HeldPositions(const BakeReader& bake, const PositionOutliers& outliers,
-                  const EncodeTarget& target, uint32_t in_flight);
+    // Finds all components. Keeps references.
+    HeldPositions(const BakeReader& bake, const PositionOutliers& outliers, uint32_t in_flight);
+
+    // The target that the components are for, before anything is read. Another target than before
+    // begins anew.
+    void aim_at(const EncodeTarget& target);
 
     uint32_t num_components() const { return num_components_; }
     // Without which a vertex would lose its motion.
     uint32_t least_components() const { return least_components_; }
 
-    // Reads the components into the problem.
+    // Reads the components into the problem, unless it holds as many, and measures what they leave
+    // as floats (EncodeProblem::best_achievable).
     void read(EncodeProblem& problem, const std::vector<uint32_t>& old_vertex,
               uint32_t in_flight) const;
 
@@ -39,17 +44,17 @@ class HeldPositions {
     // then says.
     bool need_more(const EncodeProblem& problem);
 
-    // The errors of the components that were read, as floats.
-    static SurfaceError best_surface(const EncodeProblem& problem);
-
   private:
     // Components whose rest is kDroppedShare of this RMS distance.
     void allow(double distance);
 
+    const BakeReader& bake_;
     const GeometryRows rows_;
     const PrincipalComponents all_;
+    const std::vector<uint32_t> counted_;  // vertices of faces
+    const PoseDiagonals diagonals_;
     double num_positions_ = 0.0;  // over vertices of faces and poses
-    SurfaceTarget target_;
+    std::optional<SurfaceTarget> target_;
     bool is_known_ = false;  // the target
     double distance_ = 0.0;
     uint32_t num_components_ = 0, least_components_ = 0;

@@ -155,4 +155,23 @@ std::optional<RefinedPositions> refine_positions(const EncodeProblem& problem,
     return best ? std::move(best) : float_positions(problem, Precision::f32, target);
 }
 
+const PositionCoding* PositionFinder::choose(const SurfaceTarget& target) {
+    if (chosen_for_ != target) {
+        chosen_ = choose_positions(problem_, precision_, target);
+        chosen_for_ = target;
+    }
+    return chosen_ ? &*chosen_ : nullptr;
+}
+
+const RefinedPositions* PositionFinder::refine(const PositionCoding& coding,
+                                               const SurfaceTarget& target) {
+    const std::pair asked(coding, target);
+    if (refined_for_ != asked) {
+        refined_.reset();  // first, so that there is memory
+        refined_ = refine_positions(problem_, coding, target);
+        refined_for_ = asked;
+    }
+    return refined_ ? &*refined_ : nullptr;
+}
+
 }  // namespace paim

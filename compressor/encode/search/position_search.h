@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 #include "compressor/encode/quantise/quantise.h"
 #include "compressor/encode/search/problem.h"
@@ -15,6 +16,8 @@ struct PositionCoding {
     Quantiser quantiser;
     Precision precision = Precision::i16;
     uint64_t bytes = 0;  // by an estimate
+
+    bool operator==(const PositionCoding&) const = default;
 };
 
 // As the coding says, integers smoothed. Error (unsupported) if integers of this step do not fit in
@@ -37,5 +40,32 @@ struct RefinedPositions {
 std::optional<RefinedPositions> refine_positions(const EncodeProblem& problem,
                                                  PositionCoding coding,
                                                  const SurfaceTarget& target);
+
+// Both of one problem. What was asked for last is not computed again: searches for the transfer
+// ask for the same positions several times.
+class PositionFinder {
+  public:
+    // Keeps a reference to the problem.
+    PositionFinder(const EncodeProblem& problem, Precision precision)
+        : problem_(problem), precision_(precision) {}
+
+    // Null: nothing meets the target. Results stay until the next call with something else.
+    const PositionCoding* choose(const SurfaceTarget& target);
+    const RefinedPositions* refine(const PositionCoding& coding, const SurfaceTarget& target);
+
+    // The problem holds other components of the positions.
+    void forget() {
+        chosen_for_.reset();
+        refined_for_.reset();
+    }
+
+  private:
+    const EncodeProblem& problem_;
+    const Precision precision_;
+    std::optional<SurfaceTarget> chosen_for_;
+    std::optional<PositionCoding> chosen_;
+    std::optional<std::pair<PositionCoding, SurfaceTarget>> refined_for_;
+    std::optional<RefinedPositions> refined_;
+};
 
 }  // namespace paim

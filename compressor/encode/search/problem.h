@@ -52,6 +52,13 @@ struct EncodeProblem {
     }
 };
 
+// All but components and their errors. Bands, outliers and spectrum are set.
+// order  of the vertices of the part that moves; the problem takes its topology
+EncodeProblem start_problem(const BakeReader& bake, const EncodeOptions& options,
+                            const BandPower& spectrum, PositionOutliers outliers, CacheOrder& order,
+                            std::shared_ptr<SearchProgress> progress);
+
+// The problem of one target (problem_reader.h is for several).
 // Errors: unsupported, saying what is needed, if options.memory_bytes do not suffice for all that
 // encode_to_target() does.
 EncodeProblem read_problem(

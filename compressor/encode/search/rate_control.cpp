@@ -1,8 +1,6 @@
 // Steps that meet a target, measured.
 #include "compressor/encode/search/rate_control.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <utility>
 
@@ -46,23 +44,19 @@ void adjust(TransferCoding& transfer, double error, double target, double best_e
 }  // namespace
 
 std::optional<RefinedAsset> refine(const EncodeProblem& problem, const QuantisedStill& still,
-                                   Coding coding, const Targets& targets) {
-    problem.progress->begin(fmt::format("measuring a file of {:.3g} %", 100.0 * targets.transfer),
-                            0.98);
-    std::optional<RefinedPositions> positions =
-        refine_positions(problem, std::move(coding.positions), targets.surface);
-    if (!positions) return std::nullopt;
-    coding.positions = std::move(positions->coding);
+                                   const RefinedPositions& positions, Coding coding,
+                                   const Targets& targets) {
+    coding.positions = positions.coding;
     constexpr int kMaxRounds = 8;
     constexpr double kRoom = 0.992;  // below this share of the target a coarser step is tried
     const double best_error = problem.best_achievable.transfer.total();
     std::optional<RefinedAsset> best;
     for (int round = 0; round < kMaxRounds; ++round) {
         std::optional<Asset> asset =
-            build_if_it_fits(problem, still, positions->matrix, coding.transfer);
+            build_if_it_fits(problem, still, positions.matrix, coding.transfer);
         if (!asset) break;  // what there is, is the best there is
         const AssetError measured{
-            {positions->error, problem.meter->transfer(asset->moving(), problem.spectrum)},
+            {positions.error, problem.meter->transfer(asset->moving(), problem.spectrum)},
             still.error};
         problem.progress->advance(0.5);
         const double transfer = measured.transfer.total();

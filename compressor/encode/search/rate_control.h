@@ -14,11 +14,12 @@ struct RefinedAsset {
     Coding coding;     // with the steps that it was made with
 };
 
-// Makes steps finer until all errors, measured, are within the targets, and coarser where there is
-// room: first those of the positions, then those of the transfer. Nothing if no step was found.
-// still  of these targets
+// Makes the steps of the transfer finer until all errors, measured, are within the targets, and
+// coarser where there is room. Nothing if no step was found.
+// still, positions  that meet these targets; the positions take the place of the coding's
 std::optional<RefinedAsset> refine(const EncodeProblem& problem, const QuantisedStill& still,
-                                   Coding coding, const Targets& targets);
+                                   const RefinedPositions& positions, Coding coding,
+                                   const Targets& targets);
 
 // Steps that should do for other targets, where those of `from` were met.
 void scale_steps(const EncodeProblem& problem, const Targets& from, const Targets& to,

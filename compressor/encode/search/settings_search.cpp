@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <utility>
 
 namespace paim {
 
@@ -13,14 +12,13 @@ std::optional<Coding> CodingSearch::choose(const Targets& targets,
                                            std::string& reason) {
     problem_.progress->begin(
         fmt::format("comparing codings for {:.3g} %", 100.0 * targets.transfer), 0.8);
-    std::optional<PositionCoding> positions =
-        choose_positions(problem_, options_.precision, targets.surface);
+    const PositionCoding* const positions = positions_.choose(targets.surface);
     problem_.progress->advance(0.15);
-    if (!positions) {
+    if (positions == nullptr) {
         reason = missed_positions(targets.surface);
         return std::nullopt;
     }
-    Coding coding{std::move(*positions), {}};
+    Coding coding{*positions, {}};
     const double budget = transfer_budget(targets.transfer);
     const std::vector<TransferCoding> codings = search_.codings(budget);
     CodingLimits limits;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "compressor/encode/search/position_search.h"
+#include "compressor/encode/search/search_memo.h"
 #include "compressor/encode/search/transfer_search.h"
 
 namespace paim {
@@ -20,11 +21,12 @@ struct Coding {
 class CodingSearch {
   public:
     CodingSearch(const EncodeProblem& problem, const EncodeOptions& options,
-                 const EncodeTarget& target)
+                 const EncodeTarget& target, SearchMemo& memo)
         : problem_(problem),
           options_(options),
           target_(target),
-          search_(problem, options, target) {}
+          positions_(memo.positions),
+          search_(problem, options, target, memo.codecs ? &*memo.codecs : nullptr) {}
 
     // The best coding that should meet the targets. Nothing, with the reason, if none does. Leaves
     // what was compared in `candidates`. Codings of earlier calls are gone by now
@@ -41,6 +43,7 @@ class CodingSearch {
     const EncodeProblem& problem_;
     const EncodeOptions& options_;
     const EncodeTarget& target_;
+    PositionFinder& positions_;
     TransferSearch search_;
 };
 

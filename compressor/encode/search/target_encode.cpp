@@ -30,6 +30,40 @@ EncodedFile meet_error(const EncodeProblem& problem, EncodedFiles& files,
     return std::move(*file);
 }
 
+TargetSummary summarise(const EncodeProblem& problem, const EncodeOptions& options,
+                        EncodedFile file) {
+    TargetSummary summary;
+    summary.error = file.error;
+    summary.best_achievable = problem.best_achievable.transfer.total();
+    summary.targets = file.targets;
+    summary.candidates = std::move(file.candidates);
+    summary.geometry_components = file.geometry_components;
+    summary.float_positions =
+        is_integer(options.precision) && !is_integer(file.coding.positions.precision);
+    summary.num_vertices = problem.geometry.num_points;
+    summary.num_poses = problem.bake.num_poses();
+    summary.outliers = problem.outliers;
+    summary.size_bytes = file.file.size_bytes();
+    return summary;
+}
+
+// problem  of this target
+TargetSummary encode_problem(const EncodeProblem& problem, const EncodeOptions& options,
+                             const EncodeTarget& target, SearchMemo& memo,
+                             const std::filesystem::path& output) {
+    PAIM_CHECK(target.transfer_error || target.size_bytes);
+    if (target.transfer_error) check_feasible(problem, *target.transfer_error);
+    if (target.vertex_error) check_vertex_feasible(problem, *target.vertex_error);
+    EncodedFiles files(problem, options, target, memo);
+    EncodedFile result = target.transfer_error
+                             ? meet_error(problem, files, target, *target.transfer_error)
+                             : fit_size(problem, files, *target.size_bytes);
+    problem.progress->begin("writing", 1.0);
+    result.file.write(output);
+    problem.progress->advance(1.0);
+    return summarise(problem, options, std::move(result));
+}
+
 }  // namespace
 
 const Candidate& TargetSummary::chosen() const {
@@ -42,32 +76,42 @@ const Candidate& TargetSummary::chosen() const {
 TargetSummary encode_to_target(const BakeReader& bake, const EncodeOptions& options,
                                const EncodeTarget& target, const std::filesystem::path& output,
                                SearchProgress::Listener on_progress) {
-    PAIM_CHECK(target.transfer_error || target.size_bytes);
     remove_abandoned_versions(output);
     const EncodeProblem problem = read_problem(
         bake, options, target, std::make_shared<SearchProgress>(std::move(on_progress)));
-    if (target.transfer_error) check_feasible(problem, *target.transfer_error);
-    if (target.vertex_error) check_vertex_feasible(problem, *target.vertex_error);
-    EncodedFiles files(problem, options, target);
-    EncodedFile result = target.transfer_error
-                             ? meet_error(problem, files, target, *target.transfer_error)
-                             : fit_size(problem, files, *target.size_bytes);
-    problem.progress->begin("writing", 1.0);
-    result.file.write(output);
-    problem.progress->advance(1.0);
-    TargetSummary summary;
-    summary.error = result.error;
-    summary.best_achievable = problem.best_achievable.transfer.total();
-    summary.targets = result.targets;
-    summary.candidates = std::move(result.candidates);
-    summary.geometry_components = result.geometry_components;
-    summary.float_positions =
-        is_integer(options.precision) && !is_integer(result.coding.positions.precision);
-    summary.num_vertices = problem.geometry.num_points;
-    summary.num_poses = bake.num_poses();
-    summary.outliers = problem.outliers;
-    summary.size_bytes = result.file.size_bytes();
-    return summary;
+    SearchMemo memo(problem, options.precision);
+    return encode_problem(problem, options, target, memo, output);
+}
+
+TargetSeries::TargetSeries(const BakeReader& bake, EncodeOptions options, const BandPower& spectrum)
+    : options_(std::move(options)),
+      reader_(bake, options_, spectrum, std::make_shared<SearchProgress>()),
+      memo_(reader_.problem(), options_.precision) {
+    memo_.codecs.emplace();
+}
+
+void TargetSeries::prepare(const EncodeTarget& target) {
+    const EncodeProblem& problem = reader_.read(target);
+    const Held held{problem.transfer.num_components(), problem.geometry.num_components(),
+                    problem.least_geometry_components};
+    if (held.transfer != held_.transfer) memo_.codecs->clear();
+    if (held.positions != held_.positions || held.least_positions != held_.least_positions) {
+        memo_.positions.forget();
+    }
+    held_ = held;
+}
+
+TargetSummary TargetSeries::encode(const EncodeTarget& target,
+                                   const std::filesystem::path& output) {
+    prepare(target);
+    return encode_problem(reader_.problem(), options_, target, memo_, output);
+}
+
+double TargetSeries::least_error() {
+    EncodeTarget smallest;  // as for a size
+    smallest.spectrum = reader_.problem().spectrum;
+    prepare(smallest);
+    return reader_.problem().least_error();
 }
 
 }  // namespace paim

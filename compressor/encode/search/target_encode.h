@@ -4,6 +4,8 @@
 #include <filesystem>
 
 #include "compressor/encode/options.h"
+#include "compressor/encode/search/problem_reader.h"
+#include "compressor/encode/search/search_memo.h"
 #include "compressor/encode/search/search_progress.h"
 #include "compressor/encode/search/targets.h"
 #include "paim/mesh/outliers.h"
@@ -35,5 +37,36 @@ struct TargetSummary {
 TargetSummary encode_to_target(const BakeReader& bake, const EncodeOptions& options,
                                const EncodeTarget& target, const std::filesystem::path& output,
                                SearchProgress::Listener on_progress = {});
+
+// Files of one bake for one target after another. Each has the bytes that encode_to_target() writes
+// for its target, whatever was encoded before, and is found sooner: components are found once, they
+// are read again where another error needs another number of them, and positions and what codecs
+// keep (CodecMemo) stay while the components do.
+// It takes more memory than options.memory_bytes: the noise of the components, and what stays.
+class TargetSeries {
+  public:
+    // Keeps a reference to the bake.
+    // spectrum  of all targets
+    TargetSeries(const BakeReader& bake, EncodeOptions options, const BandPower& spectrum);
+
+    // Reads what the target needs, so that encode() takes its own time alone.
+    void prepare(const EncodeTarget& target);
+
+    // Errors: as encode_to_target()
+    TargetSummary encode(const EncodeTarget& target, const std::filesystem::path& output);
+
+    // No file of these bands has a smaller error of the transfer than this: noise of the bake and
+    // bands that are not kept leave it.
+    double least_error();
+
+  private:
+    const EncodeOptions options_;
+    ProblemReader reader_;
+    SearchMemo memo_;
+    // Numbers of components that the memo belongs to.
+    struct Held {
+        uint32_t transfer = 0, positions = 0, least_positions = 0;
+    } held_;
+};
 
 }  // namespace paim

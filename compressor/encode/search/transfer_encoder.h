@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,11 +14,21 @@
 
 namespace paim {
 
+// What a codec keeps from one search to the next on the same components of the transfer. It holds
+// functions of the problem alone, never of what was searched before, so that files do not depend on
+// it.
+struct CodecMemo {
+    virtual ~CodecMemo() = default;
+};
+using CodecMemos = std::map<std::string, std::shared_ptr<CodecMemo>>;  // by codec
+
 // What every codec's search is about. References outlive the search.
 struct TransferSearchTask {
     const EncodeProblem& problem;
     const EncodeOptions& options;
     const EncodeTarget& target;
+    // Of a series of searches, which may take more memory than CodecMemory says; else null.
+    CodecMemos* memos = nullptr;
 };
 
 // What codings are asked for.

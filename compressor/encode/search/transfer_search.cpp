@@ -11,12 +11,12 @@
 namespace paim {
 
 TransferSearch::TransferSearch(const EncodeProblem& problem, const EncodeOptions& options,
-                               const EncodeTarget& target)
+                               const EncodeTarget& target, CodecMemos* memos)
     : bands_(problem.layout.in_bands),
       preference_(target.preference),
       decode_cost_(target.decode_cost) {
     for (const TransferEncoderType* type : encoders_to_try(target.codec, options.precision)) {
-        encoders_.push_back(type->make({problem, options, target}));
+        encoders_.push_back(type->make({problem, options, target, memos}));
     }
 }
 

@@ -17,8 +17,9 @@ uint32_t plain_multiply_adds(const EncodeProblem& problem, double most_error);
 
 class TransferSearch {
   public:
+    // memos  of a series of searches on the same components
     TransferSearch(const EncodeProblem& problem, const EncodeOptions& options,
-                   const EncodeTarget& target);
+                   const EncodeTarget& target, CodecMemos* memos = nullptr);
 
     // All that were tried and meet the error and the decode cost; none if nothing does. Settings
     // may hold memory until the next call, and codings of an earlier call have to be gone by then.

@@ -8,10 +8,11 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <string>
 #include <utility>
 
-#include "compressor/encode/cluster/point_projection.h"
 #include "compressor/encode/search/cpca/clustered_quantise.h"
+#include "compressor/encode/search/cpca/clusterings.h"
 #include "compressor/encode/search/cpca/cpca_memory.h"
 #include "compressor/encode/search/matrix_cost.h"
 #include "compressor/encode/search/search_outwards.h"
@@ -86,12 +87,22 @@ class CpcaSettings : public CodecSettings {
     std::unique_ptr<const ClusteredFactors> bases_;
 };
 
+// Those of a series of searches, or new ones.
+std::shared_ptr<Clusterings> clusterings_of(CodecMemos* memos) {
+    if (memos == nullptr) return std::make_shared<Clusterings>();
+    std::shared_ptr<CodecMemo>& memo = (*memos)[std::string(CpcaTransfer::kName)];
+    if (!memo) memo = std::make_shared<Clusterings>();
+    return std::static_pointer_cast<Clusterings>(memo);
+}
+
 class CpcaEncoder : public TransferEncoder {
   public:
     explicit CpcaEncoder(const TransferSearchTask& task)
         : problem_(task.problem),
           cluster_counts_(cluster_counts(problem_.transfer.num_points)),
-          start_(usual_place(cluster_counts_, problem_.transfer.num_points)) {}
+          start_(usual_place(cluster_counts_, problem_.transfer.num_points)),
+          keeps_all_(task.memos != nullptr),
+          clusterings_(clusterings_of(task.memos)) {}
 
     void add_codings(const CodingRequest& request, std::vector<TransferCoding>& codings) override {
         kept_bytes_ = 0;
@@ -130,18 +141,12 @@ class CpcaEncoder : public TransferEncoder {
     // Unless that is what was found.
     void cluster(uint32_t num_clusters, uint32_t subspace_dimension, Found& found) {
         if (found.pca && found.subspace_dimension == subspace_dimension) return;
-        ClusteringOptions options;
-        options.num_clusters = num_clusters;
-        options.assumed_components = subspace_dimension;
-        options.max_components = searched_components(subspace_dimension);
-        options.memory_bytes = problem_.spare_bytes - kept_bytes_;
-        const FactorPoints points(problem_.transfer, problem_.plane_weight);
-        if (projected_.size() == 0) {
-            projected_ = project_points(points, options.num_dimensions(), options.seed);
+        if (found.pca) {
+            found.pca.reset();  // first, so that there is memory
+            if (!keeps_all_) clusterings_->forget(num_clusters, found.subspace_dimension);
         }
-        found.pca.reset();  // first, so that there is memory
-        found.pca = std::make_shared<const ClusteredPca>(
-            clustered_pca(points, projected_, options, problem_.bake.directory().string()));
+        found.pca = clusterings_->find(problem_, num_clusters, subspace_dimension,
+                                       problem_.spare_bytes - kept_bytes_);
         found.subspace_dimension = subspace_dimension;
     }
 
@@ -277,7 +282,8 @@ class CpcaEncoder : public TransferEncoder {
     const std::vector<uint32_t> cluster_counts_;  // ascending
     size_t start_;                                // where the search for the smallest file begins
     CodingRequest request_;
-    Eigen::MatrixXf projected_;        // points, once any were clustered
+    const bool keeps_all_;  // clusterings, for other searches
+    const std::shared_ptr<Clusterings> clusterings_;
     std::map<uint32_t, Found> found_;  // by number of clusters
     uint64_t kept_bytes_ = 0;          // of bases
 };

@@ -92,7 +92,8 @@ TEST_F(TargetRefusals, RefusesDecodeCostsThatOnlyEstimatesMeet) {
     options_.precision = Precision::f32;
     EncodeTarget costly = target(bake, 0.05);
     const EncodeProblem problem = read_problem(bake, options_, costly);
-    EncodedFiles files(problem, options_, costly);
+    SearchMemo memo(problem, options_.precision);
+    EncodedFiles files(problem, options_, costly, memo);
     uint32_t num_found = 0, estimated_before = 0;
     for (double error = 1.01 * problem.least_error(); error < 0.5; error *= 1.002) {
         std::string reason;

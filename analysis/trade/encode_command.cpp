@@ -1,0 +1,47 @@
+// The command line that makes the file of a point.
+#include "analysis/trade/encode_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <string_view>
+
+namespace paim {
+
+namespace {
+
+// What no option can be taken for.
+std::string path_word(const std::filesystem::path& path) {
+    const std::string text = path.string();
+    return shell_word(text.starts_with('-') ? "./" + text : text);
+}
+
+}  // namespace
+
+std::string shell_word(const std::string& word) {
+    constexpr std::string_view kPlain = "_./%+=:,@-";
+    const auto is_plain = [&](char c) {
+        return (static_cast<unsigned char>(c) < 0x80 &&
+                std::isalnum(static_cast<unsigned char>(c)) != 0) ||
+               kPlain.find(c) != std::string_view::npos;
+    };
+    if (!word.empty() && std::all_of(word.begin(), word.end(), is_plain)) return word;
+    std::string quoted = "'";
+    for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return quoted + "'";
+}
+
+std::string file_stem(const std::filesystem::path& bake) {
+    const std::filesystem::path path = std::filesystem::absolute(bake).lexically_normal();
+    return (path.has_filename() ? path : path.parent_path()).stem().string();
+}
+
+std::string encode_command(const std::filesystem::path& bake, const TradeSettings& settings) {
+    return fmt::format(
+        "paim-compress encode {} -o {} --max-error {} --codec {} --prefer {} --bands {}",
+        path_word(bake), path_word(file_stem(bake) + ".paim"), settings.max_error, settings.codec,
+        preference_name(settings.preference), settings.bands);
+}
+
+}  // namespace paim

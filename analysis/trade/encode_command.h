@@ -1,0 +1,20 @@
+// The command line that makes the file of a point.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "analysis/trade/trade_point.h"
+
+namespace paim {
+
+// A word of a shell command: in single quotes if it needs them.
+std::string shell_word(const std::string& word);
+
+// The name of files of this bake, without ".paim"; it is stated in them.
+std::string file_stem(const std::filesystem::path& bake);
+
+// "paim-compress encode x.bake -o x.paim --max-error 3.5% …", to be pasted into a shell.
+std::string encode_command(const std::filesystem::path& bake, const TradeSettings& settings);
+
+}  // namespace paim

@@ -1,0 +1,17 @@
+// What only playing a file shows: its visual error, and the time of a frame.
+#pragma once
+
+#include "analysis/reference/reference_pictures.h"
+#include "analysis/stage.h"
+#include "analysis/trade/trade_point.h"
+#include "paim/format/bake/bake_directory.h"
+
+namespace paim {
+
+// Makes the pictures of the reference now, and then those of files. The visual error is the largest one
+// over the lights (E6); not a number if nothing is to be seen under any.
+// bake, stage  outlive the result
+PlayFile play_on_stage(const BakeReader& bake, const Stage& stage,
+                       const ReferenceSource& reference);
+
+}  // namespace paim

@@ -1,0 +1,129 @@
+// The options of a sweep on the command line.
+#include "analysis/trade/trade_arguments.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <charconv>
+#include <vector>
+
+#include "analysis/trade/grid.h"
+#include "paim/base/error.h"
+#include "paim/cli/parse.h"
+#include "paim/sh/index.h"
+
+namespace paim {
+
+namespace {
+
+constexpr const char* kGroup = "Cost against error";
+
+std::vector<std::string> parts_of(const std::string& list) {
+    std::vector<std::string> parts;
+    size_t begin = 0;
+    while (true) {
+        const size_t comma = list.find(',', begin);
+        parts.push_back(list.substr(begin, comma - begin));
+        if (comma == std::string::npos) return parts;
+        begin = comma + 1;
+    }
+}
+
+std::vector<uint32_t> parse_bands(const std::string& list) {
+    std::vector<uint32_t> bands;
+    for (const std::string& part : parts_of(list)) {
+        uint32_t value = 0;
+        const char* end = part.data() + part.size();
+        const auto [rest, failure] = std::from_chars(part.data(), end, value);
+        if (failure != std::errc() || rest != end || value < 1 || value > sh::kMaxBands) {
+            throw_usage(
+                "--sweep-bands: expected numbers from 1 to {} separated by commas, got '{}'",
+                sh::kMaxBands, list);
+        }
+        bands.push_back(value);
+    }
+    return bands;
+}
+
+std::vector<std::string> parse_errors(const std::string& list) {
+    std::vector<std::string> errors = parts_of(list);
+    for (const std::string& error : errors) cli::parse_share(error, "--sweep-errors");
+    return errors;
+}
+
+std::optional<TradeLimit> limit_of(const TradeArguments& arguments) {
+    if (arguments.target) {
+        return TradeLimit{TradeLimit::Of::error, cli::parse_share(*arguments.target, "--target")};
+    }
+    if (arguments.target_size) {
+        return TradeLimit{TradeLimit::Of::bytes, static_cast<double>(cli::parse_bytes(
+                                                     *arguments.target_size, "--target-size"))};
+    }
+    if (arguments.target_cost) {
+        return TradeLimit{TradeLimit::Of::multiply_adds,
+                          static_cast<double>(*arguments.target_cost)};
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+void add_trade_options(CLI::App& app, TradeArguments& arguments) {
+    app.add_flag("--sweep", arguments.sweep,
+                 "Encode the bake in many ways, with several numbers of bands, errors, codecs and "
+                 "preferences, and measure each file: its bytes, its multiply-adds, its errors and "
+                 "what is seen of them. Writes trade.csv and trade.json. Any option of this group "
+                 "implies it")
+        ->group(kGroup);
+    CLI::Option* const target =
+        app.add_option(
+               "--target", arguments.target,
+               "Largest visual error (E6, under the worst of the lights), such as 1%: the "
+               "command line of the smallest file within it is printed, and of the one that "
+               "is cheapest to play, with files between those of the sweep where they are "
+               "better. Exit code 5 if no file is within it")
+            ->type_name("ERROR")
+            ->group(kGroup);
+    CLI::Option* const target_size =
+        app.add_option("--target-size", arguments.target_size,
+                       "Most bytes of a file, such as 300K or 2M: the same for the file with the "
+                       "smallest visual error")
+            ->type_name("SIZE")
+            ->group(kGroup)
+            ->excludes(target);
+    app.add_option("--target-cost", arguments.target_cost,
+                   "Most multiply-adds per vertex and frame for the lit transfer, 1 to 1000000: "
+                   "the same for the file with the smallest visual error")
+        ->check(cli::in_range(1u, 1'000'000u))
+        ->type_name("N")
+        ->group(kGroup)
+        ->excludes(target)
+        ->excludes(target_size);
+    app.add_option("--sweep-bands", arguments.bands,
+                   fmt::format("Numbers of bands, separated by commas, 1 to {}; those above the "
+                               "bake's are left out. Default: all from {} to the bake's",
+                               sh::kMaxBands, kFewestUsualBands))
+        ->type_name("LIST")
+        ->group(kGroup);
+    app.add_option(
+           "--sweep-errors", arguments.errors,
+           fmt::format("Errors of the transfer to encode to (--max-error of paim-compress), "
+                       "separated by commas; those that the bake cannot reach are left "
+                       "out. Default: {}",
+                       fmt::join(usual_errors(), ",")))
+        ->type_name("LIST")
+        ->group(kGroup);
+}
+
+std::optional<TradeOptions> trade_options(const TradeArguments& arguments) {
+    TradeOptions options;
+    options.limit = limit_of(arguments);
+    if (arguments.bands) options.bands = parse_bands(*arguments.bands);
+    if (arguments.errors) options.errors = parse_errors(*arguments.errors);
+    const bool wanted =
+        arguments.sweep || options.limit || !options.bands.empty() || !options.errors.empty();
+    if (!wanted) return std::nullopt;
+    return options;
+}
+
+}  // namespace paim
