@@ -86,7 +86,7 @@ std::vector<std::string> row_of(const TradePoint& point, TradeError kind) {
             percent_text(error_of(point, kind)),
             percent_text(point.transfer_error()),
             std::to_string(point.size_bytes),
-            std::to_string(point.multiply_adds + point.position_multiply_adds),
+            std::to_string(point.multiply_adds),
             fmt::format("{:.3g}", point.frame_ms),
             fmt::format("{:.2g}", point.encode_s + point.shared_s)};
 }
@@ -98,9 +98,7 @@ void write_trade_plots(const std::filesystem::path& directory, const Trade& trad
                      [](const TradePoint& point) { return static_cast<double>(point.size_bytes); });
     write_trade_plot(
         directory / kTradePlots[1], trade, "multiply-adds a vertex and frame",
-        [](const TradePoint& point) {
-            return static_cast<double>(point.multiply_adds + point.position_multiply_adds);
-        });
+        [](const TradePoint& point) { return static_cast<double>(point.multiply_adds); });
 }
 
 void add_trade(Page& page, const std::filesystem::path& bake, const Trade& trade) {
@@ -114,8 +112,8 @@ void add_trade(Page& page, const std::filesystem::path& bake, const Trade& trade
         page.add_paragraph(fmt::format(
             "For {}: {} gives {} bytes, {} multiply-adds a vertex and frame, a {} of {}.",
             limit_text(*trade.limit, trade.kind), encode_command(bake, best.settings),
-            best.size_bytes, best.multiply_adds + best.position_multiply_adds,
-            error_name(trade.kind), percent_text(error_of(best, trade.kind))));
+            best.size_bytes, best.multiply_adds, error_name(trade.kind),
+            percent_text(error_of(best, trade.kind))));
     }
     page.add_plots({kTradePlots[0], kTradePlots[1]});
     PageTable table{{"--max-error", "--codec", "--prefer", "--bands",

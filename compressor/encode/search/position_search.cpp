@@ -67,6 +67,21 @@ std::optional<RefinedPositions> float_positions(const EncodeProblem& problem, Pr
     }
 }
 
+// A step that was too coarse, and the excess that it had.
+struct StepMiss {
+    double step, excess;
+};
+
+// The excess without any rounding, by two of them: squares of excesses are linear in those of steps. As
+// large as the later one where a finer step did not help.
+double excess_without_step(const StepMiss& before, const StepMiss& after) {
+    const double steps = before.step * before.step - after.step * after.step;
+    const double gained = before.excess * before.excess - after.excess * after.excess;
+    if (!(steps > 0.0 && gained > 0.0)) return after.excess;
+    const double left = after.excess * after.excess - gained / steps * after.step * after.step;
+    return left > 0.0 ? std::sqrt(left) : 0.0;
+}
+
 // Nothing if steps are finer than values of 16 bits can be.
 std::optional<LowRank> code_if_it_fits(const EncodeProblem& problem, const PositionCoding& coding) {
     try {
@@ -131,8 +146,10 @@ std::optional<RefinedPositions> refine_positions(const EncodeProblem& problem,
     constexpr double kRoom = 0.985;  // below this share of the target a coarser step is tried
     constexpr double kSlack = 0.995;
     constexpr double kCoarsest = 1.6;
-    constexpr double kClose = 1.01;  // steps that are not told apart
+    constexpr double kClose = 1.01;      // steps that are not told apart
+    constexpr double kAlmostAll = 0.97;  // of the error: dropped components leave no room for steps
     std::optional<RefinedPositions> best;
+    std::optional<StepMiss> last_miss;
     double too_coarse = std::numeric_limits<double>::infinity();
     for (int round = 0; round < kMaxRounds; ++round) {
         std::optional<LowRank> matrix = code_if_it_fits(problem, coding);
@@ -140,15 +157,25 @@ std::optional<RefinedPositions> refine_positions(const EncodeProblem& problem,
         const SurfaceError error = measure(problem, *matrix);
         const double over = excess(error, target);
         double& step = coding.quantiser.step;
+        double without_step = 0.0;  // the excess that a step of 0 would have
         if (over <= 1.0) {
             best = RefinedPositions{std::move(*matrix), error, coding};
             if (over >= kRoom) break;
         } else {
             too_coarse = step;
+            if (last_miss) without_step = excess_without_step(*last_miss, {step, over});
+            last_miss = {step, over};
+        }
+        uint32_t& count = coding.quantiser.num_components;
+        if (!best && without_step > kAlmostAll && count < problem.geometry.num_components()) {
+            ++count;
+            last_miss.reset();
+            too_coarse = std::numeric_limits<double>::infinity();
+            continue;
         }
         const double finest = best ? best->coding.quantiser.step : 0.0;
         if (finest > 0.0 && too_coarse < kClose * finest) break;
-        step = scaled_step(step, over, 1.0, 0.0, kSlack, kCoarsest);
+        step = scaled_step(step, over, 1.0, without_step, kSlack, kCoarsest);
         if (step <= finest || step >= too_coarse) step = std::sqrt(finest * too_coarse);
         if (!std::isfinite(step) || step == 0.0) break;
     }

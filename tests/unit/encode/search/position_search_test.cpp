@@ -61,6 +61,27 @@ TEST_F(PositionSearch, EndsJustBelowTheErrorThatMattersMost) {
     }
 }
 
+// Where dropped components alone take all of the error, no step helps: a component is added, and
+// positions stay integers.
+TEST_F(PositionSearch, AddsAComponentWhereNoStepHelps) {
+    const BakeReader bake = this->bake();
+    EncodeTarget asked = loose(bake);
+    asked.geometry_error = 1e-3;
+    const EncodeProblem problem = read_problem(bake, options_, asked);
+    const SurfaceTarget target = surface_target(problem, asked);
+    auto coding = choose_positions(problem, Precision::i16, target);
+    ASSERT_TRUE(coding.has_value());
+    const uint32_t enough = coding->quantiser.num_components;
+    ASSERT_GT(enough, 1u);
+    coding->quantiser.num_components = enough - 1;
+    ASSERT_GT(excess(problem.meter->surface(code_positions(problem, *coding)), target), 1.0);
+    const auto refined = refine_positions(problem, *coding, target);
+    ASSERT_TRUE(refined.has_value());
+    EXPECT_FALSE(refined->matrix.holds_floats());
+    EXPECT_EQ(refined->coding.quantiser.num_components, enough);
+    EXPECT_LE(excess(refined->error, target), 1.0);
+}
+
 TEST_F(PositionSearch, HoldsTheComponentsThatTheShapeNeeds) {
     const BakeReader bake = this->bake();
     EncodeTarget asked = loose(bake);
