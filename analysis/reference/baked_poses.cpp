@@ -43,4 +43,12 @@ BakeOptions options_of(const BakeIdentity& identity) {
     return options;
 }
 
+void bake_again(const BakeReader& bake, const BakeOptions& options,
+                const std::filesystem::path& directory,
+                const std::function<void(uint32_t)>& on_pose) {
+    bake_sequence(BakedPoses(bake), options, bake.identity().normals, directory, 0,
+                  bake.num_poses() - 1, on_pose, surroundings_of(bake),
+                  bake.identity().root_motion);
+}
+
 }  // namespace paim

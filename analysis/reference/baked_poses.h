@@ -1,6 +1,8 @@
 // The poses of a bake, as if they were read from files, to be baked again.
 #pragma once
 
+#include <filesystem>
+#include <functional>
 #include <string>
 
 #include "compressor/bake/bake_options.h"
@@ -36,5 +38,12 @@ Surroundings surroundings_of(const BakeReader& bake);
 // The options that a bake was made with, but for noise targets and samplers: those become a fixed count
 // of rays by the default sampler.
 BakeOptions options_of(const BakeIdentity& identity);
+
+// Bakes all poses of a bake again, its floor and still meshes with them, into another directory.
+// on_pose  called after each pose
+// Errors: those of bake_sequence().
+void bake_again(const BakeReader& bake, const BakeOptions& options,
+                const std::filesystem::path& directory,
+                const std::function<void(uint32_t)>& on_pose);
 
 }  // namespace paim

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "analysis/file_poses.h"
+#include "analysis/scratch_directory.h"
 #include "compressor/encode/search/target_encode.h"
 #include "paim/base/check.h"
 #include "paim/format/paim/paim_read.h"
@@ -14,24 +15,6 @@
 namespace paim {
 
 namespace {
-
-// A directory that is removed with all that is in it.
-class Scratch {
-  public:
-    explicit Scratch(std::filesystem::path path) : path_(std::move(path)) {
-        std::filesystem::create_directories(path_);
-    }
-    ~Scratch() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    Scratch(const Scratch&) = delete;
-    Scratch& operator=(const Scratch&) = delete;
-    const std::filesystem::path& path() const { return path_; }
-
-  private:
-    std::filesystem::path path_;
-};
 
 // Writes poses 0, 2, 4 … as a bake of its own.
 void write_every_other(const BakeReader& bake, const std::filesystem::path& directory) {
@@ -69,7 +52,7 @@ HeldOut measure_held_out(const BakeReader& bake, const Stage& stage, double targ
                          const std::filesystem::path& directory,
                          const std::function<void()>& on_pose) {
     PAIM_CHECK_LE(3u, bake.num_poses());
-    const Scratch scratch(directory / "held-out.tmp");
+    const ScratchDirectory scratch(directory / "held-out.tmp");
     const std::filesystem::path half_path = scratch.path() / "half.bake";
     write_every_other(bake, half_path);
     const BakeReader half(half_path);

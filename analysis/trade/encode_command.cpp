@@ -38,10 +38,17 @@ std::string file_stem(const std::filesystem::path& bake) {
 }
 
 std::string encode_command(const std::filesystem::path& bake, const TradeSettings& settings) {
-    return fmt::format(
-        "paim-compress encode {} -o {} --max-error {} --codec {} --prefer {} --bands {}",
-        path_word(bake), path_word(file_stem(bake) + ".paim"), settings.max_error, settings.codec,
-        preference_name(settings.preference), settings.bands);
+    const std::string stem = file_stem(bake);
+    const auto encode = [&](const std::filesystem::path& from) {
+        return fmt::format(
+            "paim-compress encode {} -o {} --max-error {} --codec {} --prefer {} --bands {}",
+            path_word(from), path_word(stem + ".paim"), settings.max_error, settings.codec,
+            preference_name(settings.preference), settings.bands);
+    };
+    if (settings.rays == 0) return encode(bake);
+    const std::string other = fmt::format("{}-{}.bake", stem, settings.rays);
+    return fmt::format("paim-compress bake POSES -o {} --rays {} && {}", path_word(other),
+                       settings.rays, encode(other));
 }
 
 }  // namespace paim

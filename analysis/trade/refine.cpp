@@ -115,7 +115,8 @@ std::vector<Bracket> brackets(const std::vector<TradePoint>& points, const Trade
     std::map<Family, std::vector<const TradePoint*>> families;
     for (const TradePoint& point : points) {
         const TradeSettings& settings = point.settings;
-        if (std::isnan(error_of(point, kind))) continue;
+        // Other bakes are gone by now.
+        if (std::isnan(error_of(point, kind)) || settings.rays != 0) continue;
         families[{settings.bands, settings.codec, settings.preference}].push_back(&point);
     }
     std::vector<Bracket> result;

@@ -7,7 +7,6 @@
 #include <chrono>
 #include <utility>
 
-#include "analysis/trade/encode_command.h"
 #include "analysis/trade/grid.h"
 #include "paim/base/error.h"
 #include "paim/codec/frame_cost.h"
@@ -36,12 +35,12 @@ double seconds_of(const Work& work) {
 }
 
 // What the command line sets, with its defaults.
-EncodeOptions options_of(const BakeReader& bake, uint32_t bands, uint64_t memory_bytes) {
+EncodeOptions options_of(const std::string& name, uint32_t bands, uint64_t memory_bytes) {
     EncodeOptions options;
     options.bands = bands;
     options.precision = Precision::i16;
     options.memory_bytes = memory_bytes;
-    options.name = file_stem(bake.directory());
+    options.name = name;
     return options;
 }
 
@@ -56,9 +55,10 @@ std::string bands_text(uint32_t bands) {
 
 }  // namespace
 
-Sweep::Sweep(const BakeReader& bake, std::filesystem::path scratch, PlayFile play,
+Sweep::Sweep(const BakeReader& bake, std::string name, std::filesystem::path scratch, PlayFile play,
              uint64_t memory_bytes)
     : bake_(bake),
+      name_(std::move(name)),
       scratch_(std::move(scratch)),
       play_(std::move(play)),
       memory_bytes_(memory_bytes) {}
@@ -68,7 +68,7 @@ TargetSeries& Sweep::series_of(uint32_t bands) {
     series_.reset();  // first, so that there is memory
     prepare_s_.clear();
     series_s_ = seconds_of([&] {
-        series_.emplace(bake_, options_of(bake_, bands, memory_bytes_),
+        series_.emplace(bake_, options_of(name_, bands, memory_bytes_),
                         BandPower::flat(bake_.identity().layout.in_bands));
     });
     series_bands_ = bands;

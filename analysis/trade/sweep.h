@@ -21,8 +21,9 @@ class Sweep {
     // Keeps a reference to the bake.
     // bake     verified (BakeReader::verify_all)
     // scratch  a path that files are written to, one after another, and removed from
+    // name     of the files
     // memory_bytes  what the command line may take for one file, by default
-    Sweep(const BakeReader& bake, std::filesystem::path scratch, PlayFile play,
+    Sweep(const BakeReader& bake, std::string name, std::filesystem::path scratch, PlayFile play,
           uint64_t memory_bytes = EncodeOptions().memory_bytes);
 
     // Nothing if no file has these settings: a note says why.
@@ -47,6 +48,7 @@ class Sweep {
     TradePoint point_of(const TradeSettings& settings, const TargetSummary& summary);
 
     const BakeReader& bake_;
+    const std::string name_;
     const std::filesystem::path scratch_;
     const PlayFile play_;
     const uint64_t memory_bytes_;

@@ -28,6 +28,7 @@ uint32_t number_of(const TradePoint& point, std::string_view name) {
 // With the numbers of every codec; 0 where a codec has none of that name.
 void add_settings(const TradePoint& point, std::vector<Column>& columns) {
     const TradeSettings& settings = point.settings;
+    columns.push_back({"rays", "a vertex; 0: of the given bake", settings.rays});
     columns.push_back({"bands", "", settings.bands});
     columns.push_back({"codec", "", settings.codec});
     columns.push_back({"preference", "", preference_name(settings.preference)});
@@ -68,6 +69,7 @@ void add_times(const TradePoint& point, std::vector<Column>& columns) {
     columns.push_back({"encode", "s", point.encode_s});
     columns.push_back({"shared", "s", point.shared_s});
     columns.push_back({"frame", "ms", point.frame_ms});
+    columns.push_back({"bake", "s", point.bake_s});
 }
 
 std::vector<Column> columns_of(const TradePoint& point) {

@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
+#include "analysis/reference/baked_poses.h"
+#include "analysis/scratch_directory.h"
 #include "analysis/trade/encode_command.h"
 #include "analysis/trade/grid.h"
 #include "analysis/trade/refine.h"
@@ -58,6 +61,38 @@ void refine_trade(Sweep& sweep, const TradeLimit& limit, Trade& trade, bool quie
     progress.finish();
 }
 
+// Adds the files of another bake of the same poses, which is made and removed.
+void add_other_bake(const BakeReader& bake, uint32_t rays, const std::vector<uint32_t>& bands,
+                    const std::vector<std::string>& errors, const std::filesystem::path& scratch,
+                    const PlayFile& play, Trade& trade, bool quiet) {
+    const ScratchDirectory directory(scratch / fmt::format("sweep-{}.tmp", rays));
+    const std::filesystem::path path = directory.path() / "other.bake";
+    cli::Progress baking(fmt::format("baking {} rays", rays), "poses", bake.num_poses(), quiet);
+    const auto start = std::chrono::steady_clock::now();
+    BakeOptions options = options_of(bake.identity());
+    options.rays = rays;
+    bake_again(bake, options, path, [&](uint32_t) { baking.advance(); });
+    const std::chrono::duration<double> bake_time = std::chrono::steady_clock::now() - start;
+    baking.finish();
+    const BakeReader other(path);
+    Sweep sweep(other, file_stem(bake.directory()), scratch / "trade-point.paim", play);
+    cli::Progress progress(fmt::format("sweep of {} rays", rays), "files",
+                           bands.size() * errors.size() * points_of(1, "1%").size(), quiet);
+    std::vector<TradePoint> points;
+    for (const uint32_t number : bands) {
+        sweep.measure_all(number, errors, points, [&](uint64_t count) { progress.advance(count); });
+    }
+    progress.finish();
+    for (TradePoint& point : points) {
+        point.settings.rays = rays;
+        point.bake_s = bake_time.count();
+        trade.points.push_back(std::move(point));
+    }
+    for (const std::string& note : sweep.notes()) {
+        trade.notes.push_back(fmt::format("{} rays: {}", rays, note));
+    }
+}
+
 nlohmann::ordered_json recommended_json(const std::filesystem::path& bake,
                                         const TradePoint& point) {
     nlohmann::ordered_json json;
@@ -74,7 +109,7 @@ Trade measure_trade(const BakeReader& bake, const TradeOptions& options,
     trade.limit = options.limit;
     const std::vector<uint32_t> bands = bands_of(bake, options, trade.notes);
     const std::vector<std::string> errors = errors_of(options);
-    Sweep sweep(bake, scratch / "trade-point.paim", play);
+    Sweep sweep(bake, file_stem(bake.directory()), scratch / "trade-point.paim", play);
     cli::Progress progress("sweep", "files",
                            bands.size() * errors.size() * points_of(1, "1%").size(), quiet);
     for (const uint32_t number : bands) {
@@ -84,8 +119,11 @@ Trade measure_trade(const BakeReader& bake, const TradeOptions& options,
     progress.finish();
     trade.kind = error_kind(trade.points);
     if (trade.limit) refine_trade(sweep, *trade.limit, trade, quiet);
-    mark_front(trade.points);
     trade.notes.insert(trade.notes.end(), sweep.notes().begin(), sweep.notes().end());
+    for (const uint32_t rays : options.rays) {
+        add_other_bake(bake, rays, bands, errors, scratch, play, trade, quiet);
+    }
+    mark_front(trade.points);
     if (!trade.limit) return trade;
     const std::vector<TradeValues> values = trade_values(trade.points, trade.kind);
     trade.best = best_point(values, *trade.limit);

@@ -19,6 +19,8 @@ struct TradeOptions {
     std::vector<uint32_t> bands;      // empty: usual_bands(); those above the bake's are left out
     std::vector<std::string> errors;  // --max-error as it is written; empty: usual_errors()
     std::optional<TradeLimit> limit;  // what is wanted, for a recommendation
+    // Rays a vertex of further bakes of the same poses, which are made for the sweep.
+    std::vector<uint32_t> rays = {};
 };
 
 struct Trade {

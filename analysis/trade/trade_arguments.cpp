@@ -17,6 +17,7 @@ namespace paim {
 namespace {
 
 constexpr const char* kGroup = "Cost against error";
+constexpr uint32_t kMostSweepRays = 65536;
 
 std::vector<std::string> parts_of(const std::string& list) {
     std::vector<std::string> parts;
@@ -43,6 +44,23 @@ std::vector<uint32_t> parse_bands(const std::string& list) {
         bands.push_back(value);
     }
     return bands;
+}
+
+std::vector<uint32_t> parse_rays(const std::string& list) {
+    std::vector<uint32_t> rays;
+    for (const std::string& part : parts_of(list)) {
+        uint32_t value = 0;
+        const char* end = part.data() + part.size();
+        const auto [rest, failure] = std::from_chars(part.data(), end, value);
+        if (failure != std::errc() || rest != end || value < 2 || value % 2 != 0 ||
+            value > kMostSweepRays) {
+            throw_usage(
+                "--sweep-rays: expected even numbers from 2 to {} separated by commas, got '{}'",
+                kMostSweepRays, list);
+        }
+        rays.push_back(value);
+    }
+    return rays;
 }
 
 std::vector<std::string> parse_errors(const std::string& list) {
@@ -105,6 +123,13 @@ void add_trade_options(CLI::App& app, TradeArguments& arguments) {
                                sh::kMaxBands, kFewestUsualBands))
         ->type_name("LIST")
         ->group(kGroup);
+    app.add_option("--sweep-rays", arguments.rays,
+                   fmt::format("Rays a vertex of further bakes of the same poses, even numbers "
+                               "separated by commas, 2 to {}: they are made for the sweep in the "
+                               "output directory, and removed. Default: the given bake alone",
+                               kMostSweepRays))
+        ->type_name("LIST")
+        ->group(kGroup);
     app.add_option(
            "--sweep-errors", arguments.errors,
            fmt::format("Errors of the transfer to encode to (--max-error of paim-compress), "
@@ -119,9 +144,10 @@ std::optional<TradeOptions> trade_options(const TradeArguments& arguments) {
     TradeOptions options;
     options.limit = limit_of(arguments);
     if (arguments.bands) options.bands = parse_bands(*arguments.bands);
+    if (arguments.rays) options.rays = parse_rays(*arguments.rays);
     if (arguments.errors) options.errors = parse_errors(*arguments.errors);
-    const bool wanted =
-        arguments.sweep || options.limit || !options.bands.empty() || !options.errors.empty();
+    const bool wanted = arguments.sweep || options.limit || !options.bands.empty() ||
+                        !options.errors.empty() || !options.rays.empty();
     if (!wanted) return std::nullopt;
     return options;
 }

@@ -24,6 +24,8 @@ struct TradeSettings {
     // --max-error as it is written: "3.5%". What is parsed from it is exactly what the file is made
     // for.
     std::string max_error;
+    // Of another bake of the same poses, which has so many rays a vertex; 0: of the given bake.
+    uint32_t rays = 0;
 
     double transfer_error() const;  // 0 … 1
     bool operator==(const TradeSettings&) const = default;
@@ -57,6 +59,7 @@ struct TradePoint {
     double encode_s = 0.0;  // what no point before had computed
     double shared_s = 0.0;  // components of its bands and of its error, which other points have too
     double frame_ms = std::numeric_limits<double>::quiet_NaN();
+    double bake_s = std::numeric_limits<double>::quiet_NaN();  // of the bake; not of the given one
 
     // The larger one of the moving and the still part: a target holds for each by itself.
     double transfer_error() const {

@@ -54,6 +54,12 @@ TEST(EncodeCommand, NamesEverySetting) {
               "size --bands 3");
 }
 
+TEST(EncodeCommand, AnotherBakeComesFirst) {
+    EXPECT_EQ(encode_command("d/octopus.bake", {5, "any", Preference::size, "5%", 64}),
+              "paim-compress bake POSES -o octopus-64.bake --rays 64 && paim-compress encode "
+              "octopus-64.bake -o octopus.paim --max-error 5% --codec any --prefer size --bands 5");
+}
+
 TEST(EncodeCommand, FilesAreNamedAsTheirBakes) {
     EXPECT_EQ(file_stem("a/b.bake"), "b");
     EXPECT_EQ(file_stem("a/b.bake/"), "b");

@@ -43,7 +43,7 @@ TEST_F(SweepTest, PointsAreTheFilesOfSingleEncodes) {
         swept.push_back(read_file(scratch_, uint64_t{1} << 30));
         return PlayedFile{0.25, 1.0};
     };
-    Sweep sweep(bake_, scratch_, keep);
+    Sweep sweep(bake_, "sheet", scratch_, keep);
     std::vector<TradePoint> points;
     uint64_t num_done = 0;
     sweep.measure_all(4, {"20%", "5%"}, points, [&](uint64_t n) { num_done += n; });
@@ -74,7 +74,7 @@ TEST_F(SweepTest, PointsAreTheFilesOfSingleEncodes) {
 }
 
 TEST_F(SweepTest, ErrorsThatTheBakeCannotReachAreLeftOutWithANote) {
-    Sweep sweep(bake_, scratch_, {});
+    Sweep sweep(bake_, "sheet", scratch_, {});
     std::vector<TradePoint> points;
     uint64_t num_done = 0;
     sweep.measure_all(4, {"10%", "0.1%", "0.01%"}, points, [&](uint64_t n) { num_done += n; });
@@ -92,7 +92,7 @@ TEST_F(SweepTest, ErrorsThatTheBakeCannotReachAreLeftOutWithANote) {
 }
 
 TEST_F(SweepTest, BandsThatDoNotFitInMemoryAreLeftOutWithANote) {
-    Sweep sweep(bake_, scratch_, {}, 1'000'000);
+    Sweep sweep(bake_, "sheet", scratch_, {}, 1'000'000);
     std::vector<TradePoint> points;
     uint64_t num_done = 0;
     sweep.measure_all(4, {"20%", "10%"}, points, [&](uint64_t n) { num_done += n; });
@@ -105,7 +105,7 @@ TEST_F(SweepTest, BandsThatDoNotFitInMemoryAreLeftOutWithANote) {
 
 // Errors that are no matter of the settings end the sweep.
 TEST_F(SweepTest, MistakesAreNoNotes) {
-    Sweep sweep(bake_, scratch_, {});
+    Sweep sweep(bake_, "sheet", scratch_, {});
     EXPECT_THROW(sweep.measure({4, "no such codec", Preference::size, "10%"}), Error);
     EXPECT_TRUE(sweep.notes().empty());
 }
