@@ -19,4 +19,9 @@ std::string AnalysisRun::reference_text() {
                        chosen.traced->most_rays());
 }
 
+void AnalysisRun::say_if_noise_is_large(size_t light, double noise, double error) {
+    const std::string note = noise_note(reference(), stage, light, noise, error);
+    if (!note.empty()) fmt::print(stderr, "paim-analyze: note: {}\n", note);
+}
+
 }  // namespace paim

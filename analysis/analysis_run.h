@@ -3,12 +3,15 @@
 
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "analysis/options.h"
 #include "analysis/page.h"
 #include "analysis/reference/reference_kind.h"
 #include "analysis/stage.h"
 #include "analysis/trade/trade.h"
+#include "paim/base/error.h"
 #include "paim/format/bake/bake_directory.h"
 
 namespace paim {
@@ -21,6 +24,8 @@ struct AnalysisRun {
     Page& page;
     nlohmann::ordered_json& json;  // the object that --json prints
     std::optional<Reference> made_reference = {};
+    std::optional<Error> unmet = {};  // what could not be measured; thrown once the page is written
+    std::vector<std::string> answers = {};  // lines for people who do not open the page
 
     bool quiet() const { return options.quiet || options.json; }
 
@@ -29,6 +34,9 @@ struct AnalysisRun {
 
     // "the bake", or how many rays were traced.
     std::string reference_text();
+
+    // On stderr, if the reference's noise under a light is large against an error.
+    void say_if_noise_is_large(size_t light, double noise, double error);
 };
 
 // Measures curves of components and bands.
@@ -37,10 +45,10 @@ void curves_section(AnalysisRun& run);
 // Finds where the error of a file comes from.
 void budget_section(AnalysisRun& run);
 
-// Measures the flicker of a file. Errors: bad input of a single pose.
+// Measures the flicker of a file. The bake has at least two poses.
 void flicker_section(AnalysisRun& run);
 
-// Encodes every other pose and measures the others. Errors: bad input of fewer than three poses.
+// Encodes every other pose and measures the others. The bake has at least three poses.
 void held_out_section(AnalysisRun& run);
 
 // Measures what accuracy costs, and finds what to run for a limit (check_limit()).

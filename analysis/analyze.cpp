@@ -3,23 +3,43 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
 
 #include "analysis/analysis_run.h"
 #include "analysis/gnuplot.h"
 #include "analysis/page.h"
+#include "analysis/same_bake.h"
 #include "analysis/stable_time.h"
 #include "analysis/stage.h"
 #include "paim/base/error.h"
 #include "paim/base/file.h"
 #include "paim/base/json_text.h"
 #include "paim/base/tbb_parallel.h"
+#include "paim/format/paim/paim_read.h"
+#include "paim/metrics/asset_error.h"
 
 namespace paim {
 
 namespace {
 
-// Error if the images of the report, which are kept until it is written, do not fit into memory.
+// How many pictures are held at once, at most: those that the page shows, of the first pose and view, and
+// all of a pose in some lists. A sweep keeps those of all poses of its reference.
+size_t num_pictures_held(const AnalyzeOptions& options, size_t num_lights) {
+    constexpr size_t kListsOfAPose = 6, kPicturesOfABudget = 20;
+    const size_t of_pose = size_t{options.stage.num_views} * num_lights;
+    const size_t settings = 2 * (options.components.size() + 1) + options.bands.size() + 1;
+    size_t shown = 0;
+    if (options.measures_curves()) shown = std::max(shown, settings);
+    if (!options.budget.empty()) shown = std::max(shown, kPicturesOfABudget);
+    shown = std::max(shown, 3 * options.compare.size());
+    const size_t kept = options.trade ? size_t{options.stage.num_poses} * of_pose : 0;
+    return shown * num_lights + kListsOfAPose * of_pose + kept;
+}
+
+// Error if the pictures do not fit into memory.
 void check_memory(const AnalyzeOptions& options, size_t num_images) {
     constexpr double kMaxGigabytes = 4.0;
     const double size = options.stage.size_pixels;
@@ -27,8 +47,52 @@ void check_memory(const AnalyzeOptions& options, size_t num_images) {
     if (gigabytes > kMaxGigabytes) {
         throw_usage(
             "--size {}: {} images would take {:.1f} GB, expected at most {:g}; measure fewer "
-            "settings or lights, or smaller images",
+            "settings, lights, views or poses, or smaller images",
             options.stage.size_pixels, num_images, gigabytes, kMaxGigabytes);
+    }
+}
+
+// Before anything is measured: that files can be read and are of this bake, and that there are poses
+// enough.
+void check_inputs(const AnalyzeOptions& options, const BakeReader& bake) {
+    std::vector<std::filesystem::path> files = options.compare;
+    for (const auto& file : {options.budget, options.temporal}) {
+        if (!file.empty()) files.push_back(file);
+    }
+    for (const std::filesystem::path& file : files) {
+        const Asset asset = read_paim(file);
+        try {
+            for (size_t part = 0; part < asset.parts.size(); ++part) match_part(asset, part, bake);
+        } catch (const Error& error) {
+            throw Error(error.code(), fmt::format("{}: {}", file.string(), error.what()));
+        }
+        say_if_of_another_bake("paim-analyze", file, asset, bake);
+    }
+    const auto need_poses = [&](const char* option, uint32_t least) {
+        if (bake.num_poses() >= least) return;
+        throw_bad_input("{}: {} has {} pose{}, expected at least {}", option,
+                        bake.directory().string(), bake.num_poses(),
+                        bake.num_poses() == 1 ? "" : "s", least);
+    };
+    if (!options.temporal.empty()) need_poses("--temporal", 2);
+    if (options.held_out) need_poses("--held-out", 3);
+}
+
+// On stderr, for options that change nothing here.
+void say_what_is_not_used(const AnalyzeOptions& options) {
+    const bool compares = options.measures_curves() || !options.compare.empty() || options.trade;
+    const bool traces = options.reference != ReferenceKind::bake && compares;
+    const auto say = [](const char* option, const char* where) {
+        fmt::print(stderr, "paim-analyze: note: {} is not used: it is for {}\n", option, where);
+    };
+    if (options.lists_were_given && !options.measures_curves()) {
+        say("--components or --bands", "--curves");
+    }
+    if (options.reference != ReferenceKind::bake && !compares) {
+        say("--reference", "--curves, --compare and --sweep");
+    }
+    if (options.reference_rays > 0 && !traces && options.budget.empty()) {
+        say("--reference-rays", "--reference traced or traced-pixels, and --budget");
     }
 }
 
@@ -50,11 +114,12 @@ void analyze(const AnalyzeOptions& options) {
     }
     std::vector<NamedLight> lights =
         load_lights(options.environments, options.env_mapping, bake.identity().layout.in_bands);
-    const size_t most_settings = 2 * (options.components.size() + 1) + options.bands.size() + 1;
-    check_memory(options, most_settings * lights.size());
+    check_memory(options, num_pictures_held(options, lights.size()));
+    say_what_is_not_used(options);
     const bool with_plots = have_gnuplot();
     if (!with_plots) fmt::print(stderr, "warning: gnuplot is not installed: no SVG curves\n");
     bake.verify_all();  // before anything is written
+    check_inputs(options, bake);
     ensure_directory(options.output);
 
     const Stage stage(bake, std::move(lights), options.stage);
@@ -75,10 +140,12 @@ void analyze(const AnalyzeOptions& options) {
     if (options.json) {
         fmt::print("{}\n", json_text(json, 2));
     } else {
+        for (const std::string& answer : run.answers) fmt::print("{}\n", answer);
         fmt::print("{}", recommendation_text(bake.directory(), trade));
         fmt::print("{}\n", (options.output / "index.html").string());
     }
     check_limit(trade);
+    if (run.unmet) throw *run.unmet;
 }
 
 }  // namespace paim

@@ -26,7 +26,7 @@ std::string curve_csv(const Curve& curve, const std::vector<NamedLight>& lights,
             csv += fmt::format("{},{},{},{:.9g},{:.9g},{:.9g},", csv_field(lights[light].name),
                                point.value, point.all ? "yes" : "no", point.theory_error,
                                point.energy_error, seen.visual_error());
-            csv += fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},{},{},{:.3g},{:.9g},{:.9g},",
+            csv += fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},{},{},{:.9g},{:.9g},{:.9g},",
                                spread.least, spread.median, spread.most, spread.deviation,
                                spread.worst_pose, spread.worst_view, reference_noise[light],
                                seen.all().rmse(), seen.all().psnr_db());

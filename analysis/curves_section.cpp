@@ -84,17 +84,16 @@ void say_what_was_not_measured(const std::vector<Curve>& curves,
 }
 
 // On stderr, where the noise of the reference disturbs.
-void say_where_noise_is_large(const Reference& reference, const std::vector<double>& noise,
-                              const std::vector<Curve>& curves, const Stage& stage) {
-    for (size_t light = 0; light < stage.lights().size(); ++light) {
+void say_where_noise_is_large(AnalysisRun& run, const std::vector<double>& noise,
+                              const std::vector<Curve>& curves) {
+    for (size_t light = 0; light < run.stage.lights().size(); ++light) {
         double smallest = std::numeric_limits<double>::infinity();
         for (const Curve& curve : curves) {
             for (const CurvePoint& point : curve.points) {
                 smallest = std::min(smallest, point.seen[light].visual_error());
             }
         }
-        const std::string note = noise_note(reference, stage, light, noise[light], smallest);
-        if (!note.empty()) fmt::print(stderr, "paim-analyze: note: {}\n", note);
+        run.say_if_noise_is_large(light, noise[light], smallest);
     }
 }
 
@@ -135,7 +134,7 @@ void curves_section(AnalysisRun& run) {
     time_curves(asset, curves, [&] { progress.advance(); });
     progress.finish();
     say_what_was_not_measured(curves, lights);
-    say_where_noise_is_large(reference, measured.noise, curves, stage);
+    say_where_noise_is_large(run, measured.noise, curves);
     nlohmann::ordered_json& json = run.json;
     json["reference"]["kind"] = reference.name;
     for (size_t light = 0; light < lights.size(); ++light) {

@@ -99,7 +99,8 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
         "what interpolation over triangles costs");
     app.add_option(
            "--reference-rays", options.reference_rays,
-           "Rays of a traced vertex or pixel, 0 to 32768; 0 takes as many as it takes for the "
+           "Rays of a traced vertex or pixel, 0 to 32768, rounded up to a multiple of 4; 0 takes as "
+           "many as are needed for the "
            "noise of the reference to be below a fifth of the smallest error")
         ->check(cli::in_range(0u, kMostReferenceRays))
         ->capture_default_str();
@@ -131,7 +132,7 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
         "A .paim made from this bake: measure its errors again and compare them with those that it "
         "states; exit code 5 if one is larger (by more than 0.000001 of it, for rounding). A note "
         "says if the file was made from another bake of this mesh");
-    // All options added so far are about curves.
+    // All options added so far are about other measurements.
     for (CLI::Option* const option : app.get_options()) {
         const std::string name = option->get_name();
         if (name == "BAKE" || name == "--help" || name == "--version" || option == verify) continue;
@@ -151,6 +152,12 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
     exit_code = cli::parse(app, argc, argv);
     if (exit_code >= 0) return std::nullopt;
     if (options.verify.empty() && options.output.empty()) throw_usage("--output is required");
+    for (const char* const name : {"--budget", "--temporal", "--held-out", "--verify"}) {
+        const CLI::Option* const option = app.get_option(name);
+        if (option->count() > 0 && option->as<std::string>().empty()) {
+            throw_usage("{}: expected a value, got none", name);
+        }
+    }
     if (!held_out.empty()) options.held_out = cli::parse_share(held_out, "--held-out");
     options.lists_were_given = app.count("--components") + app.count("--bands") > 0;
     options.trade = trade_options(trade);

@@ -20,9 +20,9 @@ constexpr const char* kStyle =
     "1em;color:#222}"
     "h1,h2{font-weight:600}table{border-collapse:collapse;margin:1em 0}"
     ".wide{overflow-x:auto}dt{font-weight:600;float:left;margin-right:.5em}dd{margin:0 0 .2em 0}"
-    "th,td{padding:.25em .8em;text-align:right;border-bottom:1px solid #ddd}"
+    "th,td{padding:.2em .55em;font-size:14px;text-align:right;border-bottom:1px solid #ddd}"
     "td{white-space:nowrap}td:first-child,th:first-child{text-align:left}"
-    ".strip{display:flex;gap:6px;overflow-x:auto;margin:.5em 0}.strip figure{margin:0}"
+    ".strip{display:flex;gap:6px;overflow-x:auto;margin:.5em 0}.strip figure{margin:0;flex-shrink:0}pre{overflow-x:auto;background:#f4f4f4;padding:.6em}"
     ".strip img{width:180px;height:180px;display:block;background:#000}"
     ".none{width:180px}"
     "figcaption{font-size:13px;text-align:center;color:#555;max-width:180px}"
@@ -88,6 +88,10 @@ void Page::add_glossary(const std::vector<std::pair<std::string, std::string>>& 
         html_ += "<dt>" + escape_html(term) + "</dt><dd>" + escape_html(meaning) + "</dd>\n";
     }
     html_ += "</dl>\n";
+}
+
+void Page::add_code(const std::string& text) {
+    html_ += "<pre>" + escape_html(text) + "</pre>\n";
 }
 
 void Page::add_table(const PageTable& table) {

@@ -33,6 +33,8 @@ class Page {
     void add_paragraph(const std::string& text);
     // Of terms, each with what it means.
     void add_glossary(const std::vector<std::pair<std::string, std::string>>& terms);
+    // Lines as they are, in a font of equal widths.
+    void add_code(const std::string& text);
     void add_table(const PageTable& table);
     // Those of the SVG files that are in the directory.
     void add_plots(const std::vector<std::string>& files);

@@ -1,6 +1,8 @@
 // Whether a .paim was made from a bake.
 #include "analysis/same_bake.h"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include "compressor/encode/data/provenance.h"
@@ -17,6 +19,17 @@ std::string text_of(const ordered_json& object, const std::string& name) {
     if (!object.contains(name)) return {};
     const ordered_json& value = object[name];
     return (value.is_string() ? value.get<std::string>() : json_text(value)).substr(0, 200);
+}
+
+// "rays 16 (here 64), seed … (here …)"
+std::string differences_text(const std::vector<BakeDifference>& differences) {
+    const auto or_none = [](const std::string& text) { return text.empty() ? "none" : text; };
+    std::string text;
+    for (const BakeDifference& one : differences) {
+        text += fmt::format("{}{} {} (here {})", text.empty() ? "" : ", ", one.name,
+                            or_none(one.of_file), or_none(one.of_bake));
+    }
+    return text;
 }
 
 }  // namespace
@@ -37,6 +50,15 @@ std::vector<BakeDifference> bake_differences(const Asset& asset, const BakeReade
         if (one.of_file != one.of_bake) differences.push_back(std::move(one));
     }
     return differences;
+}
+
+void say_if_of_another_bake(const std::string& tool, const std::filesystem::path& file,
+                            const Asset& asset, const BakeReader& bake) {
+    const std::vector<BakeDifference> differences = bake_differences(asset, bake);
+    if (differences.empty()) return;
+    fmt::print(stderr, "{}note: {}: was made from another bake than {}: {}\n",
+               tool.empty() ? "" : tool + ": ", file.string(), bake.directory().string(),
+               differences_text(differences));
 }
 
 }  // namespace paim

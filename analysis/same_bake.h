@@ -1,6 +1,7 @@
 // Whether a .paim was made from a bake.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -18,5 +19,10 @@ struct BakeDifference {
 
 // None if the file says nothing of its bake, or was made from this one. The mesh is not compared.
 std::vector<BakeDifference> bake_differences(const Asset& asset, const BakeReader& bake);
+
+// A note on stderr if the file was made from another bake of this mesh, which says in what.
+// tool  in front of the note; or empty
+void say_if_of_another_bake(const std::string& tool, const std::filesystem::path& file,
+                            const Asset& asset, const BakeReader& bake);
 
 }  // namespace paim

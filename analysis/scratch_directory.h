@@ -1,16 +1,20 @@
 // A directory that is removed with all that is in it.
 #pragma once
 
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include <filesystem>
-#include <utility>
+#include <string>
 
 namespace paim {
 
+// Hidden, and of this process, so that it is nobody else's.
 class ScratchDirectory {
   public:
-    // Made anew: what an interrupted run left there is removed.
-    explicit ScratchDirectory(std::filesystem::path path) : path_(std::move(path)) {
-        std::filesystem::remove_all(path_);
+    // parent  is there
+    ScratchDirectory(const std::filesystem::path& parent, const std::string& name)
+        : path_(parent / fmt::format(".{}-{}.tmp", name, ::getpid())) {
         std::filesystem::create_directories(path_);
     }
     ~ScratchDirectory() {

@@ -43,7 +43,7 @@ double relative_error_of_median(std::vector<double> values) {
 PoseTime time_poses(uint32_t num_poses, const std::function<void(uint32_t pose)>& work,
                     double most_seconds) {
     PAIM_CHECK_LE(1u, num_poses);
-    const uint32_t count = std::min(num_poses, kPosesPerRound);
+    uint32_t count = std::min(num_poses, kPosesPerRound);
     const auto run = [&] {
         const auto start = Clock::now();
         for (uint32_t j = 0; j < count; ++j) {
@@ -52,6 +52,10 @@ PoseTime time_poses(uint32_t num_poses, const std::function<void(uint32_t pose)>
         return 1e3 * seconds_since(start) / count;
     };
     const auto start = Clock::now();
+    work(0);  // which may take memory
+    const double one_s = seconds_since(start);
+    const double affordable = most_seconds / (static_cast<double>(kLeastRounds + 1) * one_s);
+    count = affordable < count ? std::max(1u, static_cast<uint32_t>(affordable)) : count;
     run();
     std::vector<double> rounds;
     double error = 1.0;

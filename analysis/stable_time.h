@@ -15,7 +15,8 @@ struct PoseTime {
 };
 
 // Runs `work` for poses of the whole sequence in rounds, until the median over the rounds is known to
-// 2.5 %, or most_seconds have passed; the first round does not count.
+// 2.5 %, or most_seconds have passed. Rounds are of up to 32 poses, of fewer where work is slow. There are
+// at least five, and one before them that does not count.
 // num_poses  at least 1 (checked)
 PoseTime time_poses(uint32_t num_poses, const std::function<void(uint32_t pose)>& work,
                     double most_seconds = 2.0);

@@ -58,17 +58,6 @@ std::vector<Comparison> compare(const AssetError& error, const ErrorStatement& s
     return comparisons;
 }
 
-// "rays 16 (here 64), seed … (here …)"
-std::string differences_text(const std::vector<BakeDifference>& differences) {
-    const auto or_none = [](const std::string& text) { return text.empty() ? "none" : text; };
-    std::string text;
-    for (const BakeDifference& one : differences) {
-        text += fmt::format("{}{} {} (here {})", text.empty() ? "" : ", ", one.name,
-                            or_none(one.of_file), or_none(one.of_bake));
-    }
-    return text;
-}
-
 std::vector<Comparison> those_above(const std::vector<Comparison>& comparisons) {
     std::vector<Comparison> above;
     std::copy_if(comparisons.begin(), comparisons.end(), std::back_inserter(above),
@@ -145,11 +134,7 @@ void verify(const AnalyzeOptions& options) {
     cli::print_notes("paim-analyze", options.band_power, spectrum.notes);
     bake.verify_all();
     const std::vector<BakeDifference> differences = bake_differences(asset, bake);
-    if (!differences.empty()) {
-        fmt::print(stderr, "note: {}: was made from another bake than {}: {}\n",
-                   options.verify.string(), options.bake_directory.string(),
-                   differences_text(differences));
-    }
+    say_if_of_another_bake("", options.verify, asset, bake);
     const AssetError error = measure_asset(asset, bake, spectrum);
     const std::vector<Comparison> comparisons =
         compare(error, statement, spectrum.name == statement.band_power);

@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "compressor/bake/bounces.h"
 #include "compressor/scene/root_motion.h"
 #include "paim/base/error.h"
 #include "paim/cli/help.h"
 #include "paim/cli/parse.h"
+#include "paim/format/bake/bake_directory.h"
 #include "paim/sh/index.h"
 
 namespace paim {

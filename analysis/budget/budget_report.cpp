@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "analysis/csv_field.h"
 #include "analysis/gnuplot.h"
 
@@ -55,6 +58,17 @@ nlohmann::ordered_json budget_json(const ErrorBudget& budget,
 
 void write_budget_plot(const std::filesystem::path& output, const ErrorBudget& budget,
                        const std::vector<NamedLight>& lights) {
+    const auto is_seen = [](const PictureErrors& errors) {
+        return std::isfinite(errors.visual_error());
+    };
+    if (std::none_of(budget.whole.begin(), budget.whole.end(), is_seen)) {
+        std::error_code ignored;  // an older chart would be shown instead
+        std::filesystem::remove(output, ignored);
+        return;
+    }
+    const auto percent = [&](const PictureErrors& errors) {
+        return is_seen(errors) ? 100.0 * errors.visual_error() : 0.0;
+    };
     std::string script = gnuplot_begin(output, "Error budget");
     script +=
         "set terminal svg size 760,420 noenhanced font 'sans,13' background 'white'\n"
@@ -68,9 +82,9 @@ void write_budget_plot(const std::filesystem::path& output, const ErrorBudget& b
         for (char& c : name) c = c == '"' ? '\'' : c;
         script += '"' + name.substr(1, name.size() - 2) + '"';
         for (const BudgetTerm& term : budget.terms) {
-            script += fmt::format(" {:.9g}", 100.0 * term.errors[light].visual_error());
+            script += fmt::format(" {:.9g}", percent(term.errors[light]));
         }
-        script += fmt::format(" {:.9g}\n", 100.0 * budget.whole[light].visual_error());
+        script += fmt::format(" {:.9g}\n", percent(budget.whole[light]));
     }
     script += "EOD\nplot ";
     size_t column = 2;
@@ -84,13 +98,29 @@ void write_budget_plot(const std::filesystem::path& output, const ErrorBudget& b
     run_gnuplot(script, output);
 }
 
+std::string budget_answer(const std::string& file, const ErrorBudget& budget,
+                          const std::vector<NamedLight>& lights) {
+    std::string text = file + " against traced pictures: ";
+    for (size_t light = 0; light < lights.size(); ++light) {
+        const auto largest = std::max_element(
+            budget.terms.begin(), budget.terms.end(), [&](const auto& a, const auto& b) {
+                return a.errors[light].visual_error() < b.errors[light].visual_error();
+            });
+        text += fmt::format("{}{} {} (most from {}, {})", light > 0 ? "; " : "", lights[light].name,
+                            percent_text(budget.whole[light].visual_error()), largest->name,
+                            percent_text(largest->errors[light].visual_error()));
+    }
+    return text;
+}
+
 void add_budget(Page& page, const std::string& file, const ErrorBudget& budget,
                 const Stage& stage) {
     page.add_heading("Error budget of " + file);
     page.add_paragraph(
         "Each cause of error is switched on after those above it, from pictures that are traced at "
         "every pixel to the file as it is played. Errors are what the cause changes, relative to "
-        "the traced pictures. All together are at most the sum.");
+        "the traced pictures. Causes partly cancel, so that the file's error, which is the dot in the chart, "
+        "is at most the height of the bar.");
     page.add_plots({"budget.svg"});
     PageTable table(1);
     table[0] = {"cause"};
@@ -98,8 +128,9 @@ void add_budget(Page& page, const std::string& file, const ErrorBudget& budget,
         table[0].push_back("seen, " + light.name);
         table[0].emplace_back("least … most");
     }
+    table[0].emplace_back("smaller with");
     table[0].emplace_back("what it is");
-    const auto add_row = [&](const char* name, const char* meaning,
+    const auto add_row = [&](const char* name, const char* meaning, const char* cure,
                              const std::vector<PictureErrors>& errors) {
         std::vector<std::string> row{name};
         for (const PictureErrors& seen : errors) {
@@ -108,16 +139,22 @@ void add_budget(Page& page, const std::string& file, const ErrorBudget& budget,
             row.push_back(
                 fmt::format("{:.2g} … {:.2g}", 100.0 * spread.least, 100.0 * spread.most));
         }
+        row.emplace_back(cure);
         row.emplace_back(meaning);
         table.push_back(std::move(row));
     };
-    for (const BudgetTerm& term : budget.terms) add_row(term.name, term.meaning, term.errors);
-    add_row("all together", "the file against the traced pictures", budget.whole);
+    for (const BudgetTerm& term : budget.terms)
+        add_row(term.name, term.meaning, term.cure, term.errors);
+    add_row("all together", "the file against the traced pictures", "", budget.whole);
     page.add_table(table);
+    page.add_paragraph(
+        fmt::format("The transfer that bands and noise are told apart by was baked with {} rays.",
+                    budget.transfer_rays));
     for (size_t light = 0; light < stage.lights().size(); ++light) {
         page.add_paragraph(fmt::format(
-            "Light: {}. Noise of the traced pictures: {:.2g} % at pixels, {:.2g} % at vertices. "
-            "First row: traced, then with each cause. Second row: what the cause changes, times four.",
+            "Light: {}. Noise of the traced pictures: {:.2g} % at pixels, {:.2g} % at vertices. It is part of "
+            "interpolation, bands and the whole. First row: traced, then with each cause. Second row: what the "
+            "cause changes, times four.",
             stage.lights()[light].name, 100.0 * budget.pixel_noise[light],
             100.0 * budget.vertex_noise[light]));
         const ToneCurve tone{suggested_exposure_ev(budget.truth[light]), 0.0f};

@@ -21,6 +21,10 @@ nlohmann::ordered_json budget_json(const ErrorBudget& budget,
 void write_budget_plot(const std::filesystem::path& output, const ErrorBudget& budget,
                        const std::vector<NamedLight>& lights);
 
+// The error of the file under each light, and its largest cause, as a line.
+std::string budget_answer(const std::string& file, const ErrorBudget& budget,
+                          const std::vector<NamedLight>& lights);
+
 // file  its name
 void add_budget(Page& page, const std::string& file, const ErrorBudget& budget, const Stage& stage);
 

@@ -20,15 +20,17 @@ using Radiance = std::vector<std::vector<Vec3f>>;  // [lights][V + S]
 constexpr struct {
     const char* name;
     const char* meaning;
+    const char* cure;
 } kCauses[] = {
-    {"interpolation", "light is traced at vertices and interpolated over triangles"},
-    {"bands", "light and transfer have a limited number of bands"},
-    {"noise", "transfer is baked with a limited number of rays"},
+    {"interpolation", "light is traced at vertices and interpolated over triangles",
+     "more vertices"},
+    {"bands", "light and transfer have a limited number of bands", "bake --bands"},
+    {"noise", "transfer is baked with a limited number of rays", "bake --rays"},
     {"transfer truncation",
-     "transfer has a limited number of components, which also takes noise out"},
-    {"transfer coding", "transfer is quantised, and whatever else its codec does"},
-    {"geometry truncation", "positions have a limited number of components"},
-    {"geometry coding", "positions are quantised"},
+     "transfer has a limited number of components, which also takes noise out", "--max-error"},
+    {"transfer coding", "transfer is quantised, and whatever else its codec does", "--max-error"},
+    {"geometry truncation", "positions have a limited number of components", "--geometry-error"},
+    {"geometry coding", "positions are quantised", "--geometry-error"},
 };
 constexpr size_t kPixelStep = 1;  // the truth is a step, too
 
@@ -59,9 +61,9 @@ class Chain {
         : bake_(bake),
           stage_(stage),
           on_step_(on_step),
+          file_poses_(file, bake),
           truncated_(encode_truncated(bake, file, scratch)),
           truncated_poses_(truncated_, bake),
-          file_poses_(file, bake),
           bands_(file.moving().layout.in_bands),
           truth_(bake),
           pixels_(make_reference(ReferenceKind::traced_pixels, rays, bake, stage)),
@@ -86,7 +88,8 @@ class Chain {
         step(traced(vertices_, p, baked, vertex_noise_));
         DecodedPose truth = truth_.pose(p);
         keep_bands(truth, bands_);
-        step(stage_.draw(visible, stage_.light(truth)));
+        const DecodedPose* const true_still = truth_.still() ? &*truth_.still() : nullptr;
+        step(stage_.draw(visible, stage_.light(truth, true_still)));
         keep_bands(baked, bands_);
         step(stage_.draw(visible, stage_.light(baked)));
         const DecodedPose truncated = truncated_poses_.pose(p);
@@ -110,8 +113,9 @@ class Chain {
     const BakeReader& bake_;
     const Stage& stage_;
     const std::function<void()>& on_step_;
+    FilePoses file_poses_;
     const Asset truncated_;
-    FilePoses truncated_poses_, file_poses_;
+    FilePoses truncated_poses_;
     const uint32_t bands_;
     TransferTruth truth_;
     Reference pixels_, vertices_;
@@ -151,7 +155,7 @@ ErrorBudget measure_budget(const BakeReader& bake, const Asset& file, const Stag
     budget.whole.resize(num_lights);
     for (const auto& cause : kCauses) {
         budget.terms.push_back(
-            {cause.name, cause.meaning, std::vector<PictureErrors>(num_lights), {}});
+            {cause.name, cause.meaning, cause.cure, std::vector<PictureErrors>(num_lights), {}});
     }
     Chain chain(bake, file, stage, rays, scratch, on_step);
     for (const uint32_t p : stage.poses()) {

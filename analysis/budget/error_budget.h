@@ -18,6 +18,7 @@ namespace paim {
 struct BudgetTerm {
     const char* name;
     const char* meaning;
+    const char* cure;                   // what makes it smaller
     std::vector<PictureErrors> errors;  // [lights]
     std::vector<Image> pictures;  // [lights] with this cause and all before it: first pose and view
 };

@@ -26,15 +26,20 @@ ComparedFile describe(const std::filesystem::path& path, const Asset& asset) {
     file.size_bytes = std::filesystem::file_size(path);
     file.bits_per_vertex_per_pose =
         bits_per_vertex_per_pose(file.size_bytes, mesh.topology.num_vertices, mesh.num_poses());
-    file.multiply_adds = positions_cost(file.geometry_components).per_vertex() +
-                         mesh.transfer->cost(mesh.layout, {}, true).per_vertex();
+    const FrameCost cost = mesh.transfer->cost(mesh.layout, {}, true);
+    file.multiply_adds = cost.per_vertex();
+    file.position_multiply_adds = positions_cost(file.geometry_components).per_vertex();
+    file.cpu_multiply_adds = cost.cpu_per_frame;
     return file;
 }
 
 PoseTime time_frames(const std::shared_ptr<const Asset>& asset, const NamedLight& light) {
     Playback playback(asset);
-    playback.set_light(DistantLight(light.coefficients));
-    return time_poses(asset->num_poses(), [&](uint32_t p) { playback.update(p); });
+    const DistantLight distant(light.coefficients);
+    return time_poses(asset->num_poses(), [&](uint32_t p) {
+        playback.set_light(distant);  // else a single pose would be no work
+        playback.update(p);
+    });
 }
 
 }  // namespace

@@ -24,7 +24,8 @@ struct ComparedFile {
     uint32_t geometry_components = 0, transfer_components = 0;
     uint64_t size_bytes = 0;
     double bits_per_vertex_per_pose = 0.0;
-    uint64_t multiply_adds = 0;       // per vertex and frame: positions, pose and coloured light
+    // Of the lit transfer and of the positions, per vertex and frame, and on the CPU once a frame.
+    uint64_t multiply_adds = 0, position_multiply_adds = 0, cpu_multiply_adds = 0;
     PoseTime frame;                   // positions and radiance of a frame on the CPU
     AssetError error;                 // to the bake, under flat light
     std::vector<PictureErrors> seen;  // [lights] against the reference

@@ -11,6 +11,7 @@ std::string compare_csv(const FileComparison& comparison, const std::vector<Name
     std::string csv =
         "light,file,codec,bands,geometry_components,transfer_components,size [bytes],"
         "rate [bits per vertex and pose],multiply_adds [per vertex and frame],"
+        "position_multiply_adds [per vertex and frame],cpu_multiply_adds [per frame],"
         "visual_error [fraction],visual_error_least [fraction],visual_error_most [fraction],"
         "worst_picture_pose,worst_picture_view,reference_noise [fraction],psnr [dB],"
         "flicker [fraction of change],flicker [fraction of radiance],worst_step";
@@ -25,11 +26,12 @@ std::string compare_csv(const FileComparison& comparison, const std::vector<Name
             const PictureErrors& seen = file.seen[light];
             const PictureErrors::Spread spread = seen.spread();
             const Flicker& flicker = file.flicker[light];
-            csv += fmt::format("{},{},{},{},{},{},{},{:.9g},{},", csv_field(lights[light].name),
-                               csv_field(file.path.string()), file.codec, file.bands,
-                               file.geometry_components, file.transfer_components, file.size_bytes,
-                               file.bits_per_vertex_per_pose, file.multiply_adds);
-            csv += fmt::format("{:.9g},{:.9g},{:.9g},{},{},{:.3g},{:.9g},{:.9g},{:.9g},{}",
+            csv += fmt::format(
+                "{},{},{},{},{},{},{},{:.9g},{},{},{},", csv_field(lights[light].name),
+                csv_field(file.path.string()), file.codec, file.bands, file.geometry_components,
+                file.transfer_components, file.size_bytes, file.bits_per_vertex_per_pose,
+                file.multiply_adds, file.position_multiply_adds, file.cpu_multiply_adds);
+            csv += fmt::format("{:.9g},{:.9g},{:.9g},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{}",
                                seen.visual_error(), spread.least, spread.most, spread.worst_pose,
                                spread.worst_view, comparison.reference_noise[light],
                                seen.all().psnr_db(), flicker.of_change(), flicker.of_radiance(),
@@ -57,7 +59,9 @@ nlohmann::ordered_json compare_json(const FileComparison& comparison,
                                     {"transfer_components", file.transfer_components},
                                     {"size_bytes", file.size_bytes},
                                     {"bits_per_vertex_per_pose", file.bits_per_vertex_per_pose},
-                                    {"multiply_adds", file.multiply_adds}};
+                                    {"multiply_adds", file.multiply_adds},
+                                    {"position_multiply_adds", file.position_multiply_adds},
+                                    {"cpu_multiply_adds", file.cpu_multiply_adds}};
         for (size_t light = 0; light < lights.size(); ++light) {
             const PictureErrors& seen = file.seen[light];
             const PictureErrors::Spread spread = seen.spread();
@@ -113,8 +117,9 @@ PageTable table_of(const FileComparison& comparison, const std::vector<NamedLigh
     add("bytes", [](const File& f) { return std::to_string(f.size_bytes); });
     add("bits per vertex and pose",
         [](const File& f) { return fmt::format("{:.3g}", f.bits_per_vertex_per_pose); });
-    add("multiply-adds per vertex and frame",
-        [](const File& f) { return std::to_string(f.multiply_adds); });
+    add("multiply-adds per vertex and frame: lit transfer, positions", [](const File& f) {
+        return fmt::format("{}, {}", f.multiply_adds, f.position_multiply_adds);
+    });
     add("ms to decode and light a frame",
         [](const File& f) { return fmt::format("{:.3g}", f.frame.median_ms); });
     for (size_t light = 0; light < lights.size(); ++light) {
@@ -125,8 +130,10 @@ PageTable table_of(const FileComparison& comparison, const std::vector<NamedLigh
             const PictureErrors::Spread spread = f.seen[light].spread();
             return fmt::format("{} (pose {})", percent_text(spread.most), spread.worst_pose);
         });
-        add("flicker, of the change, " + name,
-            [&](const File& f) { return percent_text(f.flicker[light].of_change()); });
+        add("flicker of the change, of the radiance, " + name, [&](const File& f) {
+            return fmt::format("{}, {}", percent_text(f.flicker[light].of_change()),
+                               percent_text(f.flicker[light].of_radiance()));
+        });
     }
     add("worst vertex of the transfer (pose)", [](const File& f) {
         return fmt::format("{} ({})", f.error.transfer.worst_vertex, f.error.transfer.worst_pose);
@@ -184,6 +191,7 @@ void add_light(Page& page, const FileComparison& comparison, const Stage& stage,
 void add_comparison(Page& page, const FileComparison& comparison, const Stage& stage,
                     const std::string& reference_name) {
     page.add_heading("Files side by side");
+    page.add_paragraph("Pictures are compared with " + reference_name + ".");
     page.add_table(table_of(comparison, stage.lights()));
     for (size_t light = 0; light < stage.lights().size(); ++light) {
         add_light(page, comparison, stage, light, reference_name);

@@ -25,8 +25,11 @@ using LightHalves = std::array<Vec3f, 2>;
 class DirectLight {
   public:
     // rays  of a point, a multiple of 4, at least 4 (checked)
-    // Keeps references to the scene and the light.
-    DirectLight(const RayScene& scene, const LightSampler& light, uint32_t rays);
+    // seed  of the sets
+    // Keeps a reference to the light.
+    DirectLight(const LightSampler& light, uint32_t rays, uint64_t seed);
+
+    uint32_t rays() const { return 4 * num_points_; }
 
     // Scratch memory of one thread.
     struct Workspace {
@@ -38,19 +41,19 @@ class DirectLight {
     // 1/π ∫ L(ω) V(ω) max(0, n·ω) dω: what a point of albedo 1 reflects.
     // normal  unit
     // key     of the point's random numbers
-    LightHalves at(const RayStart& start, const Vec3f& normal, uint64_t key, Workspace& work) const;
+    LightHalves at(const RayScene& scene, const RayStart& start, const Vec3f& normal, uint64_t key,
+                   Workspace& work) const;
 
   private:
     using LightSet = std::vector<LightSampler::Sample>;
 
     LightSet make_set(uint64_t key) const;
-    Vec3d sum_cosine(const RayStart& start, const Vec3f& normal, uint64_t key,
-                     Workspace& work) const;
-    Vec3d sum_light(const RayStart& start, const Vec3f& normal, const LightSet& set,
-                    Workspace& work) const;
+    Vec3d sum_cosine(const RayScene& scene, const RayStart& start, const Vec3f& normal,
+                     uint64_t key, Workspace& work) const;
+    Vec3d sum_light(const RayScene& scene, const RayStart& start, const Vec3f& normal,
+                    const LightSet& set, Workspace& work) const;
 
-    const RayScene& scene_;
-    const LightSampler& light_;
+    const LightSampler* light_;
     uint32_t num_points_;  // of each kind in a half
     CosineDirections cosine_;
     std::array<std::vector<LightSet>, 2> sets_;  // [half][kSets], or empty if the light is black

@@ -16,6 +16,7 @@ Reference make_reference(ReferenceKind kind, uint32_t rays, const BakeReader& ba
         return {render, "the bake", nullptr, false};
     }
     constexpr uint32_t kFirstRays = 64;
+    rays = (rays + 3) / 4 * 4;
     const TracedAt at =
         kind == ReferenceKind::traced_pixels ? TracedAt::pixels : TracedAt::vertices;
     Reference reference;

@@ -17,13 +17,13 @@ enum class ReferenceKind {
 
 // A reference that was chosen. It keeps references to bake and stage.
 struct Reference {
-    ReferenceSource source;
+    ReferenceSource source;                   // keeps `traced`, too
     std::string name;                         // for captions: "the bake"
     std::shared_ptr<TracedReference> traced;  // nullptr: the bake
     bool rays_were_chosen = false;
 };
 
-// rays  of a traced reference, a multiple of 4; 0: as many as take_enough_rays() finds
+// rays  of a traced reference, rounded up to a multiple of 4; 0: as many as take_enough_rays() finds
 Reference make_reference(ReferenceKind kind, uint32_t rays, const BakeReader& bake,
                          const Stage& stage);
 

@@ -20,6 +20,11 @@ MeanAndNoise combine(const Vec3f& a, const Vec3f& b) {
     return {0.5f * (a + b), 0.5f * (a - b)};
 }
 
+// Of the random numbers of a light, other ones for each.
+uint64_t seed_of(size_t light) {
+    return 1 + light;
+}
+
 std::vector<Vec3f> scene_normals(const DecodedPose& pose, std::vector<float> planes) {
     transform_planes(pose.root.rotation.toRotationMatrix(), Vec3d::Zero(), planes,
                      pose.num_following);
@@ -51,7 +56,9 @@ TracedReference::TracedReference(const BakeReader& bake, const Stage& stage, uin
         still_mesh_.normals = from_planes(still.pose.normals);
         still_scene_ = std::make_unique<TracedScene>(still_mesh_, TracedMesh());
     }
-    rays_.resize(samplers_.size());
+    for (size_t light = 0; light < samplers_.size(); ++light) {
+        lights_.emplace_back(samplers_[light], rays, seed_of(light));
+    }
     still_lights_.resize(samplers_.size());
     for (size_t light = 0; light < samplers_.size(); ++light) set_rays(light, rays);
 }
@@ -59,14 +66,16 @@ TracedReference::TracedReference(const BakeReader& bake, const Stage& stage, uin
 TracedReference::~TracedReference() = default;
 
 uint32_t TracedReference::most_rays() const {
-    return *std::max_element(rays_.begin(), rays_.end());
+    uint32_t most = 0;
+    for (const DirectLight& light : lights_) most = std::max(most, light.rays());
+    return most;
 }
 
 void TracedReference::set_rays(size_t light, uint32_t rays) {
-    rays_[light] = rays;
+    lights_[light] = DirectLight(samplers_[light], rays, seed_of(light));
     if (!still_scene_) return;
     still_lights_[light] =
-        still_scene_->light_vertices(samplers_[light], settings_for(light, kStillMeshPose));
+        still_scene_->light_vertices(lights_[light], settings_for(light, kStillMeshPose));
 }
 
 const VertexLight* TracedReference::still_light(size_t light) const {
@@ -74,11 +83,11 @@ const VertexLight* TracedReference::still_light(size_t light) const {
 }
 
 TraceSettings TracedReference::settings_for(size_t light, uint32_t pose) const {
-    return {rays_[light], bake_.identity().bounces, 1 + light, pose};
+    return {bake_.identity().bounces, seed_of(light), pose};
 }
 
 VertexLight TracedReference::light_moving(const Pose& pose, size_t light) const {
-    return pose.scene->light_vertices(samplers_[light], settings_for(light, pose.number),
+    return pose.scene->light_vertices(lights_[light], settings_for(light, pose.number),
                                       still_light(light));
 }
 
@@ -157,11 +166,11 @@ void TracedReference::trace_pixels(const Pose& pose, ReferencePictures& out) con
                     noise.pixels[pixel] = both.noise.cwiseProduct(albedo);
                 }
             };
-            fill(0, pose.scene->light_points(points[0], samplers_[light],
+            fill(0, pose.scene->light_points(points[0], lights_[light],
                                              settings_for(light, pose.number), moving[light],
                                              still_light(light)));
             if (still_scene_) {
-                fill(1, still_scene_->light_points(points[1], samplers_[light],
+                fill(1, still_scene_->light_points(points[1], lights_[light],
                                                    settings_for(light, kStillMeshPose),
                                                    still_lights_[light]));
             }

@@ -26,7 +26,7 @@ class TracedReference {
     TracedReference(const BakeReader& bake, const Stage& stage, uint32_t rays);
     ~TracedReference();
 
-    uint32_t rays(size_t light) const { return rays_[light]; }
+    uint32_t rays(size_t light) const { return lights_[light].rays(); }
     // The largest number of all lights.
     uint32_t most_rays() const;
     // Of this light from now on.
@@ -38,7 +38,6 @@ class TracedReference {
   private:
     struct Pose;
 
-    // With random numbers of the light's own, so that errors under several lights are independent.
     TraceSettings settings_for(size_t light, uint32_t pose) const;
     VertexLight light_moving(const Pose& pose, size_t light) const;
     const VertexLight* still_light(size_t light) const;
@@ -48,6 +47,7 @@ class TracedReference {
     const Stage& stage_;
     std::vector<uint32_t> rays_;                // [lights]
     std::vector<LightSampler> samplers_;        // [lights]
+    std::vector<DirectLight> lights_;           // [lights]
     TracedMesh still_mesh_;                     // scaled as on the stage
     std::unique_ptr<TracedScene> still_scene_;  // if there is a still mesh
     std::vector<VertexLight> still_lights_;     // [lights]

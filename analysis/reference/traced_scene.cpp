@@ -40,10 +40,9 @@ std::vector<Vec3f> VertexLight::half(size_t half) const {
 // Carries light from vertices to a place.
 class TracedScene::Bounces {
   public:
-    Bounces(const TracedScene& scene, const TraceSettings& settings)
+    Bounces(const TracedScene& scene, uint32_t rays)
         : scene_(scene),
-          sampler_(
-              make_sampler(SamplerKind::cosine, settings.rays / 4, HalfRelation::independent)) {}
+          sampler_(make_sampler(SamplerKind::cosine, rays / 4, HalfRelation::independent)) {}
 
     HitTracer tracer() const {
         return HitTracer(scene_.scene_, scene_.all_.topology, scene_.all_.positions);
@@ -97,7 +96,7 @@ Vec3f carry(const TransportRow& row, const std::vector<Vec3f>& from) {
 
 }  // namespace
 
-VertexLight TracedScene::light_vertices(const LightSampler& light, const TraceSettings& settings,
+VertexLight TracedScene::light_vertices(const DirectLight& light, const TraceSettings& settings,
                                         const VertexLight* of_still) const {
     const auto place_of_vertex = [&](size_t v) -> Place {
         return {starts_[v], all_.normals[v], static_cast<uint32_t>(v),
@@ -108,7 +107,6 @@ VertexLight TracedScene::light_vertices(const LightSampler& light, const TraceSe
         for (auto& half : term) half.assign(num_vertices_, Vec3f::Zero());
         return term;
     };
-    const DirectLight direct(scene_, light, settings.rays);
     VertexLight result;
     result.terms.push_back(new_term());
     parallel_for(num_vertices_, kPlacesPerPiece, [&](size_t begin, size_t end) {
@@ -116,11 +114,11 @@ VertexLight TracedScene::light_vertices(const LightSampler& light, const TraceSe
         for (size_t v = begin; v < end; ++v) {
             if (all_.normals[v].isZero(0.0f)) continue;
             const Place place = place_of_vertex(v);
-            const LightHalves halves = direct.at(place.start, place.normal, place.key, work);
+            const LightHalves halves = light.at(scene_, place.start, place.normal, place.key, work);
             for (size_t h = 0; h < 2; ++h) result.terms[0][h][v] = halves[h];
         }
     });
-    const Bounces bounces(*this, settings);
+    const Bounces bounces(*this, light.rays());
     for (uint32_t b = 1; b <= settings.bounces; ++b) {
         VertexLight::Term term = new_term();
         for (uint32_t half = 0; half < 2; ++half) {
@@ -162,12 +160,11 @@ TracedScene::Place TracedScene::place_of(const TracedPoint& point, uint64_t key)
 }
 
 std::vector<LightHalves> TracedScene::light_points(std::span<const TracedPoint> points,
-                                                   const LightSampler& light,
+                                                   const DirectLight& light,
                                                    const TraceSettings& settings,
                                                    const VertexLight& of_mesh,
                                                    const VertexLight* of_still) const {
-    const DirectLight direct(scene_, light, settings.rays);
-    const Bounces bounces(*this, settings);
+    const Bounces bounces(*this, light.rays());
     // [bounces][half]
     std::vector<std::array<std::vector<Vec3f>, 2>> from(settings.bounces);
     for (uint32_t b = 0; b < settings.bounces; ++b) {
@@ -183,7 +180,7 @@ std::vector<LightHalves> TracedScene::light_points(std::span<const TracedPoint> 
             const Place place =
                 place_of(points[j], stream_key(settings.seed, settings.pose, j, kPointPart));
             if (place.normal.isZero(0.0f)) continue;
-            result[j] = direct.at(place.start, place.normal, place.key, work);
+            result[j] = light.at(scene_, place.start, place.normal, place.key, work);
             for (uint32_t half = 0; half < 2 && settings.bounces > 0; ++half) {
                 HitTracer tracer = bounces.tracer();
                 bounces.find_row(place, half, tracer, row);

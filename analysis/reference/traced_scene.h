@@ -20,13 +20,12 @@ struct TracedMesh {
     std::vector<Vec3f> positions;  // [V]
     std::vector<Vec3f> normals;    // [V] unit, or zero: no light is reflected
 
-    // [V] positions of the triangles' corners, counted from `first`
+    // Adds the other's vertices and triangles after the existing ones.
     void append(const TracedMesh& other);
 };
 
 // How light is traced.
 struct TraceSettings {
-    uint32_t rays = 256;  // of a point, a multiple of 4; as many again for each bounce
     uint32_t bounces = 0;
     uint64_t seed = 1;
     uint32_t pose = 0;  // keys the random numbers
@@ -55,15 +54,16 @@ class TracedScene {
     // Errors: those of RayScene.
     TracedScene(TracedMesh mesh, const TracedMesh& still);
 
+    // light     whose number of rays a vertex has, and half as many more for each bounce
     // of_still  light on the still mesh with as many bounces; nullptr: there is none
-    VertexLight light_vertices(const LightSampler& light, const TraceSettings& settings,
+    VertexLight light_vertices(const DirectLight& light, const TraceSettings& settings,
                                const VertexLight* of_still = nullptr) const;
 
     // What points of albedo 1 would reflect, whose normals are interpolated.
     // of_mesh  light_vertices() with these settings
     // returns  [points]
     std::vector<LightHalves> light_points(std::span<const TracedPoint> points,
-                                          const LightSampler& light, const TraceSettings& settings,
+                                          const DirectLight& light, const TraceSettings& settings,
                                           const VertexLight& of_mesh,
                                           const VertexLight* of_still = nullptr) const;
 

@@ -29,16 +29,19 @@ TransferTruth::TransferTruth(const BakeReader& bake)
       baker_(truth_options(bake.identity(), rays_), bake.albedo(),
              surroundings_of(bake).still_mesh) {
     // Poses need its light if it bounces.
-    if (bake.still_mesh() && bake.identity().bounces > 0) baker_.bake_still_mesh();
+    if (bake.still_mesh()) still_ = decoded(baker_.bake_still_mesh());
+}
+
+DecodedPose TransferTruth::decoded(BakedPose baked) const {
+    DecodedPose pose;
+    pose.layout = baker_.layout();
+    pose.positions = std::move(baked.positions);
+    pose.transfer = std::move(baked.transfer);
+    return pose;
 }
 
 DecodedPose TransferTruth::pose(uint32_t p) const {
-    BakedPose truth = baker_.bake(bake_.topology(), BakedPoses(bake_).load_pose(p), p);
-    DecodedPose decoded;
-    decoded.layout = baker_.layout();
-    decoded.positions = std::move(truth.positions);
-    decoded.transfer = std::move(truth.transfer);
-    return decoded;
+    return decoded(baker_.bake(bake_.topology(), BakedPoses(bake_).load_pose(p), p));
 }
 
 }  // namespace paim

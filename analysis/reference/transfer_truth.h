@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <optional>
 
 #include "compressor/bake/transfer_baker.h"
 #include "paim/codec/mesh_decoder.h"
@@ -10,8 +10,8 @@
 
 namespace paim {
 
-// Rays of the truth by those of the bake, if that is not more than kMostTruthRays. Its noise is an
-// eighth of the bake's (docs/results/noise.md).
+// Rays of the truth by those of the bake, but at most kMostTruthRays. With 16 times the rays its noise is
+// an eighth of the bake's (docs/results/noise.md); of bakes with more than 1024 rays it is more.
 constexpr uint32_t kTruthRaysByRays = 16;
 constexpr uint32_t kMostTruthRays = 1u << 14;
 
@@ -25,10 +25,16 @@ class TransferTruth {
     // Pose p as baked, with this transfer; in coordinates and axes of the scene.
     DecodedPose pose(uint32_t p) const;
 
+    // The still meshes with this transfer; nothing if there are none.
+    const std::optional<DecodedPose>& still() const { return still_; }
+
   private:
+    DecodedPose decoded(BakedPose baked) const;
+
     const BakeReader& bake_;
     uint32_t rays_;
     TransferBaker baker_;
+    std::optional<DecodedPose> still_;
 };
 
 }  // namespace paim

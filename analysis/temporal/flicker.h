@@ -17,7 +17,8 @@ struct Flicker {
     double error_sum = 0.0;     // Σ |ΔÎ − ΔI|
     double change_sum = 0.0;    // Σ |ΔI|
     double radiance_sum = 0.0;  // Σ |I| of the later pose
-    // [P − 1] Σ |ΔÎ − ΔI| / Σ |I| of each step; 0 where all is black
+    double noise_sum = 0.0;     // Σ |Δ| of the radiance of the bake's noise
+    // [P − 1] Σ |ΔÎ − ΔI| / Σ |I| of each step; not a number where all is black
     std::vector<double> of_step;
     uint32_t worst_step = 0;  // from this pose to the next
 
@@ -26,6 +27,9 @@ struct Flicker {
     double of_change() const;
     // Relative to the radiance. Not a number if all is black, or without steps.
     double of_radiance() const;
+    // What the bake's own noise changes from pose to pose, relative to what changes. A file without this
+    // noise differs from the bake by as much.
+    double noise_of_change() const;
 };
 
 // Follows all poses. Two are in memory at a time.

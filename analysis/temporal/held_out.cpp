@@ -1,7 +1,6 @@
 // Poses that a file was made without.
 #include "analysis/temporal/held_out.h"
 
-#include <limits>
 #include <set>
 #include <utility>
 
@@ -10,6 +9,7 @@
 #include "compressor/encode/search/target_encode.h"
 #include "paim/base/check.h"
 #include "paim/format/paim/paim_read.h"
+#include "paim/mesh/face_vertices.h"
 #include "paim/metrics/image_error.h"
 
 namespace paim {
@@ -52,13 +52,12 @@ HeldOut measure_held_out(const BakeReader& bake, const Stage& stage, double targ
                          const std::filesystem::path& directory,
                          const std::function<void()>& on_pose) {
     PAIM_CHECK_LE(3u, bake.num_poses());
-    const ScratchDirectory scratch(directory / "held-out.tmp");
+    const ScratchDirectory scratch(directory, "held-out");
     const std::filesystem::path half_path = scratch.path() / "half.bake";
     write_every_other(bake, half_path);
     const BakeReader half(half_path);
     EncodeOptions options;
     options.precision = Precision::i16;
-    options.memory_bytes = std::numeric_limits<uint64_t>::max();
     EncodeTarget wanted;
     wanted.transfer_error = target;
     wanted.spectrum = BandPower::flat(bake.identity().layout.in_bands);
@@ -78,6 +77,16 @@ HeldOut measure_held_out(const BakeReader& bake, const Stage& stage, double targ
     for (size_t j = 0; j < stage.poses().size(); ++j) {
         shown.insert(static_cast<uint32_t>(j * result.num_measured / stage.poses().size()));
     }
+    // In the scene, without outliers and vertices that no face has.
+    const std::vector<uint32_t> counted = face_vertices(bake.topology());
+    const auto placed = [&](const DecodedPose& pose, uint32_t p) {
+        const uint32_t num_vertices = bake.identity().num_vertices;
+        std::vector<float> planes = pose.positions;
+        stage.outliers().replace(p, num_vertices, 0, planes);
+        move_to_scene(pose.root, planes, pose.num_following);
+        keep_vertices(planes, num_vertices, counted);
+        return planes;
+    };
     const DecodedPose* const still = poses.still() ? &*poses.still() : nullptr;
     for (uint32_t j = 0; j < result.num_measured; ++j) {
         const uint32_t p = 2 * j + 1;
@@ -88,7 +97,7 @@ HeldOut measure_held_out(const BakeReader& bake, const Stage& stage, double targ
             is_shown ? stage.render_pose(truth) : std::vector<Image>();
         const auto add = [&](const DecodedPose& pose, const DecodedPose* around,
                              InBetweenError& error) {
-            error.distance.add(pose.positions, truth.positions, p);
+            error.distance.add(placed(pose, p), placed(truth, p), p);
             // Bands that the file does not have are none of the in-betweens' fault.
             DecodedPose kept = truth;
             keep_bands(kept, pose.layout.in_bands);
@@ -105,6 +114,9 @@ HeldOut measure_held_out(const BakeReader& bake, const Stage& stage, double targ
         add(poses.pose(j + 0.5), still, result.encoded);
         add(halfway(read(p - 1), read(p + 1)), nullptr, result.interpolated);
         on_pose();
+    }
+    for (InBetweenError* error : {&result.encoded, &result.interpolated}) {
+        error->distance.worst_vertex = counted[error->distance.worst_vertex];
     }
     return result;
 }

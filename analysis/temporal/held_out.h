@@ -25,14 +25,14 @@ struct HeldOut {
     uint32_t num_kept = 0;      // poses that were encoded: 0, 2, 4 …
     uint32_t num_measured = 0;  // poses between two of them
     InBetweenError encoded;     // of the file
-    // Of poses that are baked themselves and interpolated: what no encoding can make better.
+    // Of poses that are baked themselves, noise included, and interpolated without encoding.
     InBetweenError interpolated;
 };
 
 // Encodes every other pose to a transfer error and measures the poses in between. Pictures are of as
 // many of these as the stage has poses.
 // bake       with at least 3 poses (checked)
-// target     of encode_to_target()
+// target     of encode_to_target(), with its default options
 // directory  for a temporary bake of half the poses
 // on_pose    called after each pose that is measured, bake.num_poses() / 2 times or once less
 // Errors: those of encode_to_target().

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "analysis/csv_field.h"
 #include "analysis/gnuplot.h"
 
@@ -28,6 +30,7 @@ nlohmann::ordered_json flicker_json(const std::vector<Flicker>& flickers,
         const Flicker& flicker = flickers[light];
         json[lights[light].name] = {{"of_change", flicker.of_change()},
                                     {"of_radiance", flicker.of_radiance()},
+                                    {"noise_of_change", flicker.noise_of_change()},
                                     {"worst_step", flicker.worst_step},
                                     {"of_step", flicker.of_step}};
     }
@@ -39,7 +42,14 @@ void write_flicker_plot(const std::filesystem::path& output, const std::vector<F
     std::string script = gnuplot_begin(output, "Flicker");
     script +=
         "set xlabel 'pose'\nset ylabel 'error of the change, percent of radiance'\n"
-        "set yrange [0:*]\nset grid\nset key outside right top\n";
+        "set grid\nset key outside right top\n";
+    double most = 0.0;
+    for (const Flicker& flicker : flickers) {
+        for (const double step : flicker.of_step) most = std::fmax(most, step);
+    }
+    // A single step, or no flicker at all, is no range.
+    script += fmt::format("set xrange [0:{}]\nset yrange [0:{}]\n", flickers.front().of_step.size(),
+                          most > 0.0 ? "*" : "1");
     std::string plots;
     for (size_t light = 0; light < lights.size(); ++light) {
         script += fmt::format("$data{} << EOD\n", light);
@@ -59,14 +69,17 @@ void add_flicker(Page& page, const std::string& file, const std::vector<Flicker>
     page.add_heading("Flicker of " + file);
     page.add_paragraph(
         "The error of the change of radiance from one pose to the next, over all vertices: relative "
-        "to the change as baked, and relative to the radiance.");
+        "to the change as baked, and relative to the radiance. The noise of the bake changes from pose to "
+        "pose, too: a file without it differs from the bake by as much.");
     page.add_plots({"flicker.svg"});
     PageTable table(1);
-    table[0] = {"light", "of the change", "of the radiance", "worst step", "of the radiance there"};
+    table[0] = {"light",           "of the change", "of it, noise of the bake",
+                "of the radiance", "worst step",    "of the radiance in that step"};
     for (size_t light = 0; light < lights.size(); ++light) {
         const Flicker& flicker = flickers[light];
         const uint32_t p = flicker.worst_step;
         table.push_back({lights[light].name, percent_text(flicker.of_change()),
+                         percent_text(flicker.noise_of_change()),
                          percent_text(flicker.of_radiance()), fmt::format("{} to {}", p, p + 1),
                          percent_text(flicker.of_step[p])});
     }
@@ -124,7 +137,7 @@ void add_held_out(Page& page, const HeldOut& held_out, const std::vector<NamedLi
     page.add_paragraph(fmt::format(
         "Every other pose was encoded to an error of {}, {} poses. The {} poses between them are "
         "compared with their own bakes: decoded at half times, and interpolated between baked poses "
-        "without encoding, which is what the distance of the poses alone costs.",
+        "without encoding, which is what the distance of the poses costs.",
         percent_text(held_out.target), held_out.num_kept, held_out.num_measured));
     PageTable table(1);
     table[0] = {"in-between poses"};
@@ -147,8 +160,8 @@ void add_held_out(Page& page, const HeldOut& held_out, const std::vector<NamedLi
         row.push_back(percent_text(error.transfer.relative()));
         table.push_back(std::move(row));
     };
-    add_row("of the file", held_out.encoded);
-    add_row("of baked poses", held_out.interpolated);
+    add_row("decoded from the file", held_out.encoded);
+    add_row("interpolated from the bake, not encoded", held_out.interpolated);
     page.add_table(table);
     page.add_link("held_out.csv");
 }

@@ -40,10 +40,12 @@ std::string file_stem(const std::filesystem::path& bake) {
 std::string encode_command(const std::filesystem::path& bake, const TradeSettings& settings) {
     const std::string stem = file_stem(bake);
     const auto encode = [&](const std::filesystem::path& from) {
+        const std::string geometry =
+            settings.geometry_error.empty() ? "" : " --geometry-error " + settings.geometry_error;
         return fmt::format(
-            "paim-compress encode {} -o {} --max-error {} --codec {} --prefer {} --bands {}",
-            path_word(from), path_word(stem + ".paim"), settings.max_error, settings.codec,
-            preference_name(settings.preference), settings.bands);
+            "paim-compress encode {} -o {} --max-error {}{} --codec {} --prefer {} --bands {}",
+            path_word(from), path_word(stem + ".paim"), settings.max_error, geometry,
+            settings.codec, preference_name(settings.preference), settings.bands);
     };
     if (settings.rays == 0) return encode(bake);
     const std::string other = fmt::format("{}-{}.bake", stem, settings.rays);

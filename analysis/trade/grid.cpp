@@ -21,10 +21,15 @@ std::vector<uint32_t> usual_bands(uint32_t baked) {
 }
 
 std::vector<TradeSettings> points_of(uint32_t bands, const std::string& max_error) {
+    const std::string finer =
+        max_error_text(max_error_of(max_error) * kGeometryPerTransferError / kFinerGeometry);
     std::vector<TradeSettings> points;
-    for (const TransferEncoderType& type : transfer_encoders()) {
-        for (const Preference preference : {Preference::size, Preference::speed}) {
-            points.push_back({bands, std::string(type.codec), preference, max_error});
+    for (const std::string& geometry_error : {std::string(), finer}) {
+        for (const TransferEncoderType& type : transfer_encoders()) {
+            for (const Preference preference : {Preference::size, Preference::speed}) {
+                points.push_back(
+                    {bands, std::string(type.codec), preference, max_error, geometry_error});
+            }
         }
     }
     return points;
@@ -36,6 +41,11 @@ double max_error_of(const std::string& text) {
 
 double TradeSettings::transfer_error() const {
     return max_error_of(max_error);
+}
+
+double TradeSettings::geometry_target() const {
+    return geometry_error.empty() ? kGeometryPerTransferError * transfer_error()
+                                  : max_error_of(geometry_error);
 }
 
 std::string max_error_text(double error) {

@@ -19,7 +19,11 @@ constexpr uint32_t kFewestUsualBands = 3;
 // All of kFewestUsualBands to those of the bake, descending.
 std::vector<uint32_t> usual_bands(uint32_t baked);
 
-// Points of so many bands and this error: each codec for each preference.
+// Positions are coded to the default --geometry-error, and to one that is so many times smaller: errors of
+// positions are seen at outlines, and often more than those of the transfer.
+constexpr double kFinerGeometry = 4.0;
+
+// Points of so many bands and this error: both errors of the geometry, each codec, each preference.
 std::vector<TradeSettings> points_of(uint32_t bands, const std::string& max_error);
 
 // Such an error as it is written: four digits, in percent. Above 0, below 1.

@@ -111,13 +111,15 @@ std::vector<Bracket> promising(std::vector<Bracket> all, const TradeLimit& limit
 
 std::vector<Bracket> brackets(const std::vector<TradePoint>& points, const TradeLimit& limit,
                               TradeError kind) {
-    using Family = std::tuple<uint32_t, std::string, Preference>;
+    using Family = std::tuple<uint32_t, std::string, Preference, bool>;
     std::map<Family, std::vector<const TradePoint*>> families;
     for (const TradePoint& point : points) {
         const TradeSettings& settings = point.settings;
         // Other bakes are gone by now.
         if (std::isnan(error_of(point, kind)) || settings.rays != 0) continue;
-        families[{settings.bands, settings.codec, settings.preference}].push_back(&point);
+        families[{settings.bands, settings.codec, settings.preference,
+                  settings.geometry_error.empty()}]
+            .push_back(&point);
     }
     std::vector<Bracket> result;
     for (auto& [family, members] : families) {
@@ -162,6 +164,10 @@ void refine_points(std::vector<TradePoint>& points, const TradeLimit& limit,
             const auto error = next_error(bracket, limit, kind);
             if (!error) continue;
             TradeSettings settings = bracket.within.settings;
+            if (!settings.geometry_error.empty()) {  // in the same ratio
+                settings.geometry_error = max_error_text(
+                    settings.geometry_target() * max_error_of(*error) / settings.transfer_error());
+            }
             settings.max_error = *error;
             ++bracket.num_tried;
             std::optional<TradePoint> point = measure(settings);

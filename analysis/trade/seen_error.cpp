@@ -43,20 +43,26 @@ double visual_error(const Asset& asset, const BakeReader& bake, const Stage& sta
 
 double frame_ms(const Asset& asset, const Stage& stage) {
     Playback playback(std::make_shared<const Asset>(asset));
-    playback.set_light(DistantLight(stage.lights().front().coefficients));
-    return time_poses(
-               asset.num_poses(), [&](uint32_t p) { playback.update(p); }, kMostSeconds)
-        .median_ms;
+    const DistantLight light(stage.lights().front().coefficients);
+    const auto frame = [&](uint32_t p) {
+        playback.set_light(light);  // else a single pose would be no work
+        playback.update(p);
+    };
+    return time_poses(asset.num_poses(), frame, kMostSeconds).median_ms;
 }
 
 }  // namespace
 
-PlayFile play_on_stage(const BakeReader& bake, const Stage& stage,
-                       const ReferenceSource& reference) {
+PlayFile play_on_stage(const BakeReader& bake, const Stage& stage, const ReferenceSource& reference,
+                       std::vector<double>& noise) {
+    RelativeNoise relative(stage.lights().size());
     auto references = std::make_shared<ReferenceImages>();
     for (const uint32_t p : stage.poses()) {
-        references->push_back(reference(p, baked_pose(bake, p, bake.read_pose(p))).pictures);
+        ReferencePictures pictures = reference(p, baked_pose(bake, p, bake.read_pose(p)));
+        relative.add(pictures);
+        references->push_back(std::move(pictures.pictures));
     }
+    noise = relative.relative();
     return [&bake, &stage, references = std::move(references)](const Asset& asset) {
         return PlayedFile{visual_error(asset, bake, stage, *references), frame_ms(asset, stage)};
     };

@@ -9,6 +9,7 @@
 
 #include "analysis/trade/grid.h"
 #include "paim/base/error.h"
+#include "paim/base/file.h"
 #include "paim/codec/frame_cost.h"
 #include "paim/format/paim/paim_read.h"
 #include "paim/metrics/rates.h"
@@ -61,7 +62,9 @@ Sweep::Sweep(const BakeReader& bake, std::string name, std::filesystem::path scr
       name_(std::move(name)),
       scratch_(std::move(scratch)),
       play_(std::move(play)),
-      memory_bytes_(memory_bytes) {}
+      memory_bytes_(memory_bytes) {
+    remove_abandoned_versions(scratch_);
+}
 
 TargetSeries& Sweep::series_of(uint32_t bands) {
     if (series_ && series_bands_ == bands) return *series_;
@@ -78,6 +81,9 @@ TargetSeries& Sweep::series_of(uint32_t bands) {
 EncodeTarget Sweep::target_of(const TradeSettings& settings) const {
     EncodeTarget target;
     target.transfer_error = settings.transfer_error();
+    if (!settings.geometry_error.empty()) {
+        target.geometry_error = max_error_of(settings.geometry_error);
+    }
     target.codec = settings.codec;
     target.preference = settings.preference;
     target.spectrum = BandPower::flat(bake_.identity().layout.in_bands);
@@ -115,18 +121,21 @@ std::optional<TradePoint> Sweep::measure(const TradeSettings& settings) {
         TargetSeries& series = series_of(settings.bands);
         const EncodeTarget target = target_of(settings);
         const double prepare_s = seconds_of([&] { series.prepare(target); });
-        prepare_s_.try_emplace(settings.max_error, prepare_s);
+        const std::string key = settings.max_error + "/" + settings.geometry_error;
+        prepare_s_.try_emplace(key, prepare_s);
         TargetSummary summary;
         const double encode_s = seconds_of([&] { summary = series.encode(target, scratch_); });
         TradePoint point = point_of(settings, summary);
         point.encode_s = encode_s;
-        point.shared_s = series_s_ + prepare_s_.at(settings.max_error);
+        point.shared_s = series_s_ + prepare_s_.at(key);
         return point;
     } catch (const Error& error) {
         if (!is_of_settings(error)) throw;
-        notes_.push_back(fmt::format("{}, --max-error {}, --codec {}, --prefer {} is left out: {}",
-                                     bands_text(settings.bands), settings.max_error, settings.codec,
-                                     preference_name(settings.preference), error.what()));
+        notes_.push_back(fmt::format(
+            "{}, --max-error {}{}, --codec {}, --prefer {} is left out: {}",
+            bands_text(settings.bands), settings.max_error,
+            settings.geometry_error.empty() ? "" : " --geometry-error " + settings.geometry_error,
+            settings.codec, preference_name(settings.preference), error.what()));
         return std::nullopt;
     }
 }

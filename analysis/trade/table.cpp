@@ -33,6 +33,7 @@ void add_settings(const TradePoint& point, std::vector<Column>& columns) {
     columns.push_back({"codec", "", settings.codec});
     columns.push_back({"preference", "", preference_name(settings.preference)});
     columns.push_back({"max_error", "fraction", settings.transfer_error()});
+    columns.push_back({"geometry_error", "of the diagonal", settings.geometry_target()});
     columns.push_back({"refined", "", point.refined});
     columns.push_back({"on_front", "", point.on_front});
     columns.push_back({"geometry_components", "", point.geometry_components});
@@ -62,7 +63,8 @@ void add_errors(const TradePoint& point, std::vector<Column>& columns) {
     columns.push_back({"position_relative_rms", "of the diagonal", error.geometry.relative_rms()});
     columns.push_back({"kg_error", "percent", error.geometry.kg_error()});
     columns.push_back({"sted_worst_piece", "fraction", error.shape.worst.sted()});
-    columns.push_back({"normal_angle_worst_piece", "degrees", error.shape.worst.normal_angle_deg});
+    columns.push_back(
+        {"normal_angle_deg_worst_piece", "degrees", error.shape.worst.normal_angle_deg});
 }
 
 void add_times(const TradePoint& point, std::vector<Column>& columns) {

@@ -65,7 +65,7 @@ void refine_trade(Sweep& sweep, const TradeLimit& limit, Trade& trade, bool quie
 void add_other_bake(const BakeReader& bake, uint32_t rays, const std::vector<uint32_t>& bands,
                     const std::vector<std::string>& errors, const std::filesystem::path& scratch,
                     const PlayFile& play, Trade& trade, bool quiet) {
-    const ScratchDirectory directory(scratch / fmt::format("sweep-{}.tmp", rays));
+    const ScratchDirectory directory(scratch, fmt::format("sweep-{}", rays));
     const std::filesystem::path path = directory.path() / "other.bake";
     cli::Progress baking(fmt::format("baking {} rays", rays), "poses", bake.num_poses(), quiet);
     const auto start = std::chrono::steady_clock::now();

@@ -24,10 +24,14 @@ struct TradeSettings {
     // --max-error as it is written: "3.5%". What is parsed from it is exactly what the file is made
     // for.
     std::string max_error;
+    // --geometry-error as it is written: "0.03%"; empty: its default, kGeometryPerTransferError of the
+    // above.
+    std::string geometry_error = "";
     // Of another bake of the same poses, which has so many rays a vertex; 0: of the given bake.
     uint32_t rays = 0;
 
-    double transfer_error() const;  // 0 … 1
+    double transfer_error() const;   // 0 … 1
+    double geometry_target() const;  // RMS distance, relative to the diagonal
     bool operator==(const TradeSettings&) const = default;
 };
 

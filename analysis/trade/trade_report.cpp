@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "analysis/gnuplot.h"
-#include "analysis/trade/encode_command.h"
 
 namespace paim {
 
@@ -54,14 +53,14 @@ void write_trade_plot(const std::filesystem::path& output, const Trade& trade,
         std::filesystem::remove(output, ignored);
         return;
     }
-    std::string script = gnuplot_begin(output, "Cost against error");
+    std::string script = gnuplot_begin(output, y_label + " against error");
     script += fmt::format(
         "set xlabel '{}, percent'\nset ylabel {}\nset logscale xy\nset format '%g'\nset grid\n"
         "set key outside right top\nset terminal svg size 760,420 noenhanced font 'sans,13' "
         "background 'white'\n",
         error_name(trade.kind), gnuplot_text(y_label));
     script += data_block("front", lower_front(all));
-    std::string plots = "$front using 1:2 with steps lc 'gray' lw 2 title 'best'";
+    std::string plots = "$front using 1:2 with steps lc 'gray' lw 2 title 'Pareto front'";
     size_t n = 0;
     for (const auto& [name, places] : series) {
         script += data_block(fmt::format("data{}", n), places);
@@ -78,6 +77,7 @@ std::vector<std::string> row_of(const TradePoint& point, TradeError kind) {
         numbers += fmt::format("{}{} {}", numbers.empty() ? "" : ", ", one.value, one.name);
     }
     return {point.settings.max_error,
+            fmt::format("{:.2g} %", 100.0 * point.settings.geometry_target()),
             point.settings.codec,
             preference_name(point.settings.preference),
             std::to_string(point.settings.bands),
@@ -101,22 +101,20 @@ void write_trade_plots(const std::filesystem::path& directory, const Trade& trad
         [](const TradePoint& point) { return static_cast<double>(point.multiply_adds); });
 }
 
-void add_trade(Page& page, const std::filesystem::path& bake, const Trade& trade) {
+void add_trade(Page& page, const std::filesystem::path& bake, const Trade& trade,
+               const std::string& seen_by) {
     page.add_heading("Cost against error");
     page.add_paragraph(fmt::format(
-        "Each point is a file of this bake, made with other settings and measured. Below are the files "
-        "that no other is as good as in all of {}, bytes and multiply-adds; all {} are in trade.csv.",
-        error_name(trade.kind), trade.points.size()));
+        "Each point is a file of this bake, made with other settings and measured. In the table are the "
+        "files that no other file beats in {}, bytes and multiply-adds of the lit transfer at once; all {} "
+        "are in trade.csv. The {} is {}.",
+        error_name(trade.kind), trade.points.size(), error_name(trade.kind), seen_by));
     if (trade.best) {
-        const TradePoint& best = trade.points[*trade.best];
-        page.add_paragraph(fmt::format(
-            "For {}: {} gives {} bytes, {} multiply-adds a vertex and frame, a {} of {}.",
-            limit_text(*trade.limit, trade.kind), encode_command(bake, best.settings),
-            best.size_bytes, best.multiply_adds, error_name(trade.kind),
-            percent_text(error_of(best, trade.kind))));
+        page.add_paragraph("For " + limit_text(*trade.limit, trade.kind) + ", of the files tried:");
+        page.add_code(recommendation_text(bake, trade));
     }
     page.add_plots({kTradePlots[0], kTradePlots[1]});
-    PageTable table{{"--max-error", "--codec", "--prefer", "--bands",
+    PageTable table{{"max-error", "geometry-error", "codec", "prefer", "bands",
                      "components of geometry, transfer", "codec's numbers", error_name(trade.kind),
                      "transfer error", "bytes", "multiply-adds", "frame, ms", "encode, s"}};
     std::vector<const TradePoint*> front;

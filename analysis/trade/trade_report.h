@@ -15,6 +15,8 @@ inline constexpr const char* kTradePlots[] = {"trade_bytes.svg", "trade_cost.svg
 // Errors: those of run_gnuplot().
 void write_trade_plots(const std::filesystem::path& directory, const Trade& trade);
 
-void add_trade(Page& page, const std::filesystem::path& bake, const Trade& trade);
+// seen_by  what visual errors are of: "the larger one of venice and forest, against the bake"
+void add_trade(Page& page, const std::filesystem::path& bake, const Trade& trade,
+               const std::string& seen_by);
 
 }  // namespace paim

@@ -32,7 +32,7 @@ struct BakeOptions {
     double transfer_error = 0.0;
     SamplerKind sampler = SamplerKind::cosine;
     Streams streams = Streams::per_pose;
-    uint32_t bounces = 0;  // number of times that light bounces, 0 … kMaxBounces (bounces.h)
+    uint32_t bounces = 0;  // number of times that light bounces, 0 … kMaxBounces (bake_directory.h)
 };
 
 // How the halves of the rays of a vertex go together: independent if only one of them is shared.

@@ -16,8 +16,6 @@
 
 namespace paim {
 
-constexpr uint32_t kMaxBounces = 16;
-
 // The contribution of light that bounced b times to the transfer of each half, [2][channels][V][C].
 using BounceTerm = std::array<std::vector<float>, 2>;
 

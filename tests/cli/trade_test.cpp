@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -65,7 +66,7 @@ class TradeTest : public ToolTest {
         expect_near("position_worst", point["position_worst"]);
         expect_near("kg_error", point["kg_error"]);
         expect_near("sted_worst_piece", point["sted_worst_piece"]);
-        expect_near("normal_angle_deg_worst_piece", point["normal_angle_worst_piece"]);
+        expect_near("normal_angle_deg_worst_piece", point["normal_angle_deg_worst_piece"]);
         std::filesystem::remove(file);
     }
 
@@ -79,14 +80,14 @@ std::vector<std::string> fields(const std::string& line) {
     return all;
 }
 
-// The lines of trade.csv without times, which are the last three columns.
+// The lines of trade.csv without times, which are the last four columns.
 std::string without_times(const std::filesystem::path& csv) {
     std::ifstream file(csv);
     std::string text;
     for (std::string line; std::getline(file, line);) {
         std::vector<std::string> all = fields(line);
-        EXPECT_GT(all.size(), 3u);
-        all.resize(all.size() - 3);
+        EXPECT_GT(all.size(), 4u);
+        all.resize(all.size() - 4);
         for (const std::string& field : all) text += field + ',';
         text += '\n';
     }
@@ -170,6 +171,26 @@ TEST_F(TradeTest, ALimitThatNoFileIsWithinEndsWithExitCode5) {
         << result.err;
     // What was measured is there.
     EXPECT_FALSE(trade()["points"].empty());
+}
+
+// Other bakes are made and removed; their files are among the points, and are named by their rays.
+TEST_F(TradeTest, BakesAgainWithOtherNumbersOfRays) {
+    expect_success(
+        analyze(sweep({"--sweep-rays", "16,64", "--sweep-errors", "30%", "--sweep-bands", "4"})));
+    const json points = trade()["points"];
+    std::map<int, std::vector<json>> by_rays;
+    for (const json& point : points) by_rays[point["rays"]].push_back(point);
+    ASSERT_EQ(by_rays.size(), 3u);
+    for (const auto& [rays, of_rays] : by_rays) {
+        EXPECT_EQ(of_rays.size(), by_rays[0].size()) << rays;
+        for (const json& point : of_rays) EXPECT_EQ(point["bake"].is_null(), rays == 0);
+    }
+    EXPECT_NE(by_rays[16][0]["size"], by_rays[64][0]["size"]);
+    for (const auto& [name, bytes] : contents_of(path("out"))) {
+        EXPECT_FALSE(contains(name, ".tmp")) << name;
+    }
+    expect_failure(analyze(sweep({"--sweep-rays", "16,3"})), 1,
+                   {"--sweep-rays: expected even numbers"});
 }
 
 TEST_F(TradeTest, WithoutTheOptionsThereIsNoSweep) {

@@ -195,6 +195,7 @@ const RefinedPositions* PositionFinder::refine(const PositionCoding& coding,
     const std::pair asked(coding, target);
     if (refined_for_ != asked) {
         refined_.reset();  // first, so that there is memory
+        refined_for_.reset();
         refined_ = refine_positions(problem_, coding, target);
         refined_for_ = asked;
     }

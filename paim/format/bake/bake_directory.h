@@ -17,6 +17,9 @@
 
 namespace paim {
 
+// How often light may bounce.
+constexpr uint32_t kMaxBounces = 16;
+
 // Everything that decides the bytes of a bake. Bakes with the same identity may share a directory.
 struct BakeIdentity {
     uint32_t baker = 0;  // version of the baker, raised whenever its results change
@@ -27,7 +30,7 @@ struct BakeIdentity {
     std::string sampler;          // "cosine", "uniform" or "uniform-sobol"
     std::string streams;          // "per-pose", "shared" or "mixed"
     std::string normals;          // "faces" or "file"
-    uint32_t bounces = 0;         // number of times that light bounces
+    uint32_t bounces = 0;         // number of times that light bounces, 0 … kMaxBounces
     std::string floor;            // description of the ground under the poses; empty if none
     uint32_t num_vertices = 0;
     uint32_t num_triangles = 0;

@@ -144,7 +144,7 @@ BakeIdentity parse_manifest(std::string_view text, const std::string& file) {
     identity.seed = parse_hex(metadata.text("seed"), file, "seed");
     identity.normals = metadata.text("normals");
     if (metadata.root().contains("bounces")) {
-        identity.bounces = metadata.integer("bounces", 0, kMaxCount);
+        identity.bounces = metadata.integer("bounces", 0, kMaxBounces);
     }
     if (metadata.root().contains("floor")) identity.floor = metadata.text("floor");
     identity.num_vertices = metadata.integer("num_vertices", 1, kMaxCount);

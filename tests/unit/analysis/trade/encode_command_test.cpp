@@ -54,8 +54,15 @@ TEST(EncodeCommand, NamesEverySetting) {
               "size --bands 3");
 }
 
+TEST(EncodeCommand, NamesTheErrorOfTheGeometryWhereItIsNotTheDefault) {
+    EXPECT_EQ(
+        encode_command("x.bake", {5, "any", Preference::size, "5%", "0.025%"}),
+        "paim-compress encode x.bake -o x.paim --max-error 5% --geometry-error 0.025% --codec "
+        "any --prefer size --bands 5");
+}
+
 TEST(EncodeCommand, AnotherBakeComesFirst) {
-    EXPECT_EQ(encode_command("d/octopus.bake", {5, "any", Preference::size, "5%", 64}),
+    EXPECT_EQ(encode_command("d/octopus.bake", {5, "any", Preference::size, "5%", "", 64}),
               "paim-compress bake POSES -o octopus-64.bake --rays 64 && paim-compress encode "
               "octopus-64.bake -o octopus.paim --max-error 5% --codec any --prefer size --bands 5");
 }

@@ -30,6 +30,7 @@ TargetSummary encode_alone(const BakeReader& bake, const TradeSettings& settings
     options.name = output.stem().string();
     EncodeTarget target;
     target.transfer_error = settings.transfer_error();
+    if (!settings.geometry_error.empty()) target.geometry_error = settings.geometry_target();
     target.codec = settings.codec;
     target.preference = settings.preference;
     target.spectrum = BandPower::flat(4);
@@ -47,9 +48,9 @@ TEST_F(SweepTest, PointsAreTheFilesOfSingleEncodes) {
     std::vector<TradePoint> points;
     uint64_t num_done = 0;
     sweep.measure_all(4, {"20%", "5%"}, points, [&](uint64_t n) { num_done += n; });
-    ASSERT_EQ(points.size(), 8u);
-    ASSERT_EQ(swept.size(), 8u);
-    EXPECT_EQ(num_done, 8u);
+    ASSERT_EQ(points.size(), 16u);
+    ASSERT_EQ(swept.size(), 16u);
+    EXPECT_EQ(num_done, 16u);
     EXPECT_TRUE(sweep.notes().empty());
     EXPECT_FALSE(std::filesystem::exists(scratch_));
     const std::filesystem::path output = directory_ / "sheet.paim";
@@ -78,8 +79,8 @@ TEST_F(SweepTest, ErrorsThatTheBakeCannotReachAreLeftOutWithANote) {
     std::vector<TradePoint> points;
     uint64_t num_done = 0;
     sweep.measure_all(4, {"10%", "0.1%", "0.01%"}, points, [&](uint64_t n) { num_done += n; });
-    EXPECT_EQ(points.size(), 4u);
-    EXPECT_EQ(num_done, 12u);
+    EXPECT_EQ(points.size(), 8u);
+    EXPECT_EQ(num_done, 24u);
     ASSERT_EQ(sweep.notes().size(), 1u);
     EXPECT_TRUE(sweep.notes()[0].starts_with("4 bands have "));
     EXPECT_TRUE(sweep.notes()[0].ends_with(" % at best: 0.1%, 0.01% are left out"))
@@ -97,7 +98,7 @@ TEST_F(SweepTest, BandsThatDoNotFitInMemoryAreLeftOutWithANote) {
     uint64_t num_done = 0;
     sweep.measure_all(4, {"20%", "10%"}, points, [&](uint64_t n) { num_done += n; });
     EXPECT_TRUE(points.empty());
-    EXPECT_EQ(num_done, 8u);
+    EXPECT_EQ(num_done, 16u);
     ASSERT_EQ(sweep.notes().size(), 1u);
     EXPECT_TRUE(sweep.notes()[0].starts_with("4 bands are left out: ")) << sweep.notes()[0];
     EXPECT_NE(sweep.notes()[0].find("--memory allows 1 MB"), std::string::npos);
@@ -151,7 +152,7 @@ TEST_F(SweepTest, BandsBeyondThoseOfTheBakeAreLeftOutWithANote) {
     EXPECT_EQ(trade.notes[0], "9 bands are left out: the bake has 4");
     EXPECT_EQ(trade.notes[1], "7 bands are left out: the bake has 4");
     // Each once, though 20% is there twice.
-    EXPECT_EQ(trade.points.size(), 4u);
+    EXPECT_EQ(trade.points.size(), 8u);
 }
 
 }  // namespace

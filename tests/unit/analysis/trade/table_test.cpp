@@ -77,10 +77,10 @@ TEST(TradeTable, NumbersAreUnderTheirNames) {
     for (const TransferEncoderType& type : transfer_encoders()) {
         for (const char* const name : type.words.numbers) EXPECT_EQ(field(name), "77");
     }
-    EXPECT_EQ((std::vector<std::string>(header.end() - 3, header.end())),
-              (std::vector<std::string>{"encode [s]", "shared [s]", "frame [ms]"}));
-    EXPECT_EQ((std::vector<std::string>(line.end() - 3, line.end())),
-              (std::vector<std::string>{"1.5", "2.5", "0.25"}));
+    EXPECT_EQ((std::vector<std::string>(header.end() - 4, header.end())),
+              (std::vector<std::string>{"encode [s]", "shared [s]", "frame [ms]", "bake [s]"}));
+    EXPECT_EQ((std::vector<std::string>(line.end() - 4, line.end())),
+              (std::vector<std::string>{"1.5", "2.5", "0.25", "nan"}));
 }
 
 TEST(TradeTable, WhatWasNotMeasuredIsNullInJson) {
