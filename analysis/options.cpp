@@ -46,10 +46,14 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
     double azimuth_deg = kDefaultAzimuth_rad * 180.0 / kPi;
     double elevation_deg = kDefaultElevation_rad * 180.0 / kPi;
     CLI::App app(
-        "Measures what components and bands cost in accuracy, bytes and time, and what they save.\n"
-        "Writes CSV tables, SVG curves, images and an index.html that shows them together.\n"
-        "With --verify, measures a .paim against its bake instead: whether it is as good as it "
-        "says.",
+        "Measures what accuracy costs, and what is lost without it. Each question has an option:\n"
+        "  --curves    how does the error fall with components and bands?\n"
+        "  --budget    where does the error of a file come from, against traced light?\n"
+        "  --compare   which of these files is better?\n"
+        "  --target    which file looks right to 1 %, and how is it made?\n"
+        "  --temporal  does a file flicker? (--held-out: what do poses between others cost?)\n"
+        "  --verify    is a file as good as it says?\n"
+        "Writes CSV tables, SVG charts, pictures and an index.html that shows them together.",
         "paim-analyze");
     app.set_version_flag("--version", cli::version_text("paim-analyze"));
     app.footer(
@@ -66,20 +70,24 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
                  "Measure curves of components and bands, which is what is done unless something "
                  "else is asked for (--compare, --budget, --temporal, --held-out, --sweep)");
     app.add_option(
-        "--compare", options.compare,
-        "Files (.paim) made from this bake: one table of what they take and what they err, "
-        "and their pictures side by side");
+           "--compare", options.compare,
+           "Files (.paim) made from this bake: one table of what they take and what they err, "
+           "and their pictures side by side")
+        ->type_name("FILE");
     app.add_option("--temporal", options.temporal,
                    "A .paim made from this bake: measure its flicker, the error of the change from "
-                   "pose to pose");
+                   "pose to pose")
+        ->type_name("FILE");
     app.add_option(
-        "--held-out", held_out,
-        "Encode every other pose to this transfer error, such as 5%, and compare the poses "
-        "in between with their own bakes");
+           "--held-out", held_out,
+           "Encode every other pose to this transfer error, such as 5%, and compare the poses "
+           "in between with their own bakes")
+        ->type_name("ERROR");
     app.add_option(
-        "--budget", options.budget,
-        "A .paim made from this bake: find how much of its difference from traced pictures "
-        "comes from interpolation, bands, noise, truncation and quantisation");
+           "--budget", options.budget,
+           "A .paim made from this bake: find how much of its difference from traced pictures "
+           "comes from interpolation, bands, noise, truncation and coding")
+        ->type_name("FILE");
     app.add_option("--env", options.environments,
                    "Environment map (OpenEXR) of the light; may be given several times; default: "
                    "the built-in sky");
@@ -133,10 +141,11 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
         "states; exit code 5 if one is larger (by more than 0.000001 of it, for rounding). A note "
         "says if the file was made from another bake of this mesh");
     // All options added so far are about other measurements.
-    for (CLI::Option* const option : app.get_options()) {
+    std::vector<const CLI::Option*> not_with_verify;
+    for (const CLI::Option* const option : app.get_options()) {
         const std::string name = option->get_name();
         if (name == "BAKE" || name == "--help" || name == "--version" || option == verify) continue;
-        verify->excludes(option);
+        not_with_verify.push_back(option);
     }
     app.add_option("--light-spectrum", options.band_power,
                    "What errors of the transfer are weighted with: 'flat' (random light of the "
@@ -151,6 +160,11 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
     app.add_flag("--quiet", options.quiet, "Show no progress");
     exit_code = cli::parse(app, argc, argv);
     if (exit_code >= 0) return std::nullopt;
+    for (const CLI::Option* const option : not_with_verify) {
+        if (verify->count() > 0 && option->count() > 0) {
+            throw_usage("--verify excludes {}", option->get_name());
+        }
+    }
     if (options.verify.empty() && options.output.empty()) throw_usage("--output is required");
     for (const char* const name : {"--budget", "--temporal", "--held-out", "--verify"}) {
         const CLI::Option* const option = app.get_option(name);
