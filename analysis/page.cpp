@@ -15,17 +15,20 @@ namespace {
 
 constexpr float kDifferenceGain = 4.0f;
 
+// Bytes of a cell from which on it is a sentence.
+constexpr size_t kLongCell = 20;
+
 constexpr const char* kStyle =
     "body{font:15px/1.5 system-ui,sans-serif;margin:2em auto;max-width:78em;padding:0 "
     "1em;color:#222}"
     "h1,h2{font-weight:600}table{border-collapse:collapse;margin:1em 0}"
     ".wide{overflow-x:auto}dt{font-weight:600;float:left;margin-right:.5em}dd{margin:0 0 .2em 0}"
     "th,td{padding:.2em .55em;font-size:14px;text-align:right;border-bottom:1px solid #ddd}"
-    "td{white-space:nowrap}td:first-child,th:first-child{text-align:left}"
+    "td{white-space:nowrap}td.text{white-space:normal;text-align:left;min-width:16em}td:first-child,th:first-child{text-align:left}"
     ".strip{display:flex;gap:6px;overflow-x:auto;margin:.5em 0}.strip figure{margin:0;flex-shrink:0}pre{overflow-x:auto;background:#f4f4f4;padding:.6em}"
-    ".strip img{width:180px;height:180px;display:block;background:#000}"
-    ".none{width:180px}"
-    "figcaption{font-size:13px;text-align:center;color:#555;max-width:180px}"
+    ".strip img{width:136px;height:136px;display:block;background:#000}"
+    ".none{width:136px}"
+    "figcaption{font-size:13px;text-align:center;color:#555;max-width:136px}"
     ".plots{display:flex;flex-wrap:wrap;gap:8px}.plots img{width:49%;min-width:520px}";
 
 }  // namespace
@@ -100,7 +103,9 @@ void Page::add_table(const PageTable& table) {
         const char* const tag = row == 0 ? "th" : "td";
         html_ += "<tr>";
         for (const std::string& cell : table[row]) {
-            html_ += fmt::format("<{0}>{1}</{0}>", tag, escape_html(cell));
+            // Sentences may have several lines, numbers may not.
+            const char* const style = cell.size() > kLongCell ? " class=\"text\"" : "";
+            html_ += fmt::format("<{0}{2}>{1}</{0}>", tag, escape_html(cell), style);
         }
         html_ += "</tr>\n";
     }
