@@ -36,36 +36,18 @@ std::vector<uint32_t> parse_list(const std::string& text, const std::string& opt
     }
 }
 
-}  // namespace
-
-std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, int& exit_code) {
-    AnalyzeOptions options;
+// Values whose form is checked after parsing.
+struct RawValues {
     std::string components = "20,7,4,2";
     std::string bands = "7,4,2";
     std::string held_out;
     double azimuth_deg = kDefaultAzimuth_rad * 180.0 / kPi;
     double elevation_deg = kDefaultElevation_rad * 180.0 / kPi;
-    CLI::App app(
-        "Measures what accuracy costs, and what is lost without it. Each question has an option:\n"
-        "  --curves    how does the error fall with components and bands?\n"
-        "  --budget    where does the error of a file come from, against traced light?\n"
-        "  --compare   which of these files is better?\n"
-        "  --target    which file looks right to 1 %, and how is it made?\n"
-        "  --temporal  does a file flicker? (--held-out: what do poses between others cost?)\n"
-        "  --verify    is a file as good as it says?\n"
-        "Writes CSV tables, SVG charts, pictures and an index.html that shows them together.",
-        "paim-analyze");
-    app.set_version_flag("--version", cli::version_text("paim-analyze"));
-    app.footer(
-        "Errors are fractions: theory_error is the share of the singular values that is dropped "
-        "(E5),\n"
-        "energy_error its root-mean-square form, visual_error what is seen in rendered images "
-        "(E6).\n"
-        "Exit codes: 0 ok, 1 usage, 2 bad input, 3 unsupported, 4 output failed, 5 an error is "
-        "larger than stated, or no file of the sweep is within the target.");
-    app.add_option("BAKE", options.bake_directory, "The .bake directory to measure")->required();
-    app.add_option("-o,--output", options.output,
-                   "Directory for the results, required without --verify");
+    TradeArguments trade;
+};
+
+// What is to be measured.
+void add_questions(CLI::App& app, AnalyzeOptions& options, RawValues& raw) {
     app.add_flag("--curves", options.curves,
                  "Measure curves of components and bands, which is what is done unless something "
                  "else is asked for (--compare, --budget, --temporal, --held-out, --sweep)");
@@ -79,7 +61,7 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
                    "pose to pose")
         ->type_name("FILE");
     app.add_option(
-           "--held-out", held_out,
+           "--held-out", raw.held_out,
            "Encode every other pose to this transfer error, such as 5%, and compare the poses "
            "in between with their own bakes")
         ->type_name("ERROR");
@@ -88,12 +70,16 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
            "A .paim made from this bake: find how much of its difference from traced pictures "
            "comes from interpolation, bands, noise, truncation and coding")
         ->type_name("FILE");
+}
+
+// How pictures are made, and what they are compared with.
+void add_pictures(CLI::App& app, AnalyzeOptions& options, RawValues& raw) {
     app.add_option("--env", options.environments,
                    "Environment map (OpenEXR) of the light; may be given several times; default: "
                    "the built-in sky");
-    app.add_option("--components", components, "Component counts to measure, besides all")
+    app.add_option("--components", raw.components, "Component counts to measure, besides all")
         ->capture_default_str();
-    app.add_option("--bands", bands,
+    app.add_option("--bands", raw.bands,
                    "Band counts to measure, besides all; those above the bake's are left out")
         ->capture_default_str();
     cli::add_choice<ReferenceKind>(
@@ -125,16 +111,45 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
                    "Poses that are rendered, evenly spaced over the sequence, 1 to 1048576")
         ->check(cli::in_range(1u, 1u << 20))
         ->capture_default_str();
-    app.add_option("--azimuth", azimuth_deg,
+    app.add_option("--azimuth", raw.azimuth_deg,
                    "Camera angle about +Y, degrees, -360 to 360; 0 looks along -Z")
         ->check(cli::in_range(-360.0, 360.0))
         ->capture_default_str();
-    app.add_option("--elevation", elevation_deg,
+    app.add_option("--elevation", raw.elevation_deg,
                    "Camera angle above the horizon, degrees, -89 to 89")
         ->check(cli::in_range(-89.0, 89.0))
         ->capture_default_str();
-    TradeArguments trade;
-    add_trade_options(app, trade);
+}
+
+}  // namespace
+
+std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, int& exit_code) {
+    AnalyzeOptions options;
+    RawValues raw;
+    CLI::App app(
+        "Measures what accuracy costs, and what is lost without it. Each question has an option:\n"
+        "  --curves    how does the error fall with components and bands?\n"
+        "  --budget    where does the error of a file come from, against traced light?\n"
+        "  --compare   which of these files is better?\n"
+        "  --target    which file looks right to 1 %, and how is it made?\n"
+        "  --temporal  does a file flicker? (--held-out: what do poses between others cost?)\n"
+        "  --verify    is a file as good as it says?\n"
+        "Writes CSV tables, SVG charts, pictures and an index.html that shows them together.",
+        "paim-analyze");
+    app.set_version_flag("--version", cli::version_text("paim-analyze"));
+    app.footer(
+        "Errors are fractions: theory_error is the share of the singular values that is dropped "
+        "(E5),\n"
+        "energy_error its root-mean-square form, visual_error what is seen in rendered images "
+        "(E6).\n"
+        "Exit codes: 0 ok, 1 usage, 2 bad input, 3 unsupported, 4 output failed, 5 an error is "
+        "larger than stated, or no file of the sweep is within the target.");
+    app.add_option("BAKE", options.bake_directory, "The .bake directory to measure")->required();
+    app.add_option("-o,--output", options.output,
+                   "Directory for the results, required without --verify");
+    add_questions(app, options, raw);
+    add_pictures(app, options, raw);
+    add_trade_options(app, raw.trade);
     CLI::Option* const verify = app.add_option(
         "--verify", options.verify,
         "A .paim made from this bake: measure its errors again and compare them with those that it "
@@ -172,13 +187,13 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
             throw_usage("{}: expected a value, got none", name);
         }
     }
-    if (!held_out.empty()) options.held_out = cli::parse_share(held_out, "--held-out");
+    if (!raw.held_out.empty()) options.held_out = cli::parse_share(raw.held_out, "--held-out");
     options.lists_were_given = app.count("--components") + app.count("--bands") > 0;
-    options.trade = trade_options(trade);
-    options.components = parse_list(components, "--components", 0, 1u << 20);
-    options.bands = parse_list(bands, "--bands", 1, sh::kMaxBands);
-    options.stage.azimuth_rad = azimuth_deg * kPi / 180.0;
-    options.stage.elevation_rad = elevation_deg * kPi / 180.0;
+    options.trade = trade_options(raw.trade);
+    options.components = parse_list(raw.components, "--components", 0, 1u << 20);
+    options.bands = parse_list(raw.bands, "--bands", 1, sh::kMaxBands);
+    options.stage.azimuth_rad = raw.azimuth_deg * kPi / 180.0;
+    options.stage.elevation_rad = raw.elevation_deg * kPi / 180.0;
     return options;
 }
 
