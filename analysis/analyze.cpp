@@ -100,8 +100,7 @@ std::string summary_of(const BakeReader& bake, const Stage& stage) {
     return fmt::format(
         "{} vertices, {} triangles, {} poses, {} bands. Pictures are of {} of the poses, in {}.",
         bake.identity().num_vertices, bake.identity().num_triangles, bake.num_poses(),
-        bake.identity().layout.in_bands, stage.poses().size(),
-        stage.num_views() == 1 ? "one view" : fmt::format("{} views", stage.num_views()));
+        bake.identity().layout.in_bands, stage.poses().size(), stage.views_text());
 }
 
 }  // namespace

@@ -21,8 +21,8 @@ class FilePoses {
     // At a time in poses.
     DecodedPose pose(double time, const DecodeLimits& limits = {});
 
-    // The still meshes, decoded; nothing if there are none.
-    const std::optional<DecodedPose>& still() const { return still_; }
+    // The still meshes, decoded; nullptr if there are none.
+    const DecodedPose* still() const { return still_ ? &*still_ : nullptr; }
 
   private:
     MeshDecoder decoder_;

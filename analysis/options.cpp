@@ -1,8 +1,6 @@
 // The command line of paim-analyze.
 #include "analysis/options.h"
 
-#include <charconv>
-
 #include "analysis/reference/enough_rays.h"
 #include "analysis/trade/trade_arguments.h"
 #include "paim/base/error.h"
@@ -15,26 +13,6 @@
 namespace paim {
 
 namespace {
-
-// "20,7,4" as numbers, each lowest … highest.
-std::vector<uint32_t> parse_list(const std::string& text, const std::string& option,
-                                 uint32_t lowest, uint32_t highest) {
-    std::vector<uint32_t> values;
-    const char* begin = text.data();
-    const char* end = begin + text.size();
-    while (true) {
-        uint32_t value = 0;
-        const auto [rest, failure] = std::from_chars(begin, end, value);
-        if (failure != std::errc() || (rest != end && *rest != ',') || value < lowest ||
-            value > highest) {
-            throw_usage("{}: expected numbers from {} to {} separated by commas, got '{}'", option,
-                        lowest, highest, text);
-        }
-        values.push_back(value);
-        if (rest == end) return values;
-        begin = rest + 1;
-    }
-}
 
 // Values whose form is checked after parsing.
 struct RawValues {
@@ -190,8 +168,8 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
     if (!raw.held_out.empty()) options.held_out = cli::parse_share(raw.held_out, "--held-out");
     options.lists_were_given = app.count("--components") + app.count("--bands") > 0;
     options.trade = trade_options(raw.trade);
-    options.components = parse_list(raw.components, "--components", 0, 1u << 20);
-    options.bands = parse_list(raw.bands, "--bands", 1, sh::kMaxBands);
+    options.components = cli::parse_list(raw.components, "--components", 0, 1u << 20);
+    options.bands = cli::parse_list(raw.bands, "--bands", 1, sh::kMaxBands);
     options.stage.azimuth_rad = raw.azimuth_deg * kPi / 180.0;
     options.stage.elevation_rad = raw.elevation_deg * kPi / 180.0;
     return options;

@@ -120,6 +120,10 @@ Stage::Stage(const BakeReader& bake, std::vector<NamedLight> lights, const Stage
     }
 }
 
+std::string Stage::views_text() const {
+    return num_views() == 1 ? "one view" : fmt::format("{} views", num_views());
+}
+
 std::vector<Vec3f> Stage::place(const DecodedPose& pose, const DecodedPose* still) const {
     std::vector<float> planes = pose.positions;
     move_to_scene(pose.root, planes, pose.num_following);

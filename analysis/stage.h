@@ -54,6 +54,7 @@ class Stage {
     const std::vector<NamedLight>& lights() const { return lights_; }
     const std::vector<uint32_t>& poses() const { return poses_; }
     size_t num_views() const { return cameras_.size(); }
+    std::string views_text() const;  // "one view", "3 views"
     size_t num_pictures() const { return num_views() * lights_.size(); }
     // Of the bake, by its vertices.
     const PositionOutliers& outliers() const { return outliers_; }

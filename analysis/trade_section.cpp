@@ -20,12 +20,10 @@ namespace {
 std::string seen_by(AnalysisRun& run) {
     std::vector<std::string> names;
     for (const NamedLight& light : run.stage.lights()) names.push_back(light.name);
-    return fmt::format(
-        "{}{}, over {} poses in {}, against {}",
-        names.size() > 1 ? "the largest one of " : "that of ", fmt::join(names, ", "),
-        run.stage.poses().size(),
-        run.stage.num_views() == 1 ? "one view" : fmt::format("{} views", run.stage.num_views()),
-        run.reference_text());
+    return fmt::format("{}{}, over {} poses in {}, against {}",
+                       names.size() > 1 ? "the largest one of " : "that of ",
+                       fmt::join(names, ", "), run.stage.poses().size(), run.stage.views_text(),
+                       run.reference_text());
 }
 
 }  // namespace

@@ -88,14 +88,14 @@ class Chain {
         step(traced(vertices_, p, baked, vertex_noise_));
         DecodedPose truth = truth_.pose(p);
         keep_bands(truth, bands_);
-        const DecodedPose* const true_still = truth_.still() ? &*truth_.still() : nullptr;
+        const DecodedPose* const true_still = truth_.still();
         step(stage_.draw(visible, stage_.light(truth, true_still)));
         keep_bands(baked, bands_);
         step(stage_.draw(visible, stage_.light(baked)));
         const DecodedPose truncated = truncated_poses_.pose(p);
         step(stage_.draw(visible, stage_.light(truncated)));
         const DecodedPose file = file_poses_.pose(p);
-        const DecodedPose* const still = file_poses_.still() ? &*file_poses_.still() : nullptr;
+        const DecodedPose* const still = file_poses_.still();
         const Radiance lit = stage_.light(file, still);
         step(stage_.draw(visible, lit));
         step(stage_.draw(stage_.look(stage_.place(truncated)), lit));

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "analysis/file_poses.h"
+#include "analysis/frame_time.h"
 #include "paim/codec/frame_cost.h"
-#include "paim/codec/playback.h"
 #include "paim/format/paim/paim_read.h"
 #include "paim/metrics/image_error.h"
 #include "paim/metrics/rates.h"
@@ -14,6 +14,8 @@
 namespace paim {
 
 namespace {
+
+constexpr double kMostSeconds = 2.0;  // for the time of a frame
 
 ComparedFile describe(const std::filesystem::path& path, const Asset& asset) {
     const CodedMesh& mesh = asset.moving();
@@ -31,15 +33,6 @@ ComparedFile describe(const std::filesystem::path& path, const Asset& asset) {
     file.position_multiply_adds = positions_cost(file.geometry_components).per_vertex();
     file.cpu_multiply_adds = cost.cpu_per_frame;
     return file;
-}
-
-PoseTime time_frames(const std::shared_ptr<const Asset>& asset, const NamedLight& light) {
-    Playback playback(asset);
-    const DistantLight distant(light.coefficients);
-    return time_poses(asset->num_poses(), [&](uint32_t p) {
-        playback.set_light(distant);  // else a single pose would be no work
-        playback.update(p);
-    });
 }
 
 }  // namespace
@@ -67,7 +60,7 @@ FileComparison compare_files(const std::vector<std::filesystem::path>& paths,
         ComparedFile& file = comparison.files[j];
         file.error = measure_asset(*assets[j], bake, flat);
         on_step();
-        file.frame = time_frames(assets[j], stage.lights().front());
+        file.frame = time_frames(assets[j], stage.lights().front().coefficients, kMostSeconds);
         on_step();
         file.flicker = measure_flicker(bake, *poses[j], stage, on_step);
     }
@@ -77,7 +70,7 @@ FileComparison compare_files(const std::vector<std::filesystem::path>& paths,
         ReferencePictures expected = reference(p, baked_pose(bake, p, bake.read_pose(p)));
         noise.add(expected);
         for (size_t j = 0; j < paths.size(); ++j) {
-            const DecodedPose* const still = poses[j]->still() ? &*poses[j]->still() : nullptr;
+            const DecodedPose* const still = poses[j]->still();
             std::vector<Image> pictures = stage.render_pose(poses[j]->pose(p), still);
             for (size_t k = 0; k < pictures.size(); ++k) {
                 comparison.files[j].seen[k % num_lights].add(

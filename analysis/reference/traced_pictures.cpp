@@ -60,7 +60,7 @@ TracedReference::TracedReference(const BakeReader& bake, const Stage& stage, uin
         lights_.emplace_back(samplers_[light], rays, seed_of(light));
     }
     still_lights_.resize(samplers_.size());
-    for (size_t light = 0; light < samplers_.size(); ++light) set_rays(light, rays);
+    for (size_t light = 0; light < samplers_.size(); ++light) light_still_mesh(light);
 }
 
 TracedReference::~TracedReference() = default;
@@ -73,6 +73,10 @@ uint32_t TracedReference::most_rays() const {
 
 void TracedReference::set_rays(size_t light, uint32_t rays) {
     lights_[light] = DirectLight(samplers_[light], rays, seed_of(light));
+    light_still_mesh(light);
+}
+
+void TracedReference::light_still_mesh(size_t light) {
     if (!still_scene_) return;
     still_lights_[light] =
         still_scene_->light_vertices(lights_[light], settings_for(light, kStillMeshPose));

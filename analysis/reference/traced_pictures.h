@@ -40,6 +40,8 @@ class TracedReference {
 
     TraceSettings settings_for(size_t light, uint32_t pose) const;
     VertexLight light_moving(const Pose& pose, size_t light) const;
+    // With the rays that the light has now.
+    void light_still_mesh(size_t light);
     const VertexLight* still_light(size_t light) const;
     void trace_pixels(const Pose& pose, ReferencePictures& out) const;
 

@@ -25,8 +25,8 @@ class TransferTruth {
     // Pose p as baked, with this transfer; in coordinates and axes of the scene.
     DecodedPose pose(uint32_t p) const;
 
-    // The still meshes with this transfer; nothing if there are none.
-    const std::optional<DecodedPose>& still() const { return still_; }
+    // The still meshes with this transfer; nullptr if there are none.
+    const DecodedPose* still() const { return still_ ? &*still_ : nullptr; }
 
   private:
     DecodedPose decoded(BakedPose baked) const;

@@ -53,7 +53,7 @@ double Flicker::noise_of_change() const {
 std::vector<Flicker> measure_flicker(const BakeReader& bake, FilePoses& file, const Stage& stage,
                                      const std::function<void()>& on_pose) {
     const size_t num_lights = stage.lights().size();
-    const DecodedPose* const still = file.still() ? &*file.still() : nullptr;
+    const DecodedPose* const still = file.still();
     std::vector<Flicker> flickers(num_lights);
     Radiance last_baked, last_decoded, last_noise;
     for (uint32_t p = 0; p < bake.num_poses(); ++p) {

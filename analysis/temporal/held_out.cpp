@@ -87,7 +87,7 @@ HeldOut measure_held_out(const BakeReader& bake, const Stage& stage, double targ
         keep_vertices(planes, num_vertices, counted);
         return planes;
     };
-    const DecodedPose* const still = poses.still() ? &*poses.still() : nullptr;
+    const DecodedPose* const still = poses.still();
     for (uint32_t j = 0; j < result.num_measured; ++j) {
         const uint32_t p = 2 * j + 1;
         const auto read = [&](uint32_t q) { return baked_pose(bake, q, bake.read_pose(q)); };

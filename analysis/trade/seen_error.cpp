@@ -7,8 +7,7 @@
 #include <utility>
 
 #include "analysis/file_poses.h"
-#include "analysis/stable_time.h"
-#include "paim/codec/playback.h"
+#include "analysis/frame_time.h"
 #include "paim/metrics/image_error.h"
 
 namespace paim {
@@ -17,7 +16,7 @@ namespace {
 
 using ReferenceImages = std::vector<std::vector<Image>>;  // [poses][pictures]
 
-// There are many files: less than time_poses() takes by default.
+// For the time of a frame: there are many files.
 constexpr double kMostSeconds = 0.5;
 
 // The largest that is a number.
@@ -30,7 +29,7 @@ double largest_seen(const std::vector<ImageError>& errors) {
 double visual_error(const Asset& asset, const BakeReader& bake, const Stage& stage,
                     const ReferenceImages& references) {
     FilePoses poses(asset, bake);
-    const DecodedPose* const still = poses.still() ? &*poses.still() : nullptr;
+    const DecodedPose* const still = poses.still();
     std::vector<ImageError> errors(stage.lights().size());
     for (size_t j = 0; j < references.size(); ++j) {
         const std::vector<Image> pictures = stage.render_pose(poses.pose(stage.poses()[j]), still);
@@ -39,16 +38,6 @@ double visual_error(const Asset& asset, const BakeReader& bake, const Stage& sta
         }
     }
     return largest_seen(errors);
-}
-
-double frame_ms(const Asset& asset, const Stage& stage) {
-    Playback playback(std::make_shared<const Asset>(asset));
-    const DistantLight light(stage.lights().front().coefficients);
-    const auto frame = [&](uint32_t p) {
-        playback.set_light(light);  // else a single pose would be no work
-        playback.update(p);
-    };
-    return time_poses(asset.num_poses(), frame, kMostSeconds).median_ms;
 }
 
 }  // namespace
@@ -64,7 +53,9 @@ PlayFile play_on_stage(const BakeReader& bake, const Stage& stage, const Referen
     }
     noise = relative.relative();
     return [&bake, &stage, references = std::move(references)](const Asset& asset) {
-        return PlayedFile{visual_error(asset, bake, stage, *references), frame_ms(asset, stage)};
+        const PoseTime frame = time_frames(std::make_shared<const Asset>(asset),
+                                           stage.lights().front().coefficients, kMostSeconds);
+        return PlayedFile{visual_error(asset, bake, stage, *references), frame.median_ms};
     };
 }
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <charconv>
 #include <vector>
 
 #include "analysis/trade/grid.h"
@@ -28,39 +27,6 @@ std::vector<std::string> parts_of(const std::string& list) {
         if (comma == std::string::npos) return parts;
         begin = comma + 1;
     }
-}
-
-std::vector<uint32_t> parse_bands(const std::string& list) {
-    std::vector<uint32_t> bands;
-    for (const std::string& part : parts_of(list)) {
-        uint32_t value = 0;
-        const char* end = part.data() + part.size();
-        const auto [rest, failure] = std::from_chars(part.data(), end, value);
-        if (failure != std::errc() || rest != end || value < 1 || value > sh::kMaxBands) {
-            throw_usage(
-                "--sweep-bands: expected numbers from 1 to {} separated by commas, got '{}'",
-                sh::kMaxBands, list);
-        }
-        bands.push_back(value);
-    }
-    return bands;
-}
-
-std::vector<uint32_t> parse_rays(const std::string& list) {
-    std::vector<uint32_t> rays;
-    for (const std::string& part : parts_of(list)) {
-        uint32_t value = 0;
-        const char* end = part.data() + part.size();
-        const auto [rest, failure] = std::from_chars(part.data(), end, value);
-        if (failure != std::errc() || rest != end || value < 2 || value % 2 != 0 ||
-            value > kMostSweepRays) {
-            throw_usage(
-                "--sweep-rays: expected even numbers from 2 to {} separated by commas, got '{}'",
-                kMostSweepRays, list);
-        }
-        rays.push_back(value);
-    }
-    return rays;
 }
 
 std::vector<std::string> parse_errors(const std::string& list) {
@@ -143,8 +109,12 @@ void add_trade_options(CLI::App& app, TradeArguments& arguments) {
 std::optional<TradeOptions> trade_options(const TradeArguments& arguments) {
     TradeOptions options;
     options.limit = limit_of(arguments);
-    if (arguments.bands) options.bands = parse_bands(*arguments.bands);
-    if (arguments.rays) options.rays = parse_rays(*arguments.rays);
+    if (arguments.bands) {
+        options.bands = cli::parse_list(*arguments.bands, "--sweep-bands", 1, sh::kMaxBands);
+    }
+    if (arguments.rays) {
+        options.rays = cli::parse_list(*arguments.rays, "--sweep-rays", 2, kMostSweepRays, 2);
+    }
     if (arguments.errors) options.errors = parse_errors(*arguments.errors);
     const bool wanted = arguments.sweep || options.limit || !options.bands.empty() ||
                         !options.errors.empty() || !options.rays.empty();

@@ -113,6 +113,25 @@ uint64_t parse_bytes(const std::string& text, const std::string& option) {
     return static_cast<uint64_t>(value * unit);
 }
 
+std::vector<uint32_t> parse_list(const std::string& text, const std::string& option,
+                                 uint32_t lowest, uint32_t highest, uint32_t step) {
+    std::vector<uint32_t> values;
+    const char* begin = text.data();
+    const char* end = begin + text.size();
+    while (true) {
+        uint32_t value = 0;
+        const auto [rest, failure] = std::from_chars(begin, end, value);
+        if (failure != std::errc() || (rest != end && *rest != ',') || value < lowest ||
+            value > highest || value % step != 0) {
+            throw_usage("{}: expected {}numbers from {} to {} separated by commas, got '{}'",
+                        option, step == 2 ? "even " : "", lowest, highest, text);
+        }
+        values.push_back(value);
+        if (rest == end) return values;
+        begin = rest + 1;
+    }
+}
+
 Vec3f parse_color(const std::string& text, const std::string& option) {
     std::vector<float> channels;
     std::string_view rest = text;

@@ -76,6 +76,11 @@ double parse_share(const std::string& text, const std::string& option);
 // byte are dropped.
 uint64_t parse_bytes(const std::string& text, const std::string& option);
 
+// "20,7,4" as numbers, each lowest … highest and a multiple of `step`, which is 1 or 2. Throws Error(usage)
+// naming the option.
+std::vector<uint32_t> parse_list(const std::string& text, const std::string& option,
+                                 uint32_t lowest, uint32_t highest, uint32_t step = 1);
+
 // "R,G,B" or one number for all three, each in [0, 1]. Throws Error(usage) naming the option.
 Vec3f parse_color(const std::string& text, const std::string& option);
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <regex>
-#include <set>
 
 #include "paim/image/exr.h"
 #include "paim/light/environment.h"
@@ -131,15 +129,7 @@ TEST_F(Analysis, EverySectionHoldsTogether) {
               report["flicker"]["lights"]["sky"]["of_radiance"]);
 
     // All causes together: at most their sum, and on a usual file at least the largest.
-    double sum = 0.0, largest = 0.0;
-    for (const auto& [cause, entry] : report["budget"]["lights"]["sky"].items()) {
-        if (cause == "all" || !entry.is_object()) continue;
-        sum += entry["visual_error"].get<double>();
-        largest = std::max(largest, entry["visual_error"].get<double>());
-    }
-    const double all = report["budget"]["lights"]["sky"]["all"]["visual_error"];
-    EXPECT_LE(all, sum);
-    EXPECT_GE(all, largest);
+    expect_causes_add_up(report["budget"]["lights"]["sky"]);
 
     // Three poses of five are encoded, and what interpolation alone costs is most of the error.
     EXPECT_EQ(report["held_out"]["kept_poses"], 3);
@@ -148,15 +138,7 @@ TEST_F(Analysis, EverySectionHoldsTogether) {
               report["held_out"]["interpolated"]["transfer_error"]);
 
     // The page names files that are there, and all of them but itself.
-    const std::string html = text_of("out/index.html");
-    const std::regex reference("(?:src|href)=\"([^\"]*)\"");
-    std::set<std::string> named{"index.html", "images/"};
-    for (std::sregex_iterator match(html.begin(), html.end(), reference), end; match != end;
-         ++match) {
-        named.insert((*match)[1]);
-    }
-    const Arguments names = names_of(contents_of(path("out")));
-    EXPECT_EQ(named, std::set<std::string>(names.begin(), names.end()));
+    expect_page_names_all("out");
 }
 
 // Everything but times, on any number of threads.

@@ -189,15 +189,7 @@ TEST_F(Road, AnalysisHoldsTogether) {
     EXPECT_EQ(json["geometry_components"].size(), 1u);  // plates move along one line
 
     // index.html names files that are there, and all of them but itself.
-    const std::string html = text_of("out/index.html");
-    const std::regex reference("(?:src|href)=\"([^\"]*)\"");
-    std::set<std::string> named{"index.html", "images/"};
-    for (std::sregex_iterator match(html.begin(), html.end(), reference), end; match != end;
-         ++match) {
-        named.insert((*match)[1]);
-    }
-    const Arguments names = names_of(contents);
-    EXPECT_EQ(named, std::set<std::string>(names.begin(), names.end()));
+    expect_page_names_all("out");
 }
 
 TEST_F(Road, NamesOfLightsAreNoCommandsForGnuplot) {

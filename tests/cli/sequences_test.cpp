@@ -67,15 +67,7 @@ TEST_P(RealSequence, GoesAllTheWay) {
     // Causes of error together: at most their sum, and at least the largest of them.
     json = parse_object(analyze({path("x.bake"), "-o", path("out"), "--size", "48", "--poses", "1",
                                  "--budget", path("x.paim"), "--reference-rays", "256", "--json"}));
-    double sum = 0.0, largest = 0.0;
-    for (const auto& [cause, entry] : json["budget"]["lights"]["sky"].items()) {
-        if (cause == "all" || !entry.is_object()) continue;
-        sum += entry["visual_error"].get<double>();
-        largest = std::max(largest, entry["visual_error"].get<double>());
-    }
-    const double all = json["budget"]["lights"]["sky"]["all"]["visual_error"];
-    EXPECT_LE(all, sum);
-    EXPECT_GE(all, largest);
+    expect_causes_add_up(json["budget"]["lights"]["sky"]);
 #ifdef PAIM_PLAY
     json = parse_object(run(PAIM_PLAY, {path("x.paim"), "--snapshot", path("x.png"), "--size",
                                         "64x64", "--pose", "3", "--json"}));

@@ -6,9 +6,12 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -163,6 +166,33 @@ class ToolTest : public testing::Test {
             for (std::string field; std::getline(fields, field, ',');) rows.back().push_back(field);
         }
         return rows;
+    }
+
+    // That the page of an analysis names files of its folder that are there, and all of them but itself.
+    void expect_page_names_all(const std::string& folder) const {
+        const std::string html = text_of(folder + "/index.html");
+        const std::regex reference("(?:src|href)=\"([^\"]*)\"");
+        std::set<std::string> named{"index.html", "images/"};
+        for (std::sregex_iterator match(html.begin(), html.end(), reference), end; match != end;
+             ++match) {
+            named.insert((*match)[1]);
+        }
+        const Arguments names = names_of(contents_of(path(folder)));
+        EXPECT_EQ(named, std::set<std::string>(names.begin(), names.end()));
+    }
+
+    // That the error of a budget under a light is at most the sum of its causes, and at least the
+    // largest of them.
+    static void expect_causes_add_up(const nlohmann::json& of_light) {
+        double sum = 0.0, largest = 0.0;
+        for (const auto& [cause, entry] : of_light.items()) {
+            if (cause == "all" || !entry.is_object()) continue;
+            sum += entry["visual_error"].get<double>();
+            largest = std::max(largest, entry["visual_error"].get<double>());
+        }
+        const double all = of_light["all"]["visual_error"];
+        EXPECT_LE(all, sum);
+        EXPECT_GE(all, largest);
     }
 
     TemporaryDirectory directory_;

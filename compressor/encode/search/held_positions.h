@@ -28,7 +28,7 @@ class HeldPositions {
     HeldPositions(const BakeReader& bake, const PositionOutliers& outliers, uint32_t in_flight);
 
     // The target that the components are for, before anything is read. Another target than before
-    // begins anew.
+    // decides again how many components there are.
     void aim_at(const EncodeTarget& target);
 
     uint32_t num_components() const { return num_components_; }
