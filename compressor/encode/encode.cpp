@@ -13,7 +13,6 @@
 #include "compressor/encode/data/still_part.h"
 #include "compressor/encode/memory/measuring_memory.h"
 #include "compressor/encode/memory/memory_plan.h"
-#include "compressor/encode/noise/component_noise.h"
 #include "compressor/encode/noise/rank_selection.h"
 #include "compressor/encode/noise/shrinkage.h"
 #include "compressor/encode/quantise/exceptions.h"
@@ -51,12 +50,6 @@ Asset asset_shell(const BakeReader& bake, const EncodeOptions& options) {
     if (still) asset.parts.push_back(std::move(*still));
     return asset;
 }
-
-// Both parts of a bake as components, and the noise in those of the transfer.
-struct Decomposition {
-    PrincipalComponents geometry, transfer;
-    ComponentNoise noise;
-};
 
 // A part without its mean and components, which are streamed later.
 LowRank start_matrix(const BakeReader& bake, const RowSource& rows,
@@ -184,8 +177,9 @@ std::string provenance(const BakeIdentity& identity, const PoseStatistics& total
 }
 
 // Returns everything but what is measured. Its own memory is free again when it returns.
+// known  the components of these bands, if they were found before; else null
 EncodeSummary encode_unmeasured(const BakeReader& bake, const EncodeOptions& options,
-                                const std::filesystem::path& output,
+                                const Decomposition* known, const std::filesystem::path& output,
                                 const std::function<void(uint64_t)>& on_rows) {
     const PositionOutliers outliers = find_outliers(BakedPart(bake, 0));
     const EncodeSize size = with_outliers(encode_size(bake, options), outliers);
@@ -199,11 +193,11 @@ EncodeSummary encode_unmeasured(const BakeReader& bake, const EncodeOptions& opt
     const ReportingRows geometry_rows(baked_geometry, on_rows);
     const ReportingRows transfer_rows(baked_transfer, on_rows);
     const ReportingRows noise_rows(baked_noise, on_rows);
-    Decomposition parts;
-    parts.geometry = principal_components(geometry_rows, in_flight);
-    parts.transfer = principal_components(transfer_rows, in_flight);
-    parts.noise =
-        measure_component_noise(transfer_rows, noise_rows, mesh.layout, parts.transfer, in_flight);
+    std::optional<Decomposition> found;
+    if (known == nullptr) {
+        found = decompose(geometry_rows, transfer_rows, noise_rows, mesh.layout, in_flight);
+    }
+    const Decomposition& parts = known != nullptr ? *known : *found;
     const Shrinkage shrinkage(parts.noise);
     const PoseStatistics total = bake.total_statistics();
     const uint32_t num_usual =
@@ -246,16 +240,31 @@ void check_memory(const BakeReader& bake, const EncodeOptions& options) {
                          bake.directory().string());
 }
 
+namespace {
+
 EncodeSummary encode(const BakeReader& bake, const EncodeOptions& options,
-                     const std::filesystem::path& output,
+                     const Decomposition* known, const std::filesystem::path& output,
                      const std::function<void(uint64_t)>& on_rows) {
     remove_abandoned_versions(output);
-    EncodeSummary summary = encode_unmeasured(bake, options, output, on_rows);
+    EncodeSummary summary = encode_unmeasured(bake, options, known, output, on_rows);
     if (!options.measure) return summary;
     summary.measured = state_errors(output, bake, BandPower::flat(bake.identity().layout.in_bands),
                                     options.memory_bytes);
     summary.size_bytes = std::filesystem::file_size(output);
     return summary;
+}
+
+}  // namespace
+
+EncodeSummary encode(const BakeReader& bake, const EncodeOptions& options,
+                     const std::filesystem::path& output,
+                     const std::function<void(uint64_t)>& on_rows) {
+    return encode(bake, options, nullptr, output, on_rows);
+}
+
+EncodeSummary encode(const BakeReader& bake, const EncodeOptions& options,
+                     const Decomposition& parts, const std::filesystem::path& output) {
+    return encode(bake, options, &parts, output, {});
 }
 
 }  // namespace paim

@@ -10,6 +10,7 @@
 #include <functional>
 #include <optional>
 
+#include "compressor/encode/decomposition.h"
 #include "compressor/encode/options.h"
 #include "paim/format/bake/bake_directory.h"
 #include "paim/mesh/outliers.h"
@@ -60,5 +61,10 @@ void check_memory(const BakeReader& bake, const EncodeOptions& options);
 EncodeSummary encode(const BakeReader& bake, const EncodeOptions& options,
                      const std::filesystem::path& output,
                      const std::function<void(uint64_t)>& on_rows = {});
+
+// The same bytes, of components that were found before, for several files of one bake.
+// parts  of all rows, without outliers, in the bands of the options
+EncodeSummary encode(const BakeReader& bake, const EncodeOptions& options,
+                     const Decomposition& parts, const std::filesystem::path& output);
 
 }  // namespace paim

@@ -28,10 +28,10 @@ const double kLostByTarget = std::sqrt(0.19);
 }  // namespace
 
 HeldPositions::HeldPositions(const BakeReader& bake, const PositionOutliers& outliers,
-                             uint32_t in_flight)
+                             const GeometryRows& rows, const PrincipalComponents& all)
     : bake_(bake),
-      rows_(bake, outliers),
-      all_(principal_components(rows_, in_flight)),
+      rows_(rows),
+      all_(all),
       counted_(face_vertices(bake.topology())),
       diagonals_(pose_diagonals(bake, outliers, counted_)),
       num_positions_(static_cast<double>(counted_.size()) * bake.num_poses()) {}

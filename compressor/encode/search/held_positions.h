@@ -24,8 +24,10 @@ inline double asked_error(const EncodeTarget& target) {
 
 class HeldPositions {
   public:
-    // Finds all components. Keeps references.
-    HeldPositions(const BakeReader& bake, const PositionOutliers& outliers, uint32_t in_flight);
+    // Keeps references.
+    // rows, all  of the whole bake, without outliers, and their components
+    HeldPositions(const BakeReader& bake, const PositionOutliers& outliers,
+                  const GeometryRows& rows, const PrincipalComponents& all);
 
     // The target that the components are for, before anything is read. Another target than before
     // decides again how many components there are.
@@ -49,8 +51,8 @@ class HeldPositions {
     void allow(double distance);
 
     const BakeReader& bake_;
-    const GeometryRows rows_;
-    const PrincipalComponents all_;
+    const GeometryRows& rows_;
+    const PrincipalComponents& all_;
     const std::vector<uint32_t> counted_;  // vertices of faces
     const PoseDiagonals diagonals_;
     double num_positions_ = 0.0;  // over vertices of faces and poses

@@ -6,7 +6,6 @@
 
 #include "compressor/encode/data/bake_rows.h"
 #include "compressor/encode/memory/memory_plan.h"
-#include "compressor/encode/noise/component_noise.h"
 #include "compressor/encode/noise/rank_selection.h"
 #include "compressor/encode/quantise/float_matrix.h"
 #include "compressor/encode/search/transfer_encoder.h"
@@ -34,12 +33,6 @@ double heaviest_energy(const EncodeProblem& problem) {
     return heaviest > 0.0 ? energy / heaviest : energy;
 }
 
-template <typename Result>
-Result then_advance(const EncodeProblem& problem, double share, Result result) {
-    problem.progress->advance(share);
-    return result;
-}
-
 }  // namespace
 
 ProblemReader::ProblemReader(const BakeReader& bake, const EncodeOptions& options,
@@ -52,15 +45,14 @@ ProblemReader::ProblemReader(const BakeReader& bake, const EncodeOptions& option
       order_(cache_order(bake.topology())),
       problem_(
           start_problem(bake, options, spectrum, outliers_, order_, begun(std::move(progress)))),
-      positions_(bake, outliers_, in_flight_),
+      geometry_rows_(bake, outliers_),
       transfer_rows_(bake, problem_.layout.in_bands),
-      transfer_(then_advance(problem_, 0.4, principal_components(transfer_rows_, in_flight_))),
-      noise_(then_advance(problem_, 0.5,
-                          measure_component_noise(transfer_rows_,
-                                                  TransferRows(bake, problem_.layout.in_bands,
-                                                               TransferRows::Content::noise),
-                                                  problem_.layout, transfer_, in_flight_))),
-      shrinkage_(noise_) {
+      parts_(decompose(geometry_rows_, transfer_rows_,
+                       TransferRows(bake, problem_.layout.in_bands, TransferRows::Content::noise),
+                       problem_.layout, in_flight_,
+                       [&](double share) { problem_.progress->advance(share); })),
+      shrinkage_(parts_.noise),
+      positions_(bake, outliers_, geometry_rows_, parts_.geometry) {
     if (problem_.still_meter) {
         problem_.best_achievable.still =
             problem_.still_meter->measure(*problem_.shell.still(), problem_.spectrum);
@@ -84,9 +76,9 @@ uint32_t ProblemReader::transfer_components(const EncodeTarget& target) const {
     const double num_values =
         static_cast<double>(bake_.identity().num_vertices) * bake_.num_poses();
     return components_for(
-        noise_.num_above_noise,
+        parts_.noise.num_above_noise,
         kDroppedShare * kDroppedShare * asked * asked * heaviest_energy(problem_) * num_values,
-        [&](uint32_t k) { return noise_.signal_of(static_cast<Eigen::Index>(k)); });
+        [&](uint32_t k) { return parts_.noise.signal_of(static_cast<Eigen::Index>(k)); });
 }
 
 void ProblemReader::read_positions(const EncodeTarget& target, TargetSize& size) {
@@ -105,7 +97,7 @@ void ProblemReader::read_transfer(const TargetSize& size) {
     ScaledFactors& factors = problem_.transfer;
     if (!factors.mean.empty() && factors.num_components() == size.transfer_components) return;
     factors = {};  // first, so that there is memory
-    factors = read_factors(transfer_rows_, transfer_, size.transfer_components,
+    factors = read_factors(transfer_rows_, parts_.transfer, size.transfer_components,
                            options_.noise == NoiseTreatment::shrink ? &shrinkage_ : nullptr,
                            order_.old_vertex, choose_target_in_flight(size, options_.memory_bytes));
     // No file of these components has a smaller error than they have as floats.

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "compressor/encode/decomposition.h"
 #include "compressor/encode/memory/target_memory.h"
 #include "compressor/encode/noise/shrinkage.h"
 #include "compressor/encode/search/held_positions.h"
@@ -31,6 +32,8 @@ class ProblemReader {
 
     // What was read last.
     const EncodeProblem& problem() const { return problem_; }
+    // All components of the bake in its bands.
+    const Decomposition& decomposition() const { return parts_; }
     EncodeProblem take() && { return std::move(problem_); }
 
   private:
@@ -45,11 +48,11 @@ class ProblemReader {
     const uint32_t in_flight_;  // while components are found
     CacheOrder order_;
     EncodeProblem problem_;
-    HeldPositions positions_;
+    const GeometryRows geometry_rows_;
     const TransferRows transfer_rows_;
-    const PrincipalComponents transfer_;
-    const ComponentNoise noise_;
+    const Decomposition parts_;
     const Shrinkage shrinkage_;
+    HeldPositions positions_;
 };
 
 }  // namespace paim

@@ -59,6 +59,9 @@ class TargetSeries {
     // bands that are not kept leave it.
     double least_error();
 
+    // All components in its bands, for files without a target (encode.h).
+    const Decomposition& decomposition() const { return reader_.decomposition(); }
+
   private:
     const EncodeOptions options_;
     ProblemReader reader_;
