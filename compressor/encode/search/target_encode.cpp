@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "compressor/encode/search/feasibility.h"
+#include "compressor/encode/search/grouped_file.h"
 #include "compressor/encode/search/size_fit.h"
 #include "paim/base/check.h"
 #include "paim/base/file.h"
@@ -105,6 +106,12 @@ TargetSummary TargetSeries::encode(const EncodeTarget& target,
                                    const std::filesystem::path& output) {
     prepare(target);
     return encode_problem(reader_.problem(), options_, target, memo_, output);
+}
+
+void TargetSeries::encode_groups(const EncodeTarget& target, const TransferEncoderType& type,
+                                 uint32_t num_groups, const std::filesystem::path& output) {
+    prepare(target);
+    write_grouped_file(reader_.problem(), options_, target, type, num_groups, memo_, output);
 }
 
 double TargetSeries::least_error() {

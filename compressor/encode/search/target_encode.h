@@ -55,6 +55,10 @@ class TargetSeries {
     // Errors: as encode_to_target()
     TargetSummary encode(const EncodeTarget& target, const std::filesystem::path& output);
 
+    // The file of a given number of groups instead (grouped_file.h). Positions meet the target.
+    void encode_groups(const EncodeTarget& target, const TransferEncoderType& type,
+                       uint32_t num_groups, const std::filesystem::path& output);
+
     // No file of these bands has a smaller error of the transfer than this: noise of the bake and
     // bands that are not kept leave it.
     double least_error();

@@ -68,6 +68,12 @@ struct TransferEncoderType {
     std::unique_ptr<TransferEncoder> (*make)(const TransferSearchTask& task);
     CodecMemory (*memory)(const TargetSize& size);
     EncoderWords words;
+    // Codes the transfer in so many groups of vertices (codec/point_groups.h), or as many as there are
+    // vertices for. There is no target: a vertex has as many components as is usual, and steps add little
+    // to the error. The first name of words.numbers is that of the groups. Null: the number of groups cannot
+    // be chosen.
+    // Errors: unsupported if there is not enough memory.
+    CodedTransfer (*code_groups)(const TransferSearchTask& task, uint32_t num_groups) = nullptr;
 };
 
 // In the order of the search; those that were added come last. transfer_encoders.cpp is the one

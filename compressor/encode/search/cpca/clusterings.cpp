@@ -4,6 +4,7 @@
 #include "compressor/encode/cluster/point_projection.h"
 #include "compressor/encode/search/cpca/clustered_quantise.h"
 #include "compressor/encode/search/cpca/cpca_memory.h"
+#include "paim/codec/cpca/cpca_transfer.h"
 
 namespace paim {
 
@@ -25,6 +26,13 @@ std::shared_ptr<const ClusteredPca> Clusterings::find(const EncodeProblem& probl
     found = std::make_shared<const ClusteredPca>(
         clustered_pca(points, projected_, options, problem.bake.directory().string()));
     return found;
+}
+
+std::shared_ptr<Clusterings> clusterings_of(CodecMemos* memos) {
+    if (memos == nullptr) return std::make_shared<Clusterings>();
+    std::shared_ptr<CodecMemo>& memo = (*memos)[std::string(CpcaTransfer::kName)];
+    if (!memo) memo = std::make_shared<Clusterings>();
+    return std::static_pointer_cast<Clusterings>(memo);
 }
 
 }  // namespace paim

@@ -31,4 +31,7 @@ class Clusterings : public CodecMemo {
     std::map<std::pair<uint32_t, uint32_t>, std::shared_ptr<const ClusteredPca>> found_;
 };
 
+// Those of a series of searches, or new ones.
+std::shared_ptr<Clusterings> clusterings_of(CodecMemos* memos);
+
 }  // namespace paim

@@ -14,6 +14,7 @@
 #include "compressor/encode/search/cpca/clustered_quantise.h"
 #include "compressor/encode/search/cpca/clusterings.h"
 #include "compressor/encode/search/cpca/cpca_memory.h"
+#include "compressor/encode/search/cpca/fixed_clusters.h"
 #include "compressor/encode/search/matrix_cost.h"
 #include "compressor/encode/search/search_outwards.h"
 #include "paim/codec/cpca/cpca_transfer.h"
@@ -86,14 +87,6 @@ class CpcaSettings : public CodecSettings {
     uint32_t num_components_;
     std::unique_ptr<const ClusteredFactors> bases_;
 };
-
-// Those of a series of searches, or new ones.
-std::shared_ptr<Clusterings> clusterings_of(CodecMemos* memos) {
-    if (memos == nullptr) return std::make_shared<Clusterings>();
-    std::shared_ptr<CodecMemo>& memo = (*memos)[std::string(CpcaTransfer::kName)];
-    if (!memo) memo = std::make_shared<Clusterings>();
-    return std::static_pointer_cast<Clusterings>(memo);
-}
 
 class CpcaEncoder : public TransferEncoder {
   public:
@@ -297,11 +290,14 @@ TransferEncoderType cpca_encoder_type() {
     words.missed = "cannot be met by clusters of as many components as are tried: use --codec auto";
     words.numbers = {kClusters, kClusterComponents};
     words.heading = "clusters x components";
-    return {CpcaTransfer::kName, false,
+    return {CpcaTransfer::kName,
+            false,
             [](const TransferSearchTask& task) -> std::unique_ptr<TransferEncoder> {
                 return std::make_unique<CpcaEncoder>(task);
             },
-            cpca_memory, words};
+            cpca_memory,
+            words,
+            &code_clusters};
 }
 
 }  // namespace paim
