@@ -14,6 +14,9 @@ struct PoseTime {
     double relative_error = 0.0;
 };
 
+// For most_seconds below, where many files are timed.
+constexpr double kQuickSeconds = 0.5;
+
 // Runs `work` for poses of the whole sequence in rounds, until the median over the rounds is known to
 // 2.5 %, or most_seconds have passed. Rounds are of up to 32 poses, of fewer where work is slow. There are
 // at least five, and one before them that does not count.

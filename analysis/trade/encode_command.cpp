@@ -37,15 +37,27 @@ std::string file_stem(const std::filesystem::path& bake) {
     return (path.has_filename() ? path : path.parent_path()).stem().string();
 }
 
+std::string encode_arguments(const TradeSettings& settings) {
+    const std::string bands = fmt::format("--bands {}", settings.bands);
+    if (settings.is_plain()) {
+        const std::string components = settings.keeps_all_components()
+                                           ? "--geometry-components all --transfer-components all"
+                                           : "--auto-transfer-error " + settings.max_error;
+        // As points state what they err, so do their files.
+        return fmt::format("--precision {} {} --measure {}", precision_name(settings.precision),
+                           components, bands);
+    }
+    const std::string geometry =
+        settings.geometry_error.empty() ? "" : " --geometry-error " + settings.geometry_error;
+    return fmt::format("--max-error {}{} --codec {} --prefer {} {}", settings.max_error, geometry,
+                       settings.codec, preference_name(settings.preference), bands);
+}
+
 std::string encode_command(const std::filesystem::path& bake, const TradeSettings& settings) {
     const std::string stem = file_stem(bake);
     const auto encode = [&](const std::filesystem::path& from) {
-        const std::string geometry =
-            settings.geometry_error.empty() ? "" : " --geometry-error " + settings.geometry_error;
-        return fmt::format(
-            "paim-compress encode {} -o {} --max-error {}{} --codec {} --prefer {} --bands {}",
-            path_word(from), path_word(stem + ".paim"), settings.max_error, geometry,
-            settings.codec, preference_name(settings.preference), settings.bands);
+        return fmt::format("paim-compress encode {} -o {} {}", path_word(from),
+                           path_word(stem + ".paim"), encode_arguments(settings));
     };
     if (settings.rays == 0) return encode(bake);
     const std::string other = fmt::format("{}-{}.bake", stem, settings.rays);

@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+
 #include "compressor/encode/search/transfer_encoder.h"
 #include "paim/cli/parse.h"
+#include "paim/codec/codecs.h"
 
 namespace paim {
 
@@ -35,15 +38,45 @@ std::vector<TradeSettings> points_of(uint32_t bands, const std::string& max_erro
     return points;
 }
 
+std::vector<TradeSettings> plain_points_of(uint32_t bands, Precision precision,
+                                           const SweepAxes& axes) {
+    std::vector<TradeSettings> points;
+    TradeSettings settings;
+    settings.bands = bands;
+    settings.codec = plain_codec().name;
+    settings.precision = precision;
+    points.push_back(settings);
+    for (const std::string& error : axes.plain_errors) {
+        settings.max_error = error;
+        points.push_back(settings);
+    }
+    return points;
+}
+
+std::string usual_plain_error() {
+    return max_error_text(EncodeOptions().automatic_transfer_error);
+}
+
+size_t num_points(const SweepAxes& axes) {
+    size_t count = 0;
+    for (const Precision precision : axes.precisions) {
+        count += is_integer(precision) ? axes.errors.size() * points_of(1, "1%").size()
+                                       : plain_points_of(1, precision, axes).size();
+    }
+    return count;
+}
+
 double max_error_of(const std::string& text) {
     return cli::parse_share(text, "--max-error");
 }
 
 double TradeSettings::transfer_error() const {
-    return max_error_of(max_error);
+    return keeps_all_components() ? std::numeric_limits<double>::quiet_NaN()
+                                  : max_error_of(max_error);
 }
 
 double TradeSettings::geometry_target() const {
+    if (is_plain()) return std::numeric_limits<double>::quiet_NaN();
     return geometry_error.empty() ? kGeometryPerTransferError * transfer_error()
                                   : max_error_of(geometry_error);
 }

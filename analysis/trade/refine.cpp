@@ -115,8 +115,10 @@ std::vector<Bracket> brackets(const std::vector<TradePoint>& points, const Trade
     std::map<Family, std::vector<const TradePoint*>> families;
     for (const TradePoint& point : points) {
         const TradeSettings& settings = point.settings;
-        // Other bakes are gone by now.
-        if (std::isnan(error_of(point, kind)) || settings.rays != 0) continue;
+        // Other bakes are gone by now, and plain storage has no steps to choose.
+        if (std::isnan(error_of(point, kind)) || settings.rays != 0 || settings.is_plain()) {
+            continue;
+        }
         families[{settings.bands, settings.codec, settings.preference,
                   settings.geometry_error.empty()}]
             .push_back(&point);

@@ -16,9 +16,6 @@ namespace {
 
 using ReferenceImages = std::vector<std::vector<Image>>;  // [poses][pictures]
 
-// For the time of a frame: there are many files.
-constexpr double kMostSeconds = 0.5;
-
 // The largest that is a number.
 double largest_seen(const std::vector<ImageError>& errors) {
     double largest = std::numeric_limits<double>::quiet_NaN();
@@ -54,7 +51,7 @@ PlayFile play_on_stage(const BakeReader& bake, const Stage& stage, const Referen
     noise = relative.relative();
     return [&bake, &stage, references = std::move(references)](const Asset& asset) {
         const PoseTime frame = time_frames(std::make_shared<const Asset>(asset),
-                                           stage.lights().front().coefficients, kMostSeconds);
+                                           stage.lights().front().coefficients, kQuickSeconds);
         return PlayedFile{visual_error(asset, bake, stage, *references), frame.median_ms};
     };
 }

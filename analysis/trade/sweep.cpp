@@ -4,10 +4,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <chrono>
 #include <utility>
 
-#include "analysis/trade/grid.h"
+#include "analysis/seconds_of.h"
+#include "analysis/trade/encode_command.h"
+#include "compressor/encode/encode.h"
 #include "paim/base/error.h"
 #include "paim/base/file.h"
 #include "paim/codec/frame_cost.h"
@@ -25,15 +26,6 @@ struct SweptFileRemover {
         std::filesystem::remove(path, ignored);
     }
 };
-
-// Seconds that `work` takes.
-template <typename Work>
-double seconds_of(const Work& work) {
-    using Clock = std::chrono::steady_clock;
-    const auto start = Clock::now();
-    work();
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // What the command line sets, with its defaults.
 EncodeOptions options_of(const std::string& name, uint32_t bands, uint64_t memory_bytes) {
@@ -90,52 +82,74 @@ EncodeTarget Sweep::target_of(const TradeSettings& settings) const {
     return target;
 }
 
-TradePoint Sweep::point_of(const TradeSettings& settings, const TargetSummary& summary) {
-    const Candidate& chosen = summary.chosen();
+TradePoint Sweep::encode_integers(TargetSeries& series, const TradeSettings& settings) {
+    const EncodeTarget target = target_of(settings);
+    const double prepare_s = seconds_of([&] { series.prepare(target); });
+    const std::string key = settings.max_error + "/" + settings.geometry_error;
+    prepare_s_.try_emplace(key, prepare_s);
+    TargetSummary summary;
     TradePoint point;
-    point.settings = settings;
+    point.encode_s = seconds_of([&] { summary = series.encode(target, scratch_); });
+    point.shared_s = series_s_ + prepare_s_.at(key);
     point.geometry_components = summary.geometry_components;
-    point.transfer_components = chosen.components;
-    point.numbers = chosen.numbers;
-    point.size_bytes = summary.size_bytes;
-    point.bits_per_vertex_per_pose =
-        bits_per_vertex_per_pose(summary.size_bytes, summary.num_vertices, summary.num_poses);
+    point.transfer_components = summary.chosen().components;
+    point.numbers = summary.chosen().numbers;
     point.error = summary.error;
+    return point;
+}
+
+TradePoint Sweep::encode_plain(TargetSeries& series, const TradeSettings& settings) {
+    EncodeOptions options = options_of(name_, settings.bands, memory_bytes_);
+    options.precision = settings.precision;
+    options.measure = true;
+    if (settings.keeps_all_components()) {
+        options.geometry.kind = options.transfer.kind = ComponentChoice::Kind::all;
+    } else {
+        options.automatic_transfer_error = settings.transfer_error();
+    }
+    EncodeSummary summary;
+    TradePoint point;
+    point.encode_s = seconds_of(
+        [&] { summary = paim::encode(bake_, options, series.decomposition(), scratch_); });
+    point.shared_s = series_s_;
+    point.geometry_components = summary.geometry_components;
+    point.transfer_components = summary.transfer_components;
+    point.error = *summary.measured;
+    return point;
+}
+
+TradePoint Sweep::encode(TargetSeries& series, const TradeSettings& settings) {
+    return settings.is_plain() ? encode_plain(series, settings) : encode_integers(series, settings);
+}
+
+void Sweep::measure_file(TradePoint& point) const {
     const Asset asset = read_paim(scratch_);
     const CodedMesh& mesh = asset.moving();
+    point.size_bytes = std::filesystem::file_size(scratch_);
+    point.bits_per_vertex_per_pose =
+        bits_per_vertex_per_pose(point.size_bytes, mesh.topology.num_vertices, mesh.num_poses());
     const FrameCost cost = mesh.transfer->cost(mesh.layout, {}, true);
     point.multiply_adds = cost.per_vertex();
     point.cpu_multiply_adds = cost.cpu_per_frame;
-    point.position_multiply_adds = positions_cost(summary.geometry_components).per_vertex();
+    point.position_multiply_adds = positions_cost(point.geometry_components).per_vertex();
     if (play_) {
         const PlayedFile played = play_(asset);
         point.visual_error = played.visual_error;
         point.frame_ms = played.frame_ms;
     }
-    return point;
 }
 
 std::optional<TradePoint> Sweep::measure(const TradeSettings& settings) {
     const SweptFileRemover remover{scratch_};
     try {
-        TargetSeries& series = series_of(settings.bands);
-        const EncodeTarget target = target_of(settings);
-        const double prepare_s = seconds_of([&] { series.prepare(target); });
-        const std::string key = settings.max_error + "/" + settings.geometry_error;
-        prepare_s_.try_emplace(key, prepare_s);
-        TargetSummary summary;
-        const double encode_s = seconds_of([&] { summary = series.encode(target, scratch_); });
-        TradePoint point = point_of(settings, summary);
-        point.encode_s = encode_s;
-        point.shared_s = series_s_ + prepare_s_.at(key);
+        TradePoint point = encode(series_of(settings.bands), settings);
+        point.settings = settings;
+        measure_file(point);
         return point;
     } catch (const Error& error) {
         if (!is_of_settings(error)) throw;
-        notes_.push_back(fmt::format(
-            "{}, --max-error {}{}, --codec {}, --prefer {} is left out: {}",
-            bands_text(settings.bands), settings.max_error,
-            settings.geometry_error.empty() ? "" : " --geometry-error " + settings.geometry_error,
-            settings.codec, preference_name(settings.preference), error.what()));
+        notes_.push_back(
+            fmt::format("{} is left out: {}", encode_arguments(settings), error.what()));
         return std::nullopt;
     }
 }
@@ -160,15 +174,27 @@ double Sweep::least_error(uint32_t bands) {
     }
 }
 
-void Sweep::measure_all(uint32_t bands, const std::vector<std::string>& max_errors,
-                        std::vector<TradePoint>& points,
+void Sweep::measure_all(uint32_t bands, const SweepAxes& axes, std::vector<TradePoint>& points,
                         const std::function<void(uint64_t)>& on_points) {
     if (!can_begin(bands)) {
-        for (const std::string& max_error : max_errors) {
-            on_points(points_of(bands, max_error).size());
-        }
+        on_points(num_points(axes));
         return;
     }
+    for (const Precision precision : axes.precisions) {
+        if (is_integer(precision)) {
+            measure_integers(bands, axes.errors, points, on_points);
+            continue;
+        }
+        for (const TradeSettings& settings : plain_points_of(bands, precision, axes)) {
+            if (auto point = measure(settings)) points.push_back(std::move(*point));
+            on_points(1);
+        }
+    }
+}
+
+void Sweep::measure_integers(uint32_t bands, const std::vector<std::string>& max_errors,
+                             std::vector<TradePoint>& points,
+                             const std::function<void(uint64_t)>& on_points) {
     const double least = least_error(bands);
     std::vector<std::string> too_small;
     for (const std::string& max_error : max_errors) {

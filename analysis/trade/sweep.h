@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/trade/grid.h"
 #include "analysis/trade/trade_point.h"
 #include "compressor/encode/search/target_encode.h"
 
@@ -29,11 +30,9 @@ class Sweep {
     // Nothing if no file has these settings: a note says why.
     std::optional<TradePoint> measure(const TradeSettings& settings);
 
-    // Adds those of the errors, as they are written, that files of so many bands can have. The
-    // others are left out with a note.
-    // on_points  called with a number of points that are done, or left out
-    void measure_all(uint32_t bands, const std::vector<std::string>& max_errors,
-                     std::vector<TradePoint>& points,
+    // Adds those points that files of so many bands can have. The others are left out with a note.
+    // on_points  called with a number of points that are done, or left out; num_points() in all
+    void measure_all(uint32_t bands, const SweepAxes& axes, std::vector<TradePoint>& points,
                      const std::function<void(uint64_t)>& on_points);
 
     const std::vector<std::string>& notes() const { return notes_; }
@@ -45,7 +44,15 @@ class Sweep {
     bool can_begin(uint32_t bands);
     double least_error(uint32_t bands);  // 0 if it is not known
     EncodeTarget target_of(const TradeSettings& settings) const;
-    TradePoint point_of(const TradeSettings& settings, const TargetSummary& summary);
+    // Writes the file, and says what is known of it without reading it.
+    TradePoint encode(TargetSeries& series, const TradeSettings& settings);
+    TradePoint encode_plain(TargetSeries& series, const TradeSettings& settings);
+    TradePoint encode_integers(TargetSeries& series, const TradeSettings& settings);
+    // Costs and what only playing shows, of the file.
+    void measure_file(TradePoint& point) const;
+    void measure_integers(uint32_t bands, const std::vector<std::string>& max_errors,
+                          std::vector<TradePoint>& points,
+                          const std::function<void(uint64_t)>& on_points);
 
     const BakeReader& bake_;
     const std::string name_;

@@ -1,22 +1,14 @@
 // The points of a trade as CSV and JSON.
 #include "analysis/trade/table.h"
 
-#include <fmt/format.h>
-
 #include <string_view>
 
-#include "analysis/csv_field.h"
+#include "analysis/column.h"
 #include "compressor/encode/search/transfer_encoder.h"
 
 namespace paim {
 
 namespace {
-
-// A column of the table: of text or of numbers.
-struct Column {
-    std::string name, unit;
-    nlohmann::ordered_json value;
-};
 
 uint32_t number_of(const TradePoint& point, std::string_view name) {
     for (const CodecNumber& number : point.numbers) {
@@ -31,7 +23,9 @@ void add_settings(const TradePoint& point, std::vector<Column>& columns) {
     columns.push_back({"rays", "a vertex; 0: of the given bake", settings.rays});
     columns.push_back({"bands", "", settings.bands});
     columns.push_back({"codec", "", settings.codec});
-    columns.push_back({"preference", "", preference_name(settings.preference)});
+    columns.push_back({"precision", "", sweep_precision_name(settings.precision)});
+    columns.push_back(
+        {"preference", "", settings.is_plain() ? "none" : preference_name(settings.preference)});
     columns.push_back({"max_error", "fraction", settings.transfer_error()});
     columns.push_back({"geometry_error", "of the diagonal", settings.geometry_target()});
     columns.push_back({"refined", "", point.refined});
@@ -58,6 +52,7 @@ void add_errors(const TradePoint& point, std::vector<Column>& columns) {
     const AssetError& error = point.error;
     columns.push_back({"visual_error", "fraction", point.visual_error});
     columns.push_back({"transfer_total_error", "fraction", point.transfer_error()});
+    columns.push_back({"transfer_deviation", "fraction", error.transfer.error_to_bake});
     columns.push_back({"position_rms", "scene units", error.geometry.rms()});
     columns.push_back({"position_worst", "scene units", error.geometry.worst()});
     columns.push_back({"position_relative_rms", "of the diagonal", error.geometry.relative_rms()});
@@ -83,34 +78,13 @@ std::vector<Column> columns_of(const TradePoint& point) {
     return columns;
 }
 
-std::string value_text(const nlohmann::ordered_json& value) {
-    if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
-    if (value.is_string()) return csv_field(value.get<std::string>());
-    if (value.is_number_float()) return fmt::format("{:.9g}", value.get<double>());
-    return value.dump();
-}
-
 }  // namespace
 
 std::string trade_csv(const std::vector<TradePoint>& points) {
-    std::string csv;
-    // A row of what `text_of` says of each column.
-    const auto add_row = [&](const TradePoint& point, const auto& text_of) {
-        const std::vector<Column> columns = columns_of(point);
-        for (const Column& column : columns) {
-            csv += text_of(column);
-            csv += &column == &columns.back() ? '\n' : ',';
-        }
-    };
     TradePoint any;
     any.settings.max_error = "1%";
-    add_row(any, [](const Column& column) {
-        return csv_field(column.unit.empty() ? column.name
-                                             : fmt::format("{} [{}]", column.name, column.unit));
-    });
-    for (const TradePoint& point : points) {
-        add_row(point, [](const Column& column) { return value_text(column.value); });
-    }
+    std::string csv = csv_line(columns_of(any), heading_field);
+    for (const TradePoint& point : points) csv += csv_line(columns_of(point), value_field);
     return csv;
 }
 

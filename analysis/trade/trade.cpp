@@ -50,6 +50,16 @@ std::vector<std::string> errors_of(const TradeOptions& options) {
     return errors;
 }
 
+SweepAxes axes_of(const TradeOptions& options) {
+    SweepAxes axes;
+    axes.errors = errors_of(options);
+    axes.plain_errors = options.errors.empty() ? std::vector{usual_plain_error()} : axes.errors;
+    axes.precisions = options.precisions.empty()
+                          ? std::vector<Precision>(kSweepPrecisions.begin(), kSweepPrecisions.end())
+                          : options.precisions;
+    return axes;
+}
+
 void refine_trade(Sweep& sweep, const TradeLimit& limit, Trade& trade, bool quiet) {
     const size_t num_brackets =
         std::min(kMostBrackets, brackets(trade.points, limit, trade.kind).size());
@@ -63,7 +73,7 @@ void refine_trade(Sweep& sweep, const TradeLimit& limit, Trade& trade, bool quie
 
 // Adds the files of another bake of the same poses, which is made and removed.
 void add_other_bake(const BakeReader& bake, uint32_t rays, const std::vector<uint32_t>& bands,
-                    const std::vector<std::string>& errors, const std::filesystem::path& scratch,
+                    const SweepAxes& axes, const std::filesystem::path& scratch,
                     const PlayFile& play, Trade& trade, bool quiet) {
     const ScratchDirectory directory(scratch, fmt::format("sweep-{}", rays));
     const std::filesystem::path path = directory.path() / "other.bake";
@@ -77,10 +87,10 @@ void add_other_bake(const BakeReader& bake, uint32_t rays, const std::vector<uin
     const BakeReader other(path);
     Sweep sweep(other, file_stem(bake.directory()), scratch / "trade-point.paim", play);
     cli::Progress progress(fmt::format("sweep of {} rays", rays), "files",
-                           bands.size() * errors.size() * points_of(1, "1%").size(), quiet);
+                           bands.size() * num_points(axes), quiet);
     std::vector<TradePoint> points;
     for (const uint32_t number : bands) {
-        sweep.measure_all(number, errors, points, [&](uint64_t count) { progress.advance(count); });
+        sweep.measure_all(number, axes, points, [&](uint64_t count) { progress.advance(count); });
     }
     progress.finish();
     for (TradePoint& point : points) {
@@ -108,12 +118,11 @@ Trade measure_trade(const BakeReader& bake, const TradeOptions& options,
     Trade trade;
     trade.limit = options.limit;
     const std::vector<uint32_t> bands = bands_of(bake, options, trade.notes);
-    const std::vector<std::string> errors = errors_of(options);
+    const SweepAxes axes = axes_of(options);
     Sweep sweep(bake, file_stem(bake.directory()), scratch / "trade-point.paim", play);
-    cli::Progress progress("sweep", "files",
-                           bands.size() * errors.size() * points_of(1, "1%").size(), quiet);
+    cli::Progress progress("sweep", "files", bands.size() * num_points(axes), quiet);
     for (const uint32_t number : bands) {
-        sweep.measure_all(number, errors, trade.points,
+        sweep.measure_all(number, axes, trade.points,
                           [&](uint64_t points) { progress.advance(points); });
     }
     progress.finish();
@@ -121,7 +130,7 @@ Trade measure_trade(const BakeReader& bake, const TradeOptions& options,
     if (trade.limit) refine_trade(sweep, *trade.limit, trade, quiet);
     trade.notes.insert(trade.notes.end(), sweep.notes().begin(), sweep.notes().end());
     for (const uint32_t rays : options.rays) {
-        add_other_bake(bake, rays, bands, errors, scratch, play, trade, quiet);
+        add_other_bake(bake, rays, bands, axes, scratch, play, trade, quiet);
     }
     mark_front(trade.points);
     if (!trade.limit) return trade;

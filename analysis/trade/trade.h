@@ -21,6 +21,7 @@ struct TradeOptions {
     std::optional<TradeLimit> limit;  // what is wanted, for a recommendation
     // Rays a vertex of further bakes of the same poses, which are made for the sweep.
     std::vector<uint32_t> rays = {};
+    std::vector<Precision> precisions = {};  // i16, f16, f32; empty: all three
 };
 
 struct Trade {

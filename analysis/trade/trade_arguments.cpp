@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "analysis/trade/grid.h"
@@ -33,6 +34,24 @@ std::vector<std::string> parse_errors(const std::string& list) {
     std::vector<std::string> errors = parts_of(list);
     for (const std::string& error : errors) cli::parse_share(error, "--sweep-errors");
     return errors;
+}
+
+std::vector<Precision> parse_precisions(const std::string& list) {
+    std::vector<Precision> precisions;
+    for (const std::string& part : parts_of(list)) {
+        const auto found = std::find_if(
+            kSweepPrecisions.begin(), kSweepPrecisions.end(),
+            [&](Precision precision) { return part == sweep_precision_name(precision); });
+        if (found == kSweepPrecisions.end()) {
+            throw_usage(
+                "--sweep-precision: expected integers, f16 or f32, separated by commas, got '{}'",
+                list);
+        }
+        if (std::find(precisions.begin(), precisions.end(), *found) == precisions.end()) {
+            precisions.push_back(*found);
+        }
+    }
+    return precisions;
 }
 
 std::optional<TradeLimit> limit_of(const TradeArguments& arguments) {
@@ -98,10 +117,19 @@ void add_trade_options(CLI::App& app, TradeArguments& arguments) {
         ->group(kGroup);
     app.add_option(
            "--sweep-errors", arguments.errors,
-           fmt::format("Errors of the transfer to encode to (--max-error of paim-compress), "
-                       "separated by commas; those that the bake cannot reach are left "
-                       "out. Default: {}",
-                       fmt::join(usual_errors(), ",")))
+           fmt::format(
+               "Errors of the transfer to encode to (--max-error of paim-compress), "
+               "separated by commas; those that the bake cannot reach are left "
+               "out. Floats are cut at the same errors (--auto-transfer-error). Default: {}; "
+               "floats: {}",
+               fmt::join(usual_errors(), ","), usual_plain_error()))
+        ->type_name("LIST")
+        ->group(kGroup);
+    app.add_option(
+           "--sweep-precision", arguments.precisions,
+           "How values are stored, separated by commas. 'integers': with the steps that meet "
+           "--sweep-errors. 'f16', 'f32': floats without a target, as in the paper, once with all "
+           "components and once cut at each error. Default: integers,f16,f32")
         ->type_name("LIST")
         ->group(kGroup);
 }
@@ -116,8 +144,9 @@ std::optional<TradeOptions> trade_options(const TradeArguments& arguments) {
         options.rays = cli::parse_list(*arguments.rays, "--sweep-rays", 2, kMostSweepRays, 2);
     }
     if (arguments.errors) options.errors = parse_errors(*arguments.errors);
-    const bool wanted = arguments.sweep || options.limit || !options.bands.empty() ||
-                        !options.errors.empty() || !options.rays.empty();
+    if (arguments.precisions) options.precisions = parse_precisions(*arguments.precisions);
+    const bool wanted = arguments.sweep || !options.precisions.empty() || options.limit ||
+                        !options.bands.empty() || !options.errors.empty() || !options.rays.empty();
     if (!wanted) return std::nullopt;
     return options;
 }

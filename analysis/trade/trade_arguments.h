@@ -16,7 +16,7 @@ struct TradeArguments {
     bool sweep = false;
     std::optional<std::string> target, target_size;
     std::optional<uint32_t> target_cost;
-    std::optional<std::string> rays, bands, errors;
+    std::optional<std::string> rays, bands, errors, precisions;
 };
 
 void add_trade_options(CLI::App& app, TradeArguments& arguments);

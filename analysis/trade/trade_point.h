@@ -29,9 +29,17 @@ struct TradeSettings {
     std::string geometry_error = "";
     // Of another bake of the same poses, which has so many rays a vertex; 0: of the given bake.
     uint32_t rays = 0;
+    // How values are stored. i16: integers, with the steps that meet the errors above. f16, f32: floats
+    // without a target, the plain storage of Cardoso and Kry. Its codec is plain_transfer()'s, nothing is
+    // preferred, and there is no error of the geometry.
+    Precision precision = Precision::i16;
 
-    double transfer_error() const;   // 0 … 1
-    double geometry_target() const;  // RMS distance, relative to the diagonal
+    bool is_plain() const { return !is_integer(precision); }
+    // Of plain storage, whose max_error is then empty. Otherwise max_error is where components of the
+    // transfer are cut: --auto-transfer-error as it is written.
+    bool keeps_all_components() const { return is_plain() && max_error.empty(); }
+    double transfer_error() const;   // 0 … 1; not a number if all components are kept
+    double geometry_target() const;  // RMS distance by the diagonal; not a number for plain storage
     bool operator==(const TradeSettings&) const = default;
 };
 
@@ -94,6 +102,11 @@ inline const char* error_name(TradeError kind) {
 // As --prefer has it.
 inline const char* preference_name(Preference preference) {
     return preference == Preference::speed ? "speed" : "size";
+}
+
+// As --sweep-precision has it.
+inline const char* sweep_precision_name(Precision precision) {
+    return is_integer(precision) ? "integers" : precision_name(precision);
 }
 
 }  // namespace paim

@@ -12,41 +12,47 @@
 #include <vector>
 
 #include "analysis/gnuplot.h"
+#include "compressor/encode/search/transfer_encoder.h"
 
 namespace paim {
 
 namespace {
 
-using Place = std::pair<double, double>;  // error in percent, cost
+using PlotPlace = std::pair<double, double>;  // error in percent, cost
 
 // Places that no other has less of both than, by ascending error.
-std::vector<Place> lower_front(std::vector<Place> places) {
+std::vector<PlotPlace> lower_front(std::vector<PlotPlace> places) {
     std::sort(places.begin(), places.end());
-    std::vector<Place> front;
-    for (const Place& place : places) {
+    std::vector<PlotPlace> front;
+    for (const PlotPlace& place : places) {
         if (front.empty() || place.second < front.back().second) front.push_back(place);
     }
     return front;
 }
 
-std::string data_block(const std::string& name, const std::vector<Place>& places) {
+std::string data_block(const std::string& name, const std::vector<PlotPlace>& places) {
     std::string text = "$" + name + " << EOD\n";
     for (const auto& [error, cost] : places) text += fmt::format("{:.9g} {:.9g}\n", error, cost);
     return text + "EOD\n";
 }
 
+// What a file was encoded for: "size", "speed"; or how floats were stored without a target: "f32".
+const char* way_text(const TradeSettings& settings) {
+    return settings.is_plain() ? precision_name(settings.precision)
+                               : preference_name(settings.preference);
+}
+
 void write_trade_plot(const std::filesystem::path& output, const Trade& trade,
                       const std::string& y_label,
                       const std::function<double(const TradePoint&)>& cost) {
-    std::map<std::string, std::vector<Place>> series;  // by what a legend says
-    std::vector<Place> all;
+    std::map<std::string, std::vector<PlotPlace>> series;  // by what a legend says
+    std::vector<PlotPlace> all;
     for (const TradePoint& point : trade.points) {
         const double error = 100.0 * error_of(point, trade.kind);
         if (!std::isfinite(error) || error <= 0.0) continue;
         all.emplace_back(error, cost(point));
-        series[fmt::format("{}, {}", point.settings.codec,
-                           preference_name(point.settings.preference))]
-            .push_back(all.back());
+        series[fmt::format("{}, {}", point.settings.codec, way_text(point.settings))].push_back(
+            all.back());
     }
     if (all.empty()) {  // an older chart would be shown instead
         std::error_code ignored;
@@ -71,16 +77,27 @@ void write_trade_plot(const std::filesystem::path& output, const Trade& trade,
     run_gnuplot(script + "plot " + plots + "\n", output);
 }
 
+// What the numbers of codecs are, in the words of their encoders.
+std::string numbers_heading() {
+    std::string heading;
+    for (const TransferEncoderType& type : transfer_encoders()) {
+        if (type.words.numbers.empty()) continue;
+        heading += fmt::format("{}{}", heading.empty() ? "" : "; ", type.words.heading);
+    }
+    return heading;
+}
+
 std::vector<std::string> row_of(const TradePoint& point, TradeError kind) {
     std::string numbers;
     for (const CodecNumber& one : point.numbers) {
-        numbers += fmt::format("{}{} {}", numbers.empty() ? "" : ", ", one.value, one.name);
+        numbers += fmt::format("{}{}", numbers.empty() ? "" : " x ", one.value);
     }
-    return {point.settings.max_error,
-            fmt::format("{:.2g} %", 100.0 * point.settings.geometry_target()),
-            point.settings.codec,
-            preference_name(point.settings.preference),
-            std::to_string(point.settings.bands),
+    const TradeSettings& settings = point.settings;
+    return {settings.keeps_all_components() ? "all" : settings.max_error,
+            settings.is_plain() ? "" : fmt::format("{:.2g} %", 100.0 * settings.geometry_target()),
+            settings.codec,
+            way_text(settings),
+            std::to_string(settings.bands),
             fmt::format("{}, {}", point.geometry_components, point.transfer_components),
             numbers,
             percent_text(error_of(point, kind)),
@@ -114,8 +131,8 @@ void add_trade(Page& page, const std::filesystem::path& bake, const Trade& trade
         page.add_code(recommendation_text(bake, trade));
     }
     page.add_plots({kTradePlots[0], kTradePlots[1]});
-    PageTable table{{"max-error", "geometry-error", "codec", "prefer", "bands",
-                     "components of geometry, transfer", "codec's numbers", error_name(trade.kind),
+    PageTable table{{"error asked for", "geometry-error", "codec", "prefer, or floats", "bands",
+                     "components of geometry, transfer", numbers_heading(), error_name(trade.kind),
                      "transfer error", "bytes", "multiply-adds", "frame, ms", "encode, s"}};
     std::vector<const TradePoint*> front;
     for (const TradePoint& point : trade.points) {

@@ -164,13 +164,42 @@ TEST_F(TradeTest, ErrorsThatTheBakeCannotReachAreLeftOutWithANote) {
 
 TEST_F(TradeTest, ALimitThatNoFileIsWithinEndsWithExitCode5) {
     const ToolResult result =
-        analyze(sweep({"--target", "0.01%", "--sweep-errors", "20%", "--sweep-bands", "4"}));
+        analyze(sweep({"--target", "0.01%", "--sweep-errors", "20%", "--sweep-bands", "4",
+                       "--sweep-precision", "integers"}));  // all components as f32 would do
     EXPECT_EQ(result.exit_code, 5);
     EXPECT_TRUE(contains(
         result.err, "no file of the sweep has a visual error of at most 0.01 %; the least is "))
         << result.err;
     // What was measured is there.
     EXPECT_FALSE(trade()["points"].empty());
+}
+
+// Plain storage is among the points unless it is left out, and its command makes the file that was
+// promised.
+TEST_F(TradeTest, PlainStorageIsAPointToo) {
+    // Finer than what integers of a large error reach.
+    expect_success(analyze(sweep({"--target", "0.3%", "--sweep-errors", "20%", "--sweep-bands", "4",
+                                  "--sweep-precision", "f16,f32"})));
+    const json trade = this->trade();
+    ASSERT_EQ(trade["points"].size(), 4u);
+    EXPECT_EQ(trade["points"][0]["precision"], "f16");
+    EXPECT_TRUE(trade["points"][0]["max_error"].is_null());
+    EXPECT_EQ(trade["points"][2]["precision"], "f32");
+    // All components are the bake.
+    EXPECT_LT(trade["points"][2]["visual_error"], 1e-5);
+    EXPECT_EQ(trade["best"]["point"]["precision"], "f16");
+    EXPECT_TRUE(contains(trade["best"]["command"], " --precision f16 --geometry-components all "));
+    expect_as_promised(trade["best"]);
+    EXPECT_TRUE(contains(text_of("out/index.html"), "<td>f16</td>"));
+    const auto table = read_csv("out/trade.csv");
+    ASSERT_EQ(table.size(), 5u);
+    for (size_t row = 1; row < table.size(); ++row) {
+        ASSERT_EQ(table[row].size(), table[0].size());
+        EXPECT_EQ(table[row][3], trade["points"][row - 1]["precision"]);
+    }
+    expect_success(analyze(
+        sweep({"--sweep-precision", "integers", "--sweep-errors", "20%", "--sweep-bands", "4"})));
+    for (const json& point : this->trade()["points"]) EXPECT_EQ(point["precision"], "integers");
 }
 
 // Other bakes are made and removed; their files are among the points, and are named by their rays.
@@ -215,6 +244,10 @@ TEST_F(TradeTest, RefusesWrongValues) {
     expect_usage({"--sweep-bands", ""}, "--sweep-bands: expected numbers from 1 to");
     expect_usage({"--sweep-errors", "5%,100%"},
                  "--sweep-errors: expected more than 0 and less than 1");
+    expect_usage(
+        {"--sweep-precision", "f64"},
+        "--sweep-precision: expected integers, f16 or f32, separated by commas, got 'f64'");
+    expect_usage({"--sweep-precision", ""}, "--sweep-precision: expected integers");
     expect_usage({"--sweep-errors", "5%,"}, "--sweep-errors: expected a fraction");
     expect_usage({"--target", "1%", "--target-size", "1M"}, "--target excludes --target-size");
     expect_usage({"--target-size", "1M", "--target-cost", "9"}, "excludes");

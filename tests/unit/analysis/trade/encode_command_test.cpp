@@ -61,6 +61,19 @@ TEST(EncodeCommand, NamesTheErrorOfTheGeometryWhereItIsNotTheDefault) {
         "any --prefer size --bands 5");
 }
 
+TEST(EncodeCommand, FloatsHaveNoTarget) {
+    TradeSettings settings{4, "any", Preference::size, ""};
+    settings.precision = Precision::f32;
+    EXPECT_EQ(encode_command("x.bake", settings),
+              "paim-compress encode x.bake -o x.paim --precision f32 --geometry-components all "
+              "--transfer-components all --measure --bands 4");
+    settings.precision = Precision::f16;
+    settings.max_error = "2%";
+    EXPECT_EQ(encode_command("x.bake", settings),
+              "paim-compress encode x.bake -o x.paim --precision f16 --auto-transfer-error 2% "
+              "--measure --bands 4");
+}
+
 TEST(EncodeCommand, AnotherBakeComesFirst) {
     EXPECT_EQ(encode_command("d/octopus.bake", {5, "any", Preference::size, "5%", "", 64}),
               "paim-compress bake POSES -o octopus-64.bake --rays 64 && paim-compress encode "

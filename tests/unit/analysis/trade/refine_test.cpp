@@ -118,5 +118,14 @@ TEST(Refine, UnknownErrorsAreInNoBracket) {
     EXPECT_TRUE(brackets(points, {Of::bytes, 1.0}, TradeError::visual).empty());
 }
 
+// Floats have no steps to choose, whatever they err.
+TEST(Refine, LeavesPlainStorageAsItIs) {
+    const TradeLimit limit{Of::error, 0.04};
+    std::vector<TradePoint> points = lawful_grid();
+    for (TradePoint& point : points) point.settings.precision = Precision::f32;
+    EXPECT_TRUE(brackets(points, limit, TradeError::visual).empty());
+    EXPECT_FALSE(brackets(lawful_grid(), limit, TradeError::visual).empty());
+}
+
 }  // namespace
 }  // namespace paim

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "analysis/csv_field.h"
@@ -67,6 +68,7 @@ TEST(TradeTable, NumbersAreUnderTheirNames) {
     EXPECT_EQ(field("codec"), "plain");
     EXPECT_EQ(field("preference"), "speed");
     EXPECT_EQ(field("max_error [fraction]"), "0.025");
+    EXPECT_EQ(field("precision"), "integers");
     EXPECT_EQ(field("refined"), "no");
     EXPECT_EQ(field("size [bytes]"), "123456");
     EXPECT_EQ(field("multiply_adds [per vertex and frame]"), "42");
@@ -81,6 +83,18 @@ TEST(TradeTable, NumbersAreUnderTheirNames) {
               (std::vector<std::string>{"encode [s]", "shared [s]", "frame [ms]", "bake [s]"}));
     EXPECT_EQ((std::vector<std::string>(line.end() - 4, line.end())),
               (std::vector<std::string>{"1.5", "2.5", "0.25", "nan"}));
+}
+
+TEST(TradeTable, FloatsHaveNeitherPreferenceNorTarget) {
+    TradePoint point = example_point();
+    EXPECT_EQ(trade_point_json(point)["precision"], "integers");
+    point.settings.precision = Precision::f16;
+    EXPECT_EQ(trade_point_json(point)["precision"], "f16");
+    EXPECT_EQ(trade_point_json(point)["preference"], "none");
+    EXPECT_EQ(trade_point_json(point)["max_error"], 0.025);
+    EXPECT_TRUE(std::isnan(trade_point_json(point)["geometry_error"].get<double>()));
+    point.settings.max_error.clear();
+    EXPECT_TRUE(std::isnan(trade_point_json(point)["max_error"].get<double>()));
 }
 
 TEST(TradeTable, WhatWasNotMeasuredIsNullInJson) {
