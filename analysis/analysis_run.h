@@ -42,6 +42,15 @@ struct AnalysisRun {
 // Measures curves of components and bands.
 void curves_section(AnalysisRun& run);
 
+// Measures a curve over the components of a vertex of a file.
+void vertex_components_section(AnalysisRun& run);
+
+// Encodes the bake with several numbers of groups of vertices, and measures them.
+void groups_section(AnalysisRun& run);
+
+// Bakes poses again with several numbers of rays, and measures them.
+void rays_section(AnalysisRun& run);
+
 // Finds where the error of a file comes from.
 void budget_section(AnalysisRun& run);
 

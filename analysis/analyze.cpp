@@ -12,6 +12,7 @@
 #include "analysis/gnuplot.h"
 #include "analysis/page.h"
 #include "analysis/same_bake.h"
+#include "analysis/setting_curves/vertex_component_curve.h"
 #include "analysis/stable_time.h"
 #include "analysis/stage.h"
 #include "paim/base/error.h"
@@ -33,6 +34,8 @@ size_t num_pictures_held(const AnalyzeOptions& options, size_t num_lights) {
     const size_t settings = 2 * (options.components.size() + 1) + options.bands.size() + 1;
     size_t shown = 0;
     if (options.measures_curves()) shown = std::max(shown, settings);
+    if (!options.curves_of.empty()) shown = std::max(shown, options.components.size() + 1);
+    shown = std::max({shown, options.curves_groups.size(), options.curves_rays.size() + 1});
     if (!options.budget.empty()) shown = std::max(shown, kPicturesOfABudget);
     shown = std::max(shown, 3 * options.compare.size());
     const size_t kept = options.trade ? size_t{options.stage.num_poses} * of_pose : 0;
@@ -56,13 +59,14 @@ void check_memory(const AnalyzeOptions& options, size_t num_images) {
 // enough.
 void check_inputs(const AnalyzeOptions& options, const BakeReader& bake) {
     std::vector<std::filesystem::path> files = options.compare;
-    for (const auto& file : {options.budget, options.temporal}) {
+    for (const auto& file : {options.budget, options.curves_of, options.temporal}) {
         if (!file.empty()) files.push_back(file);
     }
     for (const std::filesystem::path& file : files) {
         const Asset asset = read_paim(file);
         try {
             for (size_t part = 0; part < asset.parts.size(); ++part) match_part(asset, part, bake);
+            if (file == options.curves_of) vertex_component_name(*asset.moving().transfer);
         } catch (const Error& error) {
             throw Error(error.code(), fmt::format("{}: {}", file.string(), error.what()));
         }
@@ -80,16 +84,18 @@ void check_inputs(const AnalyzeOptions& options, const BakeReader& bake) {
 
 // On stderr, for options that change nothing here.
 void say_what_is_not_used(const AnalyzeOptions& options) {
-    const bool compares = options.measures_curves() || !options.compare.empty() || options.trade;
+    const bool compares = options.measures_curves() || !options.curves_of.empty() ||
+                          !options.curves_groups.empty() || !options.compare.empty() ||
+                          options.trade;
     const bool traces = options.reference != ReferenceKind::bake && compares;
     const auto say = [](const char* option, const char* where) {
         fmt::print(stderr, "paim-analyze: note: {} is not used: it is for {}\n", option, where);
     };
-    if (options.lists_were_given && !options.measures_curves()) {
-        say("--components or --bands", "--curves");
+    if (options.lists_were_given && !options.measures_curves() && options.curves_of.empty()) {
+        say("--components or --bands", "--curves and --curves-of");
     }
     if (options.reference != ReferenceKind::bake && !compares) {
-        say("--reference", "--curves, --compare and --sweep");
+        say("--reference", "--curves, --curves-of, --curves-groups, --compare and --sweep");
     }
     if (options.reference_rays > 0 && !traces && options.budget.empty()) {
         say("--reference-rays", "--reference traced or traced-pixels, and --budget");
@@ -129,6 +135,9 @@ void analyze(const AnalyzeOptions& options) {
     json["machine"] = machine_name();
     AnalysisRun run{options, bake, stage, with_plots, page, json};
     if (options.measures_curves()) curves_section(run);
+    if (!options.curves_of.empty()) vertex_components_section(run);
+    if (!options.curves_groups.empty()) groups_section(run);
+    if (!options.curves_rays.empty()) rays_section(run);
     if (!options.compare.empty()) compare_section(run);
     if (!options.budget.empty()) budget_section(run);
     if (!options.temporal.empty()) flicker_section(run);

@@ -14,9 +14,6 @@
 
 namespace paim {
 
-namespace {
-
-// Adds a decoded pose. Planes that it does not have count as zero.
 void add_transfer(ArrayError& error, const DecodedPose& decoded, const DecodedPose& baked,
                   uint32_t p) {
     const size_t num_vertices = baked.positions.size() / 3;
@@ -25,15 +22,15 @@ void add_transfer(ArrayError& error, const DecodedPose& decoded, const DecodedPo
         for (uint32_t i = 0; i < baked.layout.num_coefficients(); ++i) {
             const auto plane_of = [&](const DecodedPose& pose) {
                 return std::span(pose.transfer)
-                    .subspan(pose.layout.plane(channel, i) * num_vertices, num_vertices);
+                    .subspan(pose.layout.plane(std::min(channel, pose.layout.channels - 1), i) *
+                                 num_vertices,
+                             num_vertices);
             };
             const bool kept = i < decoded.layout.num_coefficients();
             error.add(kept ? plane_of(decoded) : std::span(zeros), plane_of(baked), p);
         }
     }
 }
-
-}  // namespace
 
 MeasuredReference measure_curves(const BakeReader& bake, const Asset& asset, const Stage& stage,
                                  const ReferenceSource& reference, std::vector<Curve>& curves,

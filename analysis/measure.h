@@ -16,6 +16,10 @@ struct MeasuredReference {
     std::vector<double> noise;  // [lights] of all pictures, relative (RelativeNoise)
 };
 
+// Adds the transfer of a decoded pose. Planes that it does not have count as zero.
+void add_transfer(ArrayError& error, const DecodedPose& decoded, const DecodedPose& baked,
+                  uint32_t p);
+
 // Fills in what plan_curves() left to be measured, but for times. One pose is in memory at a time.
 // on_step  called after each setting of each pose, num_points · stage.poses().size() times
 MeasuredReference measure_curves(const BakeReader& bake, const Asset& asset, const Stage& stage,

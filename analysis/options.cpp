@@ -1,7 +1,11 @@
 // The command line of paim-analyze.
 #include "analysis/options.h"
 
+#include <fmt/format.h>
+
 #include "analysis/reference/enough_rays.h"
+#include "analysis/reference/transfer_truth.h"
+#include "analysis/setting_curves/group_curve.h"
 #include "analysis/trade/trade_arguments.h"
 #include "paim/base/error.h"
 #include "paim/base/vector.h"
@@ -14,21 +18,53 @@ namespace paim {
 
 namespace {
 
+constexpr uint32_t kMostGroups = 32767;
+constexpr uint32_t kMostCurveRays = 65536;
+
 // Values whose form is checked after parsing.
 struct RawValues {
     std::string components = "20,7,4,2";
     std::string bands = "7,4,2";
     std::string held_out;
+    std::optional<std::string> curves_groups, curves_rays;
     double azimuth_deg = kDefaultAzimuth_rad * 180.0 / kPi;
     double elevation_deg = kDefaultElevation_rad * 180.0 / kPi;
     TradeArguments trade;
 };
 
+// Curves over settings that have to be measured one by one.
+void add_setting_curves(CLI::App& app, AnalyzeOptions& options, RawValues& raw) {
+    app.add_option(
+           "--curves-of", options.curves_of,
+           "A .paim made from this bake whose codec gives each vertex components of its own: "
+           "measure a curve over their number (--components)")
+        ->type_name("FILE");
+    app.add_option(
+           "--curves-groups", raw.curves_groups,
+           fmt::format(
+               "Numbers of {} of vertices, 1 to {}, separated by commas, such as 8,16,32,64: encode the "
+               "bake with each (codec {}) and measure a curve over their number. Components are "
+               "found once; of 5,000 vertices and 21 poses each number takes 1 to 3 s",
+               grouped_encoder().words.numbers.front(), kMostGroups, grouped_encoder().codec))
+        ->type_name("LIST");
+    app.add_option(
+           "--curves-rays", raw.curves_rays,
+           fmt::format(
+               "Rays a vertex, even, 2 to {}, separated by commas: bake the poses of --poses again "
+               "with each, and with the bake's own, and measure a curve over their number. The truth "
+               "has {} times the bake's rays, at most {}, which takes as many times as long as these "
+               "poses took to bake",
+               kMostCurveRays, kTruthRaysByRays, kMostTruthRays))
+        ->type_name("LIST");
+}
+
 // What is to be measured.
 void add_questions(CLI::App& app, AnalyzeOptions& options, RawValues& raw) {
     app.add_flag("--curves", options.curves,
                  "Measure curves of components and bands, which is what is done unless something "
-                 "else is asked for (--compare, --budget, --temporal, --held-out, --sweep)");
+                 "else is asked for (--curves-*, --compare, --budget, --temporal, --held-out, "
+                 "--sweep)");
+    add_setting_curves(app, options, raw);
     app.add_option(
            "--compare", options.compare,
            "Files (.paim) made from this bake: one table of what they take and what they err, "
@@ -159,7 +195,8 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
         }
     }
     if (options.verify.empty() && options.output.empty()) throw_usage("--output is required");
-    for (const char* const name : {"--budget", "--temporal", "--held-out", "--verify"}) {
+    for (const char* const name :
+         {"--budget", "--curves-of", "--temporal", "--held-out", "--verify"}) {
         const CLI::Option* const option = app.get_option(name);
         if (option->count() > 0 && option->as<std::string>().empty()) {
             throw_usage("{}: expected a value, got none", name);
@@ -168,6 +205,14 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
     if (!raw.held_out.empty()) options.held_out = cli::parse_share(raw.held_out, "--held-out");
     options.lists_were_given = app.count("--components") + app.count("--bands") > 0;
     options.trade = trade_options(raw.trade);
+    if (raw.curves_groups) {
+        options.curves_groups =
+            cli::parse_list(*raw.curves_groups, "--curves-groups", 1, kMostGroups);
+    }
+    if (raw.curves_rays) {
+        options.curves_rays =
+            cli::parse_list(*raw.curves_rays, "--curves-rays", 2, kMostCurveRays, 2);
+    }
     options.components = cli::parse_list(raw.components, "--components", 0, 1u << 20);
     options.bands = cli::parse_list(raw.bands, "--bands", 1, sh::kMaxBands);
     options.stage.azimuth_rad = raw.azimuth_deg * kPi / 180.0;

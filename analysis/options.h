@@ -19,6 +19,9 @@ struct AnalyzeOptions {
     std::filesystem::path verify;                // a .paim to check instead; empty: none
     std::string band_power;                      // for --verify; empty: that of the file
     bool curves = false;                         // asked for by name
+    std::filesystem::path curves_of;             // a .paim with components of vertices; empty: none
+    std::vector<uint32_t> curves_groups;         // numbers of groups to encode with; none: no curve
+    std::vector<uint32_t> curves_rays;           // rays to bake with; none: no curve
     std::vector<std::filesystem::path> compare;  // .paim files side by side
     std::filesystem::path temporal;              // a .paim whose flicker is measured; empty: none
     std::optional<double> held_out;              // error that every other pose is encoded to
@@ -36,10 +39,13 @@ struct AnalyzeOptions {
     bool json = false;
     bool quiet = false;
 
+    bool measures_setting_curves() const {
+        return !curves_of.empty() || !curves_groups.empty() || !curves_rays.empty();
+    }
     // Unless something else alone was asked for.
     bool measures_curves() const {
-        return curves ||
-               (budget.empty() && compare.empty() && temporal.empty() && !held_out && !trade);
+        return curves || (budget.empty() && compare.empty() && temporal.empty() && !held_out &&
+                          !trade && !measures_setting_curves());
     }
 };
 

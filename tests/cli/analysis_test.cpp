@@ -1,12 +1,8 @@
 // Sections of paim-analyze beyond its curves: files side by side, error budgets, flicker, held-out
 // poses, and traced references.
-#include <algorithm>
-#include <cmath>
-#include <map>
-
 #include "paim/image/exr.h"
 #include "paim/light/environment.h"
-#include "tests/cli/tool_test.h"
+#include "tests/cli/csv_and_json.h"
 
 namespace paim {
 namespace {
@@ -33,61 +29,6 @@ class Analysis : public ToolTest {
         return analyze(arguments);
     }
 };
-
-// All numbers of a JSON value.
-void collect(const json& value, std::vector<double>& numbers) {
-    if (value.is_number()) numbers.push_back(value.get<double>());
-    if (!value.is_structured()) return;
-    for (const json& inner : value) collect(inner, numbers);
-}
-
-// A name as both CSV and JSON could have it: "worst_picture_pose" and "worst_pose" differ, units do not
-// count.
-std::string plain_name(const std::string& heading) {
-    return heading.substr(0, heading.find(" ["));
-}
-
-// Numbers of a JSON object by name, those of inner objects with them.
-void collect_by_name(const json& object, std::map<std::string, double>& numbers) {
-    for (const auto& [name, value] : object.items()) {
-        if (value.is_number()) numbers[name] = value.get<double>();
-        if (value.is_object()) collect_by_name(value, numbers);
-    }
-}
-
-// Numbers of a row that the JSON has under the same name are the same, to the digits of the row.
-// returns  how many there are
-int expect_same_names(const Arguments& heading, const Arguments& row, const json& object) {
-    std::map<std::string, double> numbers;
-    collect_by_name(object, numbers);
-    int count = 0;
-    for (size_t n = 0; n < heading.size(); ++n) {
-        const auto found = numbers.find(plain_name(heading[n]));
-        if (found == numbers.end()) continue;
-        EXPECT_NEAR(std::stod(row[n]), found->second, 5e-3 * std::abs(found->second)) << heading[n];
-        ++count;
-    }
-    return count;
-}
-
-// Every number of the table is somewhere in the JSON, to the digits of the table.
-void expect_numbers_are_in(const std::vector<Arguments>& lines, const json& all) {
-    std::vector<double> numbers;
-    collect(all, numbers);
-    ASSERT_GE(lines.size(), 2u);
-    for (size_t j = 1; j < lines.size(); ++j) {
-        ASSERT_EQ(lines[j].size(), lines[0].size()) << j;
-        for (size_t n = 0; n < lines[j].size(); ++n) {
-            char* end = nullptr;
-            const double value = std::strtod(lines[j][n].c_str(), &end);
-            if (*end != '\0' || !std::isfinite(value)) continue;  // a name, or null in JSON
-            EXPECT_TRUE(std::any_of(
-                numbers.begin(), numbers.end(),
-                [&](double number) { return std::abs(number - value) <= 5e-3 * std::abs(value); }))
-                << lines[0][n] << ": " << lines[j][n];
-        }
-    }
-}
 
 TEST_F(Analysis, EverySectionHoldsTogether) {
     const ToolResult result =
@@ -278,8 +219,9 @@ TEST_F(Analysis, SaysWhatIsWrong) {
         expect_success(measure("out", {"--reference", "traced", "--reference-rays", rays}));
     }
     // What is not used.
-    EXPECT_TRUE(contains(measure("out", {"--temporal", path("5%.paim"), "--bands", "2"}).err,
-                         "note: --components or --bands is not used: it is for --curves\n"));
+    EXPECT_TRUE(contains(
+        measure("out", {"--temporal", path("5%.paim"), "--bands", "2"}).err,
+        "note: --components or --bands is not used: it is for --curves and --curves-of\n"));
     // An output that cannot be written.
     EXPECT_EQ(measure("5%.paim/out", {}).exit_code, 4);
 }
