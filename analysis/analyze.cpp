@@ -42,19 +42,6 @@ size_t num_pictures_held(const AnalyzeOptions& options, size_t num_lights) {
     return shown * num_lights + kListsOfAPose * of_pose + kept;
 }
 
-// Error if the pictures do not fit into memory.
-void check_memory(const AnalyzeOptions& options, size_t num_images) {
-    constexpr double kMaxGigabytes = 4.0;
-    const double size = options.stage.size_pixels;
-    const double gigabytes = 1e-9 * sizeof(Vec3f) * size * size * static_cast<double>(num_images);
-    if (gigabytes > kMaxGigabytes) {
-        throw_usage(
-            "--size {}: {} images would take {:.1f} GB, expected at most {:g}; measure fewer "
-            "settings, lights, views or poses, or smaller images",
-            options.stage.size_pixels, num_images, gigabytes, kMaxGigabytes);
-    }
-}
-
 // Before anything is measured: that files can be read and are of this bake, and that there are poses
 // enough.
 void check_inputs(const AnalyzeOptions& options, const BakeReader& bake) {
@@ -111,6 +98,19 @@ std::string summary_of(const BakeReader& bake, const Stage& stage) {
 
 }  // namespace
 
+void check_picture_memory(const AnalyzeOptions& options, size_t num_lights) {
+    constexpr double kMaxGigabytes = 4.0;
+    const size_t num_images = num_pictures_held(options, num_lights);
+    const double size = options.stage.size_pixels;
+    const double gigabytes = 1e-9 * sizeof(Vec3f) * size * size * static_cast<double>(num_images);
+    if (gigabytes > kMaxGigabytes) {
+        throw_usage(
+            "--size {}: {} images would take {:.1f} GB, expected at most {:g}; measure fewer "
+            "settings, lights, views or poses, or smaller images",
+            options.stage.size_pixels, num_images, gigabytes, kMaxGigabytes);
+    }
+}
+
 void analyze(const AnalyzeOptions& options) {
     const ThreadLimit limit(options.num_threads);
     const BakeReader bake(options.bake_directory);
@@ -119,7 +119,7 @@ void analyze(const AnalyzeOptions& options) {
     }
     std::vector<NamedLight> lights =
         load_lights(options.environments, options.env_mapping, bake.identity().layout.in_bands);
-    check_memory(options, num_pictures_held(options, lights.size()));
+    check_picture_memory(options, lights.size());
     say_what_is_not_used(options);
     const bool with_plots = have_gnuplot();
     if (!with_plots) fmt::print(stderr, "warning: gnuplot is not installed: no SVG curves\n");

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <set>
+
 #include "analysis/reference/enough_rays.h"
 #include "analysis/reference/transfer_truth.h"
 #include "analysis/setting_curves/group_curve.h"
@@ -68,7 +70,8 @@ void add_questions(CLI::App& app, AnalyzeOptions& options, RawValues& raw) {
     app.add_option(
            "--compare", options.compare,
            "Files (.paim) made from this bake: one table of what they take and what they err, "
-           "and their pictures side by side")
+           "and their pictures side by side. Without BAKE no truth is known: how unlike they are to "
+           "the first file")
         ->type_name("FILE");
     app.add_option("--temporal", options.temporal,
                    "A .paim made from this bake: measure its flicker, the error of the change from "
@@ -135,6 +138,22 @@ void add_pictures(CLI::App& app, AnalyzeOptions& options, RawValues& raw) {
         ->capture_default_str();
 }
 
+// Files alone can be compared with each other.
+void check_without_bake(const CLI::App& app, const AnalyzeOptions& options) {
+    if (options.compare.empty()) throw_usage("BAKE is required");
+    if (options.compare.size() < 2) {
+        throw_usage("BAKE is required, or two files of --compare or more");
+    }
+    const std::set<std::string> possible{"--compare",   "--output",  "--env",   "--env-mapping",
+                                         "--size",      "--views",   "--poses", "--azimuth",
+                                         "--elevation", "--threads", "--json",  "--quiet"};
+    for (const CLI::Option* const option : app.get_options()) {
+        if (option->count() > 0 && !possible.contains(option->get_name())) {
+            throw_usage("{}: needs BAKE", option->get_name());
+        }
+    }
+}
+
 }  // namespace
 
 std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, int& exit_code) {
@@ -158,7 +177,9 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
         "(E6).\n"
         "Exit codes: 0 ok, 1 usage, 2 bad input, 3 unsupported, 4 output failed, 5 an error is "
         "larger than stated, or no file of the sweep is within the target.");
-    app.add_option("BAKE", options.bake_directory, "The .bake directory to measure")->required();
+    app.add_option(
+        "BAKE", options.bake_directory,
+        "The .bake directory to measure; required but for --compare of two files or more");
     app.add_option("-o,--output", options.output,
                    "Directory for the results, required without --verify");
     add_questions(app, options, raw);
@@ -194,6 +215,7 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
             throw_usage("--verify excludes {}", option->get_name());
         }
     }
+    if (options.bake_directory.empty()) check_without_bake(app, options);
     if (options.verify.empty() && options.output.empty()) throw_usage("--output is required");
     for (const char* const name :
          {"--budget", "--curves-of", "--temporal", "--held-out", "--verify"}) {

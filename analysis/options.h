@@ -14,7 +14,7 @@
 namespace paim {
 
 struct AnalyzeOptions {
-    std::filesystem::path bake_directory;
+    std::filesystem::path bake_directory;  // empty: files of `compare` alone
     std::filesystem::path output;
     std::filesystem::path verify;                // a .paim to check instead; empty: none
     std::string band_power;                      // for --verify; empty: that of the file

@@ -6,34 +6,14 @@
 
 #include "analysis/file_poses.h"
 #include "analysis/frame_time.h"
-#include "paim/codec/frame_cost.h"
 #include "paim/format/paim/paim_read.h"
 #include "paim/metrics/image_error.h"
-#include "paim/metrics/rates.h"
 
 namespace paim {
 
 namespace {
 
 constexpr double kMostSeconds = 2.0;  // for the time of a frame
-
-ComparedFile describe(const std::filesystem::path& path, const Asset& asset) {
-    const CodedMesh& mesh = asset.moving();
-    ComparedFile file;
-    file.path = path;
-    file.codec = mesh.transfer->codec_name();
-    file.bands = mesh.layout.in_bands;
-    file.geometry_components = mesh.positions.num_components;
-    file.transfer_components = mesh.transfer->matrix.num_components;
-    file.size_bytes = std::filesystem::file_size(path);
-    file.bits_per_vertex_per_pose =
-        bits_per_vertex_per_pose(file.size_bytes, mesh.topology.num_vertices, mesh.num_poses());
-    const FrameCost cost = mesh.transfer->cost(mesh.layout, {}, true);
-    file.multiply_adds = cost.per_vertex();
-    file.position_multiply_adds = positions_cost(file.geometry_components).per_vertex();
-    file.cpu_multiply_adds = cost.cpu_per_frame;
-    return file;
-}
 
 }  // namespace
 
@@ -52,7 +32,7 @@ FileComparison compare_files(const std::vector<std::filesystem::path>& paths,
     for (const std::filesystem::path& path : paths) {
         assets.push_back(std::make_shared<const Asset>(read_paim(path)));
         poses.push_back(std::make_unique<FilePoses>(*assets.back(), bake));
-        comparison.files.push_back(describe(path, *assets.back()));
+        static_cast<FileCosts&>(comparison.files.emplace_back()) = costs_of(path, *assets.back());
         comparison.files.back().seen.resize(num_lights);
     }
     const BandPower flat = BandPower::flat(bake.identity().layout.in_bands);
