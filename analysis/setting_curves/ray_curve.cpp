@@ -74,6 +74,30 @@ SettingReference pictures_of_truth(const TransferTruth& truth, const Stage& stag
     return reference;
 }
 
+using RayBakes =
+    std::vector<std::unique_ptr<RayBake>>;  // as the settings of a curve, most rays first
+
+// Once all poses are baked.
+void add_noise(const RayBakes& bakes, SettingCurve& curve) {
+    const RayBake& most = *bakes.front();
+    for (size_t j = 0; j < bakes.size(); ++j) {
+        const double expected = expected_noise(most.relative_noise(), most.rays(), bakes[j]->rays(),
+                                               BakeOptions().sampler);
+        std::vector<Column>& columns = curve.settings[j].columns;
+        columns.insert(columns.begin(), {{"expected_noise", "fraction", expected},
+                                         {"stated_noise", "fraction", bakes[j]->relative_noise()}});
+        columns.push_back({"bake", "s per pose", bakes[j]->seconds_per_pose()});
+    }
+}
+
+std::string explanation_of(const Stage& stage, uint32_t true_rays, uint32_t most_rays) {
+    return fmt::format(
+        "{} poses are baked again with each number of rays, and with {} rays as the truth that transfer and "
+        "pictures are compared with. Expected noise is that of {} rays times the power law of the sampler, "
+        "rays^{:.3g}; stated noise is what each bake says of itself.",
+        stage.poses().size(), true_rays, most_rays, -0.5 * error_power(BakeOptions().sampler));
+}
+
 }  // namespace
 
 double expected_noise(double noise, uint32_t from_rays, uint32_t rays, SamplerKind sampler) {
@@ -98,7 +122,7 @@ SettingCurve measure_rays(const BakeReader& bake, const Stage& stage,
     curve.logarithmic = true;
     curve.drawn = {"expected_noise", "stated_noise", "transfer_error"};
     curve.reference_name = fmt::format("{} rays", truth.rays());
-    std::vector<std::unique_ptr<RayBake>> bakes;
+    RayBakes bakes;
     std::vector<SettingSource> sources;
     for (const uint32_t rays : values_up_to(bake.identity().rays, wanted)) {
         Setting& setting = curve.settings.emplace_back();
@@ -116,22 +140,8 @@ SettingCurve measure_rays(const BakeReader& bake, const Stage& stage,
             return reference;
         },
         on_step);
-    const BakeOptions defaults;
-    const double most = bakes.front()->relative_noise();
-    for (size_t j = 0; j < bakes.size(); ++j) {
-        const double expected =
-            expected_noise(most, bakes.front()->rays(), bakes[j]->rays(), defaults.sampler);
-        std::vector<Column>& columns = curve.settings[j].columns;
-        columns.insert(columns.begin(), {{"expected_noise", "fraction", expected},
-                                         {"stated_noise", "fraction", bakes[j]->relative_noise()}});
-        columns.push_back({"bake", "s per pose", bakes[j]->seconds_per_pose()});
-    }
-    curve.explanation = fmt::format(
-        "{} poses are baked again with each number of rays, and with {} rays as the truth that transfer and "
-        "pictures are compared with. Expected noise is that of {} rays times the power law of the sampler, "
-        "rays^{:.3g}; stated noise is what each bake says of itself.",
-        stage.poses().size(), truth.rays(), bakes.front()->rays(),
-        -0.5 * error_power(defaults.sampler));
+    add_noise(bakes, curve);
+    curve.explanation = explanation_of(stage, truth.rays(), bakes.front()->rays());
     return curve;
 }
 
