@@ -21,6 +21,7 @@
 #include "player/render/pose_bounds_cache.h"
 #include "player/render/scene_renderer.h"
 #include "player/render/tone_mapper.h"
+#include "player/report.h"
 #include "player/ui/imgui_layer.h"
 #include "player/ui/keys.h"
 #include "player/ui/orbit_camera.h"
@@ -58,12 +59,13 @@ class App {
                   options.model_path.filename().string() + " - paim-play"),
           renderer_(upload_within(options.wanted.limits(),
                                   [&](const DecodeLimits& limits) {
-                                      return std::make_unique<SceneRenderer>(
-                                          *scene_->asset, scene_->environment, limits);
+                                      return std::make_unique<SceneRenderer>(scene_->asset, limits,
+                                                                             options.decoder);
                                   })),
           range_(range()),
           environment_name_(options.environment_path ? options.environment_path->filename().string()
                                                      : "built-in sky") {
+        renderer_->set_environment(scene_->environment.image());
         bounds_.emplace(*scene_->asset);
         view_.time = options.pose;
         view_.limits = options.limits;
@@ -92,9 +94,9 @@ class App {
 
   private:
     ViewRange range() const {
-        const UploadPlan& plan = renderer_->plan();
-        return {scene_->asset->num_poses(), plan.geometry_components, plan.transfer_components,
-                plan.layout.in_bands, plan.vertex_components};
+        const DecodeLimits most = renderer_->most();
+        return {scene_->asset->num_poses(), most.geometry_components, most.transfer_components,
+                most.bands, most.vertex_components};
     }
 
     // Takes what has been read since the last frame; all else of the view stays. Throws the error of
@@ -104,14 +106,15 @@ class App {
         if (const std::string error = loader_->take_error(); !error.empty()) say(error);
         std::optional<LoadedAsset> loaded = loader_->take();
         if (!loaded) return;
-        auto scene = std::make_unique<Scene>(Scene{nullptr, scene_->environment, {}, 0, {}});
+        auto scene =
+            std::make_unique<Scene>(Scene{nullptr, scene_->environment, scene_->light, {}, 0, {}});
         scene->asset = std::move(loaded->asset);
         scene->bounds = loaded->bounds;
         scene->size_bytes = loaded->progress.size_bytes;
         scene->progress = loaded->progress;
         try {
             upload_within(options_.wanted.limits(), [&](const DecodeLimits& limits) {
-                renderer_->set_asset(*scene->asset, limits);
+                renderer_->set_asset(scene->asset, limits);
             });
         } catch (const Error& error) {
             say(error.what());
@@ -181,7 +184,7 @@ class App {
         Frame frame;
         frame.time = view_.time;
         frame.limits = view_.limits;
-        frame.env_rotation_rad = view_.env_rotation_deg * kPi / 180.0;
+        set_light(frame, *scene_, view_.env_rotation_deg * kPi / 180.0);
         frame.camera = camera_.camera();
         frame.bounds = bounds_->at(view_.time, view_.limits.geometry_components);
         frame.background = view_.background;
@@ -240,7 +243,10 @@ class App {
     void change_light(const std::filesystem::path& path) {
         try {
             const LoadedLight light = load_light(path, options_.env_mapping);
-            renderer_->set_environment(light.light);
+            renderer_->set_environment(light.light.image());
+            scene_->environment = light.light;
+            scene_->light =
+                light.light.coefficients(static_cast<int>(scene_->asset->moving().layout.in_bands));
             environment_name_ = path.filename().string();
             std::string message = "light: " + environment_name_;
             for (const std::string& note : light.notes) message += "\n" + note;

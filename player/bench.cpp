@@ -50,17 +50,17 @@ Times measure(int num_frames, const std::function<void(int)>& draw_frame) {
 }
 
 // Frame i of the benchmark: fractional poses, and a light that turns once.
-void set_frame(Frame& frame, int i, int num_frames, uint32_t num_poses) {
-    frame.time = std::fmod(0.37 * i, static_cast<double>(num_poses));
-    frame.env_rotation_rad = 2.0 * kPi * i / num_frames;
+void set_frame(Frame& frame, const Scene& scene, int i, int num_frames) {
+    frame.time = std::fmod(0.37 * i, static_cast<double>(scene.asset->num_poses()));
+    set_light(frame, scene, 2.0 * kPi * i / num_frames);
 }
 
 // Uploads weights and light, draws and waits until the picture is finished.
 // target  of the size of a tile
-Times measure_gpu(SceneRenderer& renderer, Frame frame, const Tiling& tiling,
-                  const gl::Target& target, int num_frames, uint32_t num_poses) {
+Times measure_gpu(SceneRenderer& renderer, const Scene& scene, Frame frame, const Tiling& tiling,
+                  const gl::Target& target, int num_frames, bool still) {
     const Times times = measure(num_frames, [&](int i) {
-        set_frame(frame, i, num_frames, num_poses);
+        if (!still) set_frame(frame, scene, i, num_frames);
         renderer.draw_tiles(frame, tiling, target);
         glFinish();
     });
@@ -70,13 +70,11 @@ Times measure_gpu(SceneRenderer& renderer, Frame frame, const Tiling& tiling,
 
 // The same weights, decoding, turned light and shading; no picture.
 Times measure_cpu(const Options& options, const Scene& scene, Frame frame) {
-    const uint32_t bands = options.limits.bands;
-    const LightCoefficients light = scene.environment.coefficients(static_cast<int>(bands));
     Playback playback(scene.asset);
     const int num_frames = *options.bench_frames;
     return measure(num_frames, [&](int i) {
-        set_frame(frame, i, num_frames, scene.asset->num_poses());
-        playback.set_light(DistantLight(turn_about_y(light, frame.env_rotation_rad)));
+        set_frame(frame, scene, i, num_frames);
+        playback.set_light(DistantLight(frame.light));
         playback.update(frame.time, frame.limits);
     });
 }
@@ -95,8 +93,10 @@ Opening measure_opening(const Options& options, const Scene& scene, uint64_t mos
     const FilePrefix prefix = inspect_prefix(options.model_path);
     const uint64_t bytes = prefix.playable_bytes(0, most_bytes);
     const LoadedAsset loaded = read_prefix(options.model_path, prefix, bytes);
-    const Scene opened{loaded.asset, scene.environment, bounds_so_far(*loaded.asset), 0, {}};
-    SceneRenderer renderer(*opened.asset, opened.environment, options.limits);
+    const Scene opened{
+        loaded.asset, scene.environment, scene.light, bounds_so_far(*loaded.asset), 0, {}};
+    SceneRenderer renderer(opened.asset, options.limits, options.decoder);
+    renderer.set_environment(opened.environment.image());
     const auto [width, height] = options.size;
     const int samples = options.supersample.value_or(1);
     const Tiling tiling = plan_tiles(width, height, samples, gl::max_target_size());
@@ -118,15 +118,20 @@ void run_bench(const Options& options, const Scene& scene) {
     Frame frame = first_frame(options, scene);
     frame.bounds.extend(scene.bounds.lower);  // of every pose
     frame.bounds.extend(scene.bounds.upper);
-    SceneRenderer renderer(*scene.asset, scene.environment, options.limits);
+    SceneRenderer renderer(scene.asset, options.limits, options.decoder);
+    renderer.set_environment(scene.environment.image());
     const auto [width, height] = options.size;
     const Tiling tiling = plan_tiles(width, height, samples, gl::max_target_size());
     const gl::Target target(tiling.tile_width * samples, tiling.tile_height * samples);
     const gl::Target pixel(1, 1);  // so that almost all of the work is that of the vertices
     const int num_frames = *options.bench_frames;
-    const uint32_t num_poses = scene.asset->num_poses();
-    const Times whole = measure_gpu(renderer, frame, tiling, target, num_frames, num_poses);
-    const Times vertices = measure_gpu(renderer, frame, {1, 1, 1, 1}, pixel, num_frames, num_poses);
+    const auto measure_frames = [&](const Tiling& tiles, const gl::Target& into, bool still) {
+        return measure_gpu(renderer, scene, frame, tiles, into, num_frames, still);
+    };
+    const Times whole = measure_frames(tiling, target, false);
+    const Times still = measure_frames(tiling, target, true);
+    const Times vertices = measure_frames({1, 1, 1, 1}, pixel, false);
+    const Times still_vertices = measure_frames({1, 1, 1, 1}, pixel, true);
     const Times cpu = measure_cpu(options, scene, frame);
     const double ratio = vertices.median_ms / cpu.median_ms;
     const int num_threads = max_parallelism();
@@ -169,6 +174,8 @@ void run_bench(const Options& options, const Scene& scene) {
                1e-6 * static_cast<double>(first.bytes), whole_file.ms);
     print("whole frame", whole);
     print("frame of one pixel: the vertices", vertices);
+    print("whole still", still);
+    print("still vertices", still_vertices);
     print(fmt::format("decoding and shading, {} CPU threads", num_threads).c_str(), cpu);
     fmt::print("vertices to CPU, ratio of the medians  {:9.3f}\n", ratio);
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -103,6 +104,8 @@ class OptionGroup {
         app_.add_flag(name, value, text)->group(name_);
     }
 
+    const std::string& name() const { return name_; }
+
   private:
     CLI::App& app_;
     std::string name_;
@@ -166,6 +169,15 @@ void describe_detail(CLI::App& app, RawOptions& raw, Options& options) {
     group.add("--bands", raw.bands, "B",
               "Number of spherical-harmonic bands of transfer and light, 1 or more; B bands are "
               "B*B coefficients (default: all)");
+    const std::map<std::string, Decoder> decoders{
+        {"auto", Decoder::automatic}, {"gpu", Decoder::gpu}, {"cpu", Decoder::cpu}};
+    app.add_option(
+           "--decoder", options.decoder,
+           "Where vertices are decoded and lit: in shaders (gpu) or by the CPU (cpu). auto is "
+           "the CPU where OpenGL is drawn by software, otherwise shaders (default: auto)")
+        ->transform(CLI::CheckedTransformer(decoders).description(""))
+        ->type_name("auto|gpu|cpu")
+        ->group(group.name());
     group.add_flag("--progressive", options.play_prefix,
                    "Play a file that is still being written or downloaded: the window opens as "
                    "soon as the first part of the file that can be played has arrived, and shows "

@@ -10,6 +10,7 @@
 #include "paim/light/env_mapping.h"
 #include "player/render/codec_words.h"
 #include "player/render/frame.h"
+#include "player/render/vertex_source.h"
 #include "player/ui/orbit_camera.h"
 
 namespace paim::player {
@@ -35,6 +36,7 @@ struct Options {
     std::optional<std::filesystem::path> environment_path;  // else the built-in sky
     EnvMapping env_mapping = EnvMapping::automatic;
     WantedLimits wanted;
+    Decoder decoder = Decoder::automatic;
     DecodeLimits limits;  // as wanted, but no more than the file has; set when it is loaded
     ToneCurve tone_curve;
     double pose = 0.0;

@@ -43,6 +43,7 @@ nlohmann::ordered_json describe_frame(const Options& options, const Scene& scene
     }
     json["bytes_in_use"] = cost.bytes;
     json["texture_bytes"] = renderer.texture_bytes();
+    json["buffer_bytes"] = renderer.buffer_bytes();
     json["multiply_adds_per_vertex"] = cost.multiply_adds;
     for (const CodecWords& words : codec_words()) {
         const bool own = words.codec == mesh.transfer->codec_name();
@@ -54,11 +55,18 @@ nlohmann::ordered_json describe_frame(const Options& options, const Scene& scene
     return json;
 }
 
+void set_light(Frame& frame, const Scene& scene, double env_rotation_rad) {
+    frame.light = turn_about_y(scene.light, env_rotation_rad);
+    // The map turns by the angle, so directions are looked up turned back by it.
+    frame.environment_from_world =
+        Eigen::AngleAxisf(static_cast<float>(-env_rotation_rad), Vec3f::UnitY()).toRotationMatrix();
+}
+
 Frame first_frame(const Options& options, const Scene& scene) {
     Frame frame;
     frame.time = options.pose;
     frame.limits = options.limits;
-    frame.env_rotation_rad = options.env_rotation_rad;
+    set_light(frame, scene, options.env_rotation_rad);
     const float aspect =
         static_cast<float>(options.size.first) / static_cast<float>(options.size.second);
     frame.camera = start_camera(options.camera, scene.bounds, aspect);

@@ -17,6 +17,9 @@ nlohmann::ordered_json describe_frame(const Options& options, const Scene& scene
                                       const SceneRenderer& renderer, const std::string& driver,
                                       int samples);
 
+// Lights the frame by the scene's environment, turned about +Y.
+void set_light(Frame& frame, const Scene& scene, double env_rotation_rad);
+
 // The first frame that the options ask for.
 Frame first_frame(const Options& options, const Scene& scene);
 

@@ -50,7 +50,7 @@ Scene load_scene(Options& options) {
 }
 
 Scene make_scene(Options& options, LoadedAsset loaded) {
-    Scene scene{nullptr, EnvironmentLight(Image(1, 1)), {}, 0, {}};
+    Scene scene{nullptr, EnvironmentLight(Image(1, 1)), {}, {}, 0, {}};
     scene.asset = std::move(loaded.asset);
     scene.bounds = loaded.bounds;
     scene.size_bytes = loaded.progress.size_bytes;
@@ -82,6 +82,7 @@ Scene make_scene(Options& options, LoadedAsset loaded) {
     limits.bands = limit_of("--bands", "bands", wanted.bands, mesh.layout.in_bands, true);
 
     scene.environment = load_environment(options);
+    scene.light = scene.environment.coefficients(static_cast<int>(mesh.layout.in_bands));
     return scene;
 }
 

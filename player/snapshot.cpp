@@ -38,7 +38,8 @@ void warn_if_clipped(const Image& image, float exposure_ev) {
 void take_snapshot(const Options& options, const Scene& scene) {
     const auto context = gl::make_headless_context();
     const int samples = options.supersample.value_or(kDefaultSamples);
-    SceneRenderer renderer(*scene.asset, scene.environment, options.limits);
+    SceneRenderer renderer(scene.asset, options.limits, options.decoder);
+    renderer.set_environment(scene.environment.image());
     const Image image = renderer.render(first_frame(options, scene), options.size.first,
                                         options.size.second, samples);
     const auto& path = *options.snapshot_path;

@@ -37,13 +37,9 @@ void BackgroundRenderer::clear(const Frame& frame) const {
 
 void BackgroundRenderer::draw(const Frame& frame, float aspect) const {
     if (frame.background.kind != Background::Kind::environment) return;
-    // The map turns by the angle, so directions are looked up turned back by it.
-    const Eigen::Matrix3f light_from_world =
-        Eigen::AngleAxisf(static_cast<float>(-frame.env_rotation_rad), Vec3f::UnitY())
-            .toRotationMatrix();
     const float half_height = std::tan(0.5f * frame.camera.vertical_fov_rad);
     program_.use();
-    program_.set("light_axes", Eigen::Matrix3f(light_from_world * frame.camera.axes()));
+    program_.set("light_axes", Eigen::Matrix3f(frame.environment_from_world * frame.camera.axes()));
     program_.set("half_extent", Eigen::Vector2f(half_height * aspect, half_height));
     const PictureRegion& region = frame.region;
     program_.set("region_corner", Eigen::Vector2f(region.left, region.bottom));

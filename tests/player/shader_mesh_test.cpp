@@ -1,5 +1,5 @@
 // What the GPU draws against the decoder and shade() on the CPU, ray cast.
-#include "player/render/mesh_renderer.h"
+#include "player/render/shader_mesh.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -11,6 +11,7 @@
 #include "player/gl/check.h"
 #include "player/gl/headless_context.h"
 #include "player/gl/target.h"
+#include "player/render/surface_renderer.h"
 #include "tests/player/ray_cast.h"
 #include "tests/player/test_asset.h"
 
@@ -29,6 +30,31 @@ Frame make_frame(const Asset& asset, double time, const DecodeLimits& limits = {
     frame.camera = frame_bounds(sequence_bounds(asset), float{kWidth} / kHeight);
     return frame;
 }
+
+// A mesh that shaders decode, and its surface.
+class MeshRenderer {
+  public:
+    MeshRenderer(const CodedMesh& mesh, const DecodeLimits& limits)
+        : mesh_(mesh), decoder_(mesh, limits), surface_(mesh.topology) {}
+
+    const UploadPlan& plan() const { return decoder_.plan(); }
+    uint64_t texture_bytes() const { return decoder_.texture_bytes(); }
+
+    void draw(const Frame& frame, const LightCoefficients& light, float aspect) {
+        decoder_.decode(frame.time, frame.limits, surface_.positions());
+        decoder_.light(frame.time, frame.limits, light, surface_.colors());
+        const Topology& topology = mesh_.topology;
+        const SurfacePlace place{topology.num_triangles_before(mesh_.num_following),
+                                 root_at(mesh_.root_motion, frame.time)};
+        renderer_.draw(surface_, topology.triangles.size(), place, frame, aspect);
+    }
+
+  private:
+    const CodedMesh& mesh_;
+    ShaderMesh decoder_;
+    SurfaceMesh surface_;
+    SurfaceRenderer renderer_;
+};
 
 Image draw(MeshRenderer& renderer, const Frame& frame, const LightCoefficients& light) {
     const gl::Target target(kWidth, kHeight);
@@ -72,20 +98,20 @@ void expect_drawn_at(std::initializer_list<double> times, const Asset& asset) {
     }
 }
 
-class MeshRendererTest : public testing::TestWithParam<gl::Api> {
+class ShaderMeshTest : public testing::TestWithParam<gl::Api> {
   protected:
-    MeshRendererTest() : context_(gl::make_headless_context(GetParam())) {
+    ShaderMeshTest() : context_(gl::make_headless_context(GetParam())) {
         gl::report_driver_messages();
     }
     std::unique_ptr<gl::Context> context_;
 };
 
-INSTANTIATE_TEST_SUITE_P(Apis, MeshRendererTest, testing::Values(gl::Api::desktop, gl::Api::es),
+INSTANTIATE_TEST_SUITE_P(Apis, ShaderMeshTest, testing::Values(gl::Api::desktop, gl::Api::es),
                          [](const auto& api) {
                              return api.param == gl::Api::desktop ? "Desktop" : "Es";
                          });
 
-TEST_P(MeshRendererTest, DrawsEveryKindOfMesh) {
+TEST_P(ShaderMeshTest, DrawsEveryKindOfMesh) {
     // Bands: 1, 9, 16, 25 and 49 coefficients, of which only 16 is a multiple of a texel's four.
     for (const uint32_t bands : {1u, 3u, 4u, 5u, 7u}) {
         for (const uint32_t channels : {1u, 3u}) {
@@ -152,7 +178,7 @@ std::vector<Variant> make_variants() {
     return variants;
 }
 
-TEST_P(MeshRendererTest, DrawsEveryWayThatValuesAreStored) {
+TEST_P(ShaderMeshTest, DrawsEveryWayThatValuesAreStored) {
     for (const auto& [name, options] : make_variants()) {
         SCOPED_TRACE(fmt::format("{}, {} channels", name, options.channels));
         const Asset asset = make_test_asset(options);
@@ -176,7 +202,7 @@ TEST_P(MeshRendererTest, DrawsEveryWayThatValuesAreStored) {
 
 // A frame at random is the frame in sequence, bit for bit: nothing is left of other poses, lights
 // and limits.
-TEST_P(MeshRendererTest, DrawsTheSameBitsInAnyOrderOfFrames) {
+TEST_P(ShaderMeshTest, DrawsTheSameBitsInAnyOrderOfFrames) {
     for (const auto& [name, options] : make_variants()) {
         if (options.channels == 1) continue;  // the others draw all that these do, three times
         SCOPED_TRACE(name);
@@ -197,7 +223,7 @@ TEST_P(MeshRendererTest, DrawsTheSameBitsInAnyOrderOfFrames) {
 }
 
 // Texels of four values: 8 bytes of i16 or f16, 4 of i8, 16 of f32. Each texture has one at least.
-TEST_P(MeshRendererTest, UploadsIntegersAsTheyAre) {
+TEST_P(ShaderMeshTest, UploadsIntegersAsTheyAre) {
     using enum Precision;
     TestAssetOptions options;  // 5 bands: 7 texels a vertex; 3 + 5 components
     const uint64_t num_vertices = make_test_asset(options).moving().topology.num_vertices;
@@ -229,12 +255,12 @@ TEST_P(MeshRendererTest, UploadsIntegersAsTheyAre) {
               bytes(4, 0, 3, (2 + 8 + 4) * num_vertices + 16 * 9 * (1 + 2 * 3)));
 }
 
-TEST_P(MeshRendererTest, DrawsFractionalPoses) {
+TEST_P(ShaderMeshTest, DrawsFractionalPoses) {
     const Asset asset = make_test_asset({});
     expect_drawn_at({0.0, 0.25, 1.5, 2.999, 3.0, 3.9}, asset);
 }
 
-TEST_P(MeshRendererTest, MovesAndTurnsBodies) {
+TEST_P(ShaderMeshTest, MovesAndTurnsBodies) {
     for (const uint32_t num_clusters : {0u, 3u}) {
         TestAssetOptions options;
         options.num_clusters = num_clusters;
@@ -250,7 +276,7 @@ TEST_P(MeshRendererTest, MovesAndTurnsBodies) {
 }
 
 // The upper rings of the sphere move, the lower ones are a floor.
-TEST_P(MeshRendererTest, LeavesAFloorInItsPlace) {
+TEST_P(ShaderMeshTest, LeavesAFloorInItsPlace) {
     for (const uint32_t num_clusters : {0u, 3u}) {
         TestAssetOptions options;
         options.num_clusters = num_clusters;
@@ -272,7 +298,7 @@ TEST_P(MeshRendererTest, LeavesAFloorInItsPlace) {
 }
 
 // Far away, a camera that goes along sees what one on the spot sees.
-TEST_P(MeshRendererTest, DoesNotShakeFarFromTheOrigin) {
+TEST_P(ShaderMeshTest, DoesNotShakeFarFromTheOrigin) {
     Asset asset = make_test_asset({});
     const LightCoefficients light = make_test_light(5);
     Frame frame = make_frame(asset, 0.0);
@@ -294,7 +320,7 @@ TEST_P(MeshRendererTest, DoesNotShakeFarFromTheOrigin) {
     expect_equal(expected, draw(far_away, frame, light));
 }
 
-TEST_P(MeshRendererTest, HonoursLimitsOfTheFrame) {
+TEST_P(ShaderMeshTest, HonoursLimitsOfTheFrame) {
     for (const uint32_t channels : {1u, 3u}) {
         TestAssetOptions options;
         options.channels = channels;
@@ -312,7 +338,7 @@ TEST_P(MeshRendererTest, HonoursLimitsOfTheFrame) {
     }
 }
 
-TEST_P(MeshRendererTest, UploadsNoMoreThanAsked) {
+TEST_P(ShaderMeshTest, UploadsNoMoreThanAsked) {
     TestAssetOptions options;
     options.channels = 3;
     const Asset asset = make_test_asset(options);
@@ -331,7 +357,7 @@ TEST_P(MeshRendererTest, UploadsNoMoreThanAsked) {
     expect_equal(expected, draw(renderer, more, light));
 }
 
-TEST_P(MeshRendererTest, LightWithFewerBandsIsDarkBeyondThem) {
+TEST_P(ShaderMeshTest, LightWithFewerBandsIsDarkBeyondThem) {
     const Asset asset = make_test_asset({});
     const LightCoefficients light = make_test_light(2);
     MeshRenderer renderer(asset.moving(), {});
@@ -341,7 +367,7 @@ TEST_P(MeshRendererTest, LightWithFewerBandsIsDarkBeyondThem) {
 
 // More components than a row of the weights' texture has texels, and components that wrap from row
 // to row of theirs.
-TEST_P(MeshRendererTest, DrawsThousandsOfComponents) {
+TEST_P(ShaderMeshTest, DrawsThousandsOfComponents) {
     TestAssetOptions options;
     options.num_rings = 3;
     options.bands = 2;
@@ -358,7 +384,7 @@ TEST_P(MeshRendererTest, DrawsThousandsOfComponents) {
     expect_equal(reference(asset, frame, light), draw(renderer, frame, light));
 }
 
-TEST_P(MeshRendererTest, DrawsSixtyFourBands) {
+TEST_P(ShaderMeshTest, DrawsSixtyFourBands) {
     TestAssetOptions options;
     options.num_rings = 4;
     options.bands = 64;
@@ -370,7 +396,7 @@ TEST_P(MeshRendererTest, DrawsSixtyFourBands) {
     expect_equal(reference(asset, frame, light), draw(renderer, frame, light));
 }
 
-TEST_P(MeshRendererTest, DrawsNothingOfAnEmptyMesh) {
+TEST_P(ShaderMeshTest, DrawsNothingOfAnEmptyMesh) {
     TestAssetOptions options;
     Asset asset = make_test_asset(options);
     CodedMesh& mesh = asset.moving();
