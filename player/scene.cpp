@@ -42,7 +42,7 @@ EnvironmentLight load_environment(const Options& options) {
 Scene load_scene(Options& options) {
     if (options.play_prefix) return make_scene(options, load_prefix(options.model_path));
     LoadedAsset loaded;
-    loaded.asset = read_asset(options.model_path);
+    loaded.asset = read_asset(options.model_path, {}, &loaded.units);
     loaded.bounds = sequence_bounds(*loaded.asset);
     std::error_code ignored;
     loaded.progress.size_bytes = std::filesystem::file_size(options.model_path, ignored);
@@ -51,6 +51,7 @@ Scene load_scene(Options& options) {
 
 Scene make_scene(Options& options, LoadedAsset loaded) {
     Scene scene{nullptr, EnvironmentLight(Image(1, 1)), {}, {}, 0, {}};
+    scene.units = loaded.units;
     scene.asset = std::move(loaded.asset);
     scene.bounds = loaded.bounds;
     scene.size_bytes = loaded.progress.size_bytes;
@@ -58,10 +59,12 @@ Scene make_scene(Options& options, LoadedAsset loaded) {
     const Asset& asset = *scene.asset;
     const CodedMesh& mesh = asset.moving();
 
+    ViewState asked;
+    for (const auto& change : options.view_changes) change(asked);
     const double last_pose = static_cast<double>(asset.num_poses()) - 1.0;
-    if (options.pose > last_pose) {
+    if (asked.animation.time > last_pose) {
         throw_usage("--pose: expected 0 to {} ({} has {} poses), got {}", last_pose,
-                    options.model_path.string(), asset.num_poses(), options.pose);
+                    options.model_path.string(), asset.num_poses(), asked.animation.time);
     }
     const WantedLimits& wanted = options.wanted;
     DecodeLimits& limits = options.limits;
@@ -82,7 +85,6 @@ Scene make_scene(Options& options, LoadedAsset loaded) {
     limits.bands = limit_of("--bands", "bands", wanted.bands, mesh.layout.in_bands, true);
 
     scene.environment = load_environment(options);
-    scene.light = scene.environment.coefficients(static_cast<int>(mesh.layout.in_bands));
     return scene;
 }
 

@@ -13,6 +13,7 @@ class CpuVertices : public VertexSource {
     CpuVertices(std::shared_ptr<const Asset> asset, const DecodeLimits& limits);
 
     DecodeLimits most() const override { return most_; }
+    bool is_on_cpu() const override { return true; }
     uint64_t texture_bytes() const override { return 0; }
 
   private:

@@ -13,7 +13,11 @@
 namespace paim::player {
 
 struct Background {
-    enum class Kind { environment, color };
+    enum class Kind {
+        environment,
+        blurred,  // the environment, out of focus
+        color,
+    };
     Kind kind = Kind::environment;
     Vec3f color = Vec3f::Zero();  // linear radiance
 
@@ -54,6 +58,7 @@ struct Frame {
     Background background;
     // From directions of the world to those of the environment's map.
     Eigen::Matrix3f environment_from_world = Eigen::Matrix3f::Identity();
+    float environment_strength = 1.0f;  // factor of the map's radiance
     PictureRegion region;  // what the target shows; the camera is that of the whole picture
 };
 

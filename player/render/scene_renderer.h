@@ -33,6 +33,7 @@ class SceneRenderer {
     // Of all textures that hold the asset, and of all vertices and triangles.
     uint64_t texture_bytes() const { return vertices_->texture_bytes(); }
     uint64_t buffer_bytes() const;
+    bool decodes_on_cpu() const { return vertices_->is_on_cpu(); }
 
     // Draws the whole picture into the target.
     void draw(const Frame& frame, const gl::Target& target);

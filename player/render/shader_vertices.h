@@ -15,6 +15,7 @@ class ShaderVertices : public VertexSource {
     ShaderVertices(std::shared_ptr<const Asset> asset, const DecodeLimits& limits);
 
     DecodeLimits most() const override;
+    bool is_on_cpu() const override { return false; }
     uint64_t texture_bytes() const override;
 
   private:

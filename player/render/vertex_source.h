@@ -30,6 +30,7 @@ class VertexSource {
 
     // What can be shown at most of the part that moves.
     virtual DecodeLimits most() const = 0;
+    virtual bool is_on_cpu() const = 0;
     // Of all textures that it made.
     virtual uint64_t texture_bytes() const = 0;
 

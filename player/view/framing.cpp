@@ -1,5 +1,5 @@
 // Fitting the view to points.
-#include "player/ui/framing.h"
+#include "player/view/framing.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include "paim/codec/rebuild_planes.h"
 #include "paim/codec/sequence_bounds.h"
-#include "paim/mesh/face_vertices.h"
+#include "player/view/body_path.h"
 
 namespace paim::player {
 
@@ -16,17 +16,11 @@ namespace {
 
 constexpr uint64_t kMaxMultiplyAdds = uint64_t{1} << 29;  // about a tenth of a second on one core
 
-// Vertices that make up the body: those of faces, without a floor.
-std::vector<uint32_t> body_vertices(const CodedMesh& mesh) {
-    std::vector<uint32_t> vertices = face_vertices(mesh.topology);
-    std::erase_if(vertices, [&](uint32_t v) { return v >= mesh.num_following; });
-    return vertices;
-}
-
 // Adds the body at moments of the animation.
 class BodyFit {
   public:
-    explicit BodyFit(const CodedMesh& mesh) : mesh_(mesh), vertices_(body_vertices(mesh)) {}
+    BodyFit(const CodedMesh& mesh, BodyPath* path)
+        : mesh_(mesh), path_(path), vertices_(body_vertices(mesh)) {}
 
     bool empty() const { return vertices_.empty(); }
 
@@ -34,15 +28,17 @@ class BodyFit {
         const LowRank& positions = mesh_.positions;
         decoder_.decode(positions, time, positions.num_usual_components(), planes_);
         const RigidTransform root = root_at(mesh_.root_motion, time);
+        const Vec3d origin = path_ != nullptr ? path_->at(time) : Vec3d::Zero();
         const size_t num_points = positions.num_points;
         for (const uint32_t v : vertices_) {
             const Vec3f local(planes_[v], planes_[num_points + v], planes_[2 * num_points + v]);
-            fit.add(root.to_scene(local.cast<double>()));
+            fit.add(root.to_scene(local.cast<double>()) - origin);
         }
     }
 
   private:
     const CodedMesh& mesh_;
+    BodyPath* path_;
     std::vector<uint32_t> vertices_;
     PositionDecoder decoder_;
     std::vector<float> planes_;
@@ -58,6 +54,14 @@ uint64_t pose_step(const CodedMesh& mesh) {
 }
 
 }  // namespace
+
+std::optional<Vec3f> project(const Camera& camera, float aspect, const Vec3f& point) {
+    const Vec3f local = camera.axes().transpose() * (point - camera.eye);
+    if (!(local.z() < 0.0f)) return std::nullopt;
+    const float half_height = std::tan(0.5f * camera.vertical_fov_rad) * -local.z();
+    return Vec3f(0.5f + 0.5f * local.x() / (half_height * aspect),
+                 0.5f - 0.5f * local.y() / half_height, -local.z());
+}
 
 const Vec3d FrustumFit::kNone = Vec3d::Constant(-std::numeric_limits<double>::infinity());
 
@@ -88,9 +92,10 @@ Camera FrustumFit::camera() const {
     return camera;
 }
 
-Camera frame_asset(const Asset& asset, float azimuth_rad, float elevation_rad, float aspect) {
+Camera frame_asset(const Asset& asset, float azimuth_rad, float elevation_rad, float aspect,
+                   BodyPath* path) {
     const CodedMesh& mesh = asset.moving();
-    BodyFit body(mesh);
+    BodyFit body(mesh, path);
     if (body.empty()) {
         return frame_bounds(sequence_bounds(asset), aspect, azimuth_rad, elevation_rad);
     }
@@ -102,8 +107,8 @@ Camera frame_asset(const Asset& asset, float azimuth_rad, float elevation_rad, f
 }
 
 Camera frame_pose(const Asset& asset, double time, float azimuth_rad, float elevation_rad,
-                  float aspect) {
-    BodyFit body(asset.moving());
+                  float aspect, BodyPath* path) {
+    BodyFit body(asset.moving(), path);
     if (body.empty()) {
         return frame_bounds(sequence_bounds(asset), aspect, azimuth_rad, elevation_rad);
     }

@@ -1,5 +1,5 @@
 // Bounds, pose by pose.
-#include "player/render/pose_bounds_cache.h"
+#include "player/view/pose_bounds_cache.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,13 +1,20 @@
 // Where a camera stands so that points fill a given part of the picture.
 #pragma once
 
+#include <optional>
+
 #include "paim/codec/asset.h"
 #include "paim/shade/camera.h"
+#include "player/view/body_path.h"
 
 namespace paim::player {
 
 // The part of the shorter side of the picture that the points fill.
 constexpr float kFill = 0.8f;
+
+// Where a point of the scene is in the picture: x and y from 0 to 1 from the upper left corner, z its
+// distance along the view. Nothing for a point behind the camera.
+std::optional<Vec3f> project(const Camera& camera, float aspect, const Vec3f& point);
 
 // Finds the nearest camera, in a fixed direction, whose picture has all points within the middle part
 // `fill` of its width and its height. Points are added one after the other.
@@ -41,10 +48,12 @@ class FrustumFit {
 // A camera that sees the body of the asset in all poses like this: the part that moves, without its
 // floor. Of long animations every n-th pose is looked at, so that it takes a fraction of a second.
 // Assets without such a body are framed by their bounds.
-Camera frame_asset(const Asset& asset, float azimuth_rad, float elevation_rad, float aspect);
+// path  if not null: relative to where this path is in each pose, for a camera that goes along
+Camera frame_asset(const Asset& asset, float azimuth_rad, float elevation_rad, float aspect,
+                   BodyPath* path = nullptr);
 
 // The same of one moment.
 Camera frame_pose(const Asset& asset, double time, float azimuth_rad, float elevation_rad,
-                  float aspect);
+                  float aspect, BodyPath* path = nullptr);
 
 }  // namespace paim::player
