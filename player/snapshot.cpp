@@ -23,7 +23,7 @@ constexpr int kDefaultSamples = 2;
 // A note where a bright light leaves little but white.
 void warn_if_clipped(const Image& image, const ToneCurve& curve) {
     constexpr double kMuch = 0.25;
-    const float white = curve.white() * std::exp2(-curve.exposure_ev);
+    const float white = curve.white();
     const auto clipped =
         std::count_if(image.pixels.begin(), image.pixels.end(),
                       [&](const Vec3f& pixel) { return pixel.maxCoeff() > white; });

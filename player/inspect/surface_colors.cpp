@@ -42,12 +42,13 @@ Vec3f soft_light(const Vec3f& normal, const Vec3f& to_light) {
     return Vec3f::Constant(kAmbient + kDiffuse * half * half);
 }
 
+}  // namespace
+
 ErrorOf error_of(SurfaceView view) {
+    PAIM_CHECK(is_error_view(view));
     if (view == SurfaceView::transfer_error) return ErrorOf::transfer;
     return view == SurfaceView::radiance_error ? ErrorOf::radiance : ErrorOf::position;
 }
-
-}  // namespace
 
 SurfaceColors::SurfaceColors(std::shared_ptr<const Asset> asset)
     : asset_(std::move(asset)), errors_(asset_), parts_(asset_->parts.size()) {

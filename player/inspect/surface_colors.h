@@ -17,6 +17,9 @@
 
 namespace paim::player {
 
+// The error that a view of errors (checked) shows.
+ErrorOf error_of(SurfaceView view);
+
 struct SurfaceQuery {
     SurfaceView view = SurfaceView::lit;
     double time = 0.0;  // in poses, clamped to 0 … P−1

@@ -14,6 +14,7 @@ extern const std::string_view surface_vert;
 extern const std::string_view surface_frag;
 extern const std::string_view fullscreen_vert;
 extern const std::string_view background_frag;
+extern const std::string_view tone_curve_glsl;
 extern const std::string_view tone_map_frag;
 
 }  // namespace paim::player::shaders
