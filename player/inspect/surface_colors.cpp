@@ -234,8 +234,8 @@ void SurfaceColors::describe_open_fraction() {
         }
     }
     if (num_above == 0) return;
-    surface_.legend.note =
-        message("{} vertices are above 1.05: light that bounces adds to the open sky.", num_above);
+    surface_.legend.note = message(
+        "Vertices above 1.05, where light that bounces adds to the open sky: {}.", num_above);
 }
 
 }  // namespace paim::player

@@ -122,7 +122,8 @@ TEST(SurfaceColors, OfAnOpenVertexIsTheEndOfTheScale) {
     EXPECT_EQ(surface.colors[0][1], heat_color(surface.values[0][1]));
     EXPECT_EQ(surface.colors[0][2], heat_color(1.0f));
     EXPECT_EQ(surface.colors[0][3], heat_color(0.0f));
-    EXPECT_NE(surface.legend.note.find("1 vertices are above"), std::string::npos);
+    EXPECT_EQ(surface.legend.note,
+              "Vertices above 1.05, where light that bounces adds to the open sky: 1.");
 }
 
 TEST(SurfaceColors, OfLightAreTheRadianceWithinTheLimits) {
