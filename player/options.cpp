@@ -22,7 +22,7 @@ namespace {
 // As typed; checked and converted afterwards. An option that is not given holds nothing.
 struct RawOptions {
     std::string model;
-    std::optional<std::string> environment, size, background, camera, snapshot;
+    std::optional<std::string> environment, size, background, camera, snapshot, tone_map;
     std::optional<double> pose, env_rotation, supersample, exposure, gamma;
     std::optional<double> geometry_components, transfer_components, bands;
     // One for each of codec_words().
@@ -142,6 +142,10 @@ void describe_picture(CLI::App& app, RawOptions& raw, Options& options) {
         "--exposure", raw.exposure, "EV",
         "Multiply radiance by 2^EV before it is displayed, -30 to 30 stops; for PNG files and "
         "the window, OpenEXR files keep linear radiance (default: 0)");
+    group.add("--tone-map", raw.tone_map, "clamp|reinhard|aces",
+              "How radiance x of each channel, after --exposure, is fitted to what a display can "
+              "show; for PNG files and the window. clamp: all above 1 is white. reinhard: x/(1+x). "
+              "aces: a film-like curve, white from 7.2 on (default: clamp)");
     group.add("--gamma", raw.gamma, "G",
               "Display curve x^(1/G), 0.1 to 10, or 0 for the sRGB curve; for PNG files and the "
               "window (default: 0)");
@@ -215,6 +219,7 @@ void convert_picture(const RawOptions& raw, Options& options) {
     const double gamma =
         raw.gamma == 0.0 ? 0.0 : number_in_range("--gamma (or 0)", raw.gamma, 0.1, 10.0, 0.0);
     options.tone_curve = {static_cast<float>(exposure), static_cast<float>(gamma)};
+    if (raw.tone_map) options.tone_curve.tone_operator = parse_tone_operator(*raw.tone_map);
     options.supersample = integer_in_range("--supersample", raw.supersample, 1, 8);
 }
 

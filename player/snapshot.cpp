@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "paim/base/json_text.h"
 #include "paim/image/exr.h"
@@ -20,9 +19,9 @@ namespace {
 constexpr int kDefaultSamples = 2;
 
 // A note where a bright light leaves little but white.
-void warn_if_clipped(const Image& image, float exposure_ev) {
+void warn_if_clipped(const Image& image, const ToneCurve& curve) {
     constexpr double kMuch = 0.25;
-    const float white = std::exp2(-exposure_ev);
+    const float white = curve.white();
     const auto clipped =
         std::count_if(image.pixels.begin(), image.pixels.end(),
                       [&](const Vec3f& pixel) { return pixel.maxCoeff() > white; });
@@ -46,7 +45,7 @@ void take_snapshot(const Options& options, const Scene& scene) {
         write_exr(path, image);
     } else {
         write_png(path, image, options.tone_curve);
-        warn_if_clipped(image, options.tone_curve.exposure_ev);
+        warn_if_clipped(image, options.tone_curve);
     }
     if (!options.json) return;
     nlohmann::ordered_json json =
@@ -55,6 +54,7 @@ void take_snapshot(const Options& options, const Scene& scene) {
     json["pose"] = options.pose;
     json["env_rotation_deg"] = options.env_rotation_rad * 180.0 / kPi;
     json["exposure_ev"] = options.tone_curve.exposure_ev;
+    json["tone_map"] = tone_operator_name(options.tone_curve.tone_operator);
     json["gamma"] = options.tone_curve.gamma;
     fmt::print("{}\n", json_text(json, 2));
 }

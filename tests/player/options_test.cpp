@@ -17,11 +17,12 @@ Options parse(std::vector<const char*> arguments) {
 }
 
 TEST(PlayOptions, AreConvertedToTheirUnits) {
-    const Options options = parse(
-        {"a.paim",   "--pose",     "2.5",       "--size",         "40x30",        "--camera",
-         "90,-45,3", "--env",      "light.exr", "--env-rotation", "180",          "--background",
-         "0,0.5,1",  "--exposure", "-2",        "--gamma",        "2.2",          "--supersample",
-         "3",        "--snapshot", "b.exr",     "--json",         "--progressive"});
+    const Options options =
+        parse({"a.paim",   "--pose",       "2.5",           "--size",     "40x30",
+               "--camera", "90,-45,3",     "--env",         "light.exr",  "--env-rotation",
+               "180",      "--background", "0,0.5,1",       "--exposure", "-2",
+               "--gamma",  "2.2",          "--supersample", "3",          "--snapshot",
+               "b.exr",    "--json",       "--progressive", "--tone-map", "aces"});
     EXPECT_EQ(options.model_path, "a.paim");
     EXPECT_EQ(options.pose, 2.5);
     EXPECT_EQ(options.size, std::pair(40, 30));
@@ -34,6 +35,7 @@ TEST(PlayOptions, AreConvertedToTheirUnits) {
     EXPECT_EQ(options.background.color, Vec3f(0.0f, 0.5f, 1.0f));
     EXPECT_EQ(options.tone_curve.exposure_ev, -2.0f);
     EXPECT_EQ(options.tone_curve.gamma, 2.2f);
+    EXPECT_EQ(options.tone_curve.tone_operator, ToneOperator::aces);
     EXPECT_EQ(options.supersample, 3);
     EXPECT_EQ(options.snapshot_path, "b.exr");
     EXPECT_TRUE(options.json);
@@ -53,6 +55,7 @@ TEST(PlayOptions, HaveDefaults) {
     EXPECT_EQ(options.background.kind, Background::Kind::environment);
     EXPECT_EQ(options.tone_curve.exposure_ev, 0.0f);
     EXPECT_EQ(options.tone_curve.gamma, 0.0f);
+    EXPECT_EQ(options.tone_curve.tone_operator, ToneOperator::clamp);
     EXPECT_EQ(options.env_rotation_rad, 0.0);
     EXPECT_TRUE(options.opens_window());
     EXPECT_FALSE(parse({"a.paim", "--bench", "7"}).opens_window());

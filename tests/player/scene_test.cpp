@@ -309,7 +309,10 @@ TEST_P(SceneTest, ToneMapperAgreesWithToneCurve) {
     const ToneMapper mapper;
     for (const ToneCurve& curve :
          {ToneCurve{0.0f, 0.0f}, ToneCurve{-2.5f, 0.0f}, ToneCurve{1.0f, 2.2f},
-          ToneCurve{-6.0f, 0.0f}, ToneCurve{-9.0f, 0.0f}}) {
+          ToneCurve{-6.0f, 0.0f}, ToneCurve{-9.0f, 0.0f},
+          ToneCurve{0.0f, 0.0f, ToneOperator::reinhard},
+          ToneCurve{3.0f, 2.2f, ToneOperator::reinhard}, ToneCurve{-2.0f, 0.0f, ToneOperator::aces},
+          ToneCurve{1.0f, 2.2f, ToneOperator::aces}, ToneCurve{30.0f, 0.0f, ToneOperator::aces}}) {
         const ByteTarget target(kWidth, kHeight);
         mapper.draw(picture, kSamples, curve);
         gl::check_errors("testing");
