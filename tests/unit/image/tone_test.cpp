@@ -126,6 +126,9 @@ TEST(SuggestedExposure, BringsNearlyAllPixelsBelowWhite) {
     EXPECT_FLOAT_EQ(suggested_exposure_ev(image), -2.0f);
     image.at(3, 3) = Vec3f::Constant(1e6f);  // one lamp in the picture does not make all else black
     EXPECT_FLOAT_EQ(suggested_exposure_ev(image), -2.0f);
+    Image brighter = image;  // three of a hundred are more than 2 %
+    brighter.at(4, 3) = brighter.at(5, 3) = Vec3f::Constant(32.0f);
+    EXPECT_FLOAT_EQ(suggested_exposure_ev(brighter), -5.0f);
     // Nor do pixels that are black or not finite count.
     for (int x = 0; x < 10; ++x) image.at(x, 9) = Vec3f::Zero();
     image.at(0, 0) = Vec3f::Constant(std::numeric_limits<float>::infinity());
