@@ -12,6 +12,7 @@
 #include "paim/image/png.h"
 #include "player/gl/check.h"
 #include "player/ui/recent_files.h"
+#include "player/view/framing.h"
 #include "player/view/view_file.h"
 
 namespace paim::player {
@@ -21,7 +22,6 @@ namespace {
 constexpr double kMessageSeconds = 6.0;
 constexpr double kIdleWaitSeconds = 0.1;  // at most, between looks at what has happened
 constexpr int kSettlingFrames = 3;
-constexpr int kFileSamples = 2;
 
 }  // namespace
 
@@ -219,7 +219,7 @@ void App::draw() {
 
 void App::draw_picture(int width, int height) {
     const int samples =
-        samples_that_fit(width, height, options_.supersample.value_or(1), gl::max_target_size());
+        samples_that_fit(width, height, options_.window_samples(), gl::max_target_size());
     if (!target_ || target_->width() != width * samples || target_->height() != height * samples) {
         target_.emplace(width * samples, height * samples);
     }
@@ -337,7 +337,7 @@ void App::save_picture(const char* extension) {
     try {
         if (!is_visible()) return;
         const auto [width, height] = window_.framebuffer_size();
-        const int samples = options_.supersample.value_or(kFileSamples);
+        const int samples = options_.file_samples();
         const Image image = session_->presenter().render(session_->view, width, height, samples);
         const std::filesystem::path path = free_name(extension);
         if (path.extension() == ".exr") {
@@ -374,8 +374,7 @@ void App::record() {
             poses_per_second,
             clip_seconds(session_->view, session_->range().num_poses, poses_per_second));
         clip_.emplace(free_name("-clip"), session_->model_path().stem().string(), length,
-                      session_->view, window_.framebuffer_size(),
-                      options_.supersample.value_or(kFileSamples));
+                      session_->view, window_.framebuffer_size(), options_.file_samples());
     } catch (const Error& error) {
         say(error.what());
     }

@@ -17,9 +17,9 @@
 #include "player/file_prefix.h"
 #include "player/gl/check.h"
 #include "player/gl/headless_context.h"
+#include "player/inspect/cost.h"
 #include "player/prefix_loader.h"
 #include "player/render/codec_words.h"
-#include "player/render/cost.h"
 #include "player/report.h"
 #include "player/start_view.h"
 
@@ -123,7 +123,7 @@ Opening measure_opening(const Options& options, const Scene& scene, uint64_t mos
     const auto [width, height] = options.size;
     const ViewState view = start_view(options, opened, presenter,
                                       static_cast<float>(width) / static_cast<float>(height));
-    const int samples = options.supersample.value_or(1);
+    const int samples = options.window_samples();
     const Tiling tiling = plan_tiles(width, height, samples, gl::max_target_size());
     const gl::Target target(tiling.tile_width * samples, tiling.tile_height * samples);
     presenter.renderer().draw_tiles(presenter.frame(view), tiling, target);
@@ -188,7 +188,7 @@ void run_bench(const Options& options, const Scene& scene) {
     result.first = measure_opening(options, scene, LoaderPace::kFirstBytes);
     result.whole_file = measure_opening(options, scene, std::numeric_limits<uint64_t>::max());
     const auto [width, height] = options.size;
-    const int samples = options.supersample.value_or(1);
+    const int samples = options.window_samples();
     const int num_frames = *options.bench_frames;
     Presenter presenter = make_presenter(options, scene);
     const ViewState view = start_view(options, scene, presenter,

@@ -18,16 +18,11 @@
 
 namespace paim::player {
 
-namespace {
-
-constexpr int kDefaultSamples = 2;
-
-}  // namespace
-
 double clip_seconds(const ViewState& view, uint32_t num_poses, double poses_per_second) {
     const double speed = std::abs(view.animation.speed) * poses_per_second;
     if (num_poses > 1 && speed > 0.0) {
-        return (view.animation.ping_pong ? 2.0 * (num_poses - 1.0) : double{num_poses}) / speed;
+        const auto poses = static_cast<double>(num_poses);
+        return (view.animation.ping_pong ? 2.0 * (poses - 1.0) : poses) / speed;
     }
     const double light = view.light.turning ? std::abs(view.light.turn_speed_deg) : 0.0;
     const double turn_deg = std::max(light, std::abs(view.camera.turn_speed_deg));
@@ -67,7 +62,7 @@ bool ClipWriter::write_next(Presenter& presenter) {
 
 void write_clip(const Options& options, const Scene& scene) {
     const auto context = gl::make_headless_context();
-    const int samples = options.supersample.value_or(kDefaultSamples);
+    const int samples = options.file_samples();
     const auto [width, height] = options.size;
     Presenter presenter = make_presenter(options, scene);
     const ViewState view = start_view(options, scene, presenter,

@@ -73,6 +73,8 @@ struct Options {
     bool json = false;
     bool play_prefix = false;  // --progressive: the prefix that is there of an incomplete file
 
+    int window_samples() const { return supersample.value_or(1); }
+    int file_samples() const { return supersample.value_or(2); }
     bool opens_window() const { return !snapshot_path && !clip && !bench_frames; }
 };
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "paim/codec/section_row.h"
+#include "player/inspect/cost.h"
 #include "player/render/codec_words.h"
-#include "player/render/cost.h"
 
 namespace paim::player {
 

@@ -59,12 +59,12 @@ Scene make_scene(Options& options, LoadedAsset loaded) {
     const Asset& asset = *scene.asset;
     const CodedMesh& mesh = asset.moving();
 
-    ViewState asked;
-    for (const auto& change : options.view_changes) change(asked);
+    ViewState view;
+    for (const auto& change : options.view_changes) change(view);
     const double last_pose = static_cast<double>(asset.num_poses()) - 1.0;
-    if (asked.animation.time > last_pose) {
+    if (view.animation.time > last_pose) {
         throw_usage("--pose: expected 0 to {} ({} has {} poses), got {}", last_pose,
-                    options.model_path.string(), asset.num_poses(), asked.animation.time);
+                    options.model_path.string(), asset.num_poses(), view.animation.time);
     }
     const WantedLimits& wanted = options.wanted;
     DecodeLimits& limits = options.limits;

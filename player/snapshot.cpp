@@ -18,8 +18,6 @@ namespace paim::player {
 
 namespace {
 
-constexpr int kDefaultSamples = 2;
-
 // A note where a bright light leaves little but white.
 void warn_if_clipped(const Image& image, const ToneCurve& curve) {
     constexpr double kMuch = 0.25;
@@ -54,7 +52,7 @@ void describe_legend(const Legend& legend, nlohmann::ordered_json& json) {
 
 void take_snapshot(const Options& options, const Scene& scene) {
     const auto context = gl::make_headless_context();
-    const int samples = options.supersample.value_or(kDefaultSamples);
+    const int samples = options.file_samples();
     const auto [width, height] = options.size;
     Presenter presenter = make_presenter(options, scene);
     const ViewState view = start_view(options, scene, presenter,

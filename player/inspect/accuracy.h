@@ -11,7 +11,7 @@
 #include "paim/codec/asset.h"
 #include "paim/codec/decode_limits.h"
 #include "paim/metrics/asset_error.h"
-#include "player/render/cost.h"
+#include "player/inspect/cost.h"
 
 namespace paim::player {
 

@@ -12,7 +12,7 @@ namespace paim::player {
 struct SurfacePlace {
     size_t num_following =
         0;  // triangles, from the first, that stand like `root`; a floor does not
-    RigidTransform root;
+    RigidTransform root = {};
     Vec3d offset = Vec3d::Zero();  // of all triangles, scene units
 };
 

@@ -8,7 +8,7 @@ namespace paim::player {
 
 namespace {
 
-const Vec3f kAround = Vec3f::Constant(0.02f);
+const Vec3f kAroundBalls = Vec3f::Constant(0.02f);
 
 void upload(const Image& image, const ToneCurve& curve, const gl::BytePicture& picture) {
     const std::vector<std::array<uint8_t, 3>> bytes = tone_map(image, curve);
@@ -21,7 +21,7 @@ void GlobeView::update(LightRig& rig, const Eigen::Matrix3f& camera_axes, int ba
                        const ToneCurve& curve) {
     const Key key{rig.revision(), camera_axes, bands, curve};
     if (drawn_ == key) return;
-    const LightGlobe::Pictures pictures = globe_.draw(rig, camera_axes, bands, kSize, kAround);
+    const LightGlobe::Pictures pictures = globe_.draw(rig, camera_axes, bands, kSize, kAroundBalls);
     upload(pictures.light, curve, light_);
     upload(pictures.reconstruction, curve, reconstruction_);
     negative_share_ = pictures.negative_share;

@@ -7,7 +7,7 @@ namespace paim::player {
 
 namespace {
 
-const Vec3f kAround = Vec3f::Constant(0.02f);
+const Vec3f kBehindLobes = Vec3f::Constant(0.02f);
 
 }  // namespace
 
@@ -34,10 +34,11 @@ void LobeView::draw(const Camera& camera) {
     frame.camera.target = Vec3f::Zero();
     frame.camera.eye = 3.6f * direction_;
     target_.bind();
-    glClearColor(kAround[0], kAround[1], kAround[2], 1.0f);
+    glClearColor(kBehindLobes[0], kBehindLobes[1], kBehindLobes[2], 1.0f);
     glClearDepthf(1.0f);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    renderer_.draw(surface_, topology_.triangles.size(), {topology_.triangles.size()}, frame, 1.0f);
+    renderer_.draw(surface_, topology_.triangles.size(),
+                   SurfacePlace{.num_following = topology_.triangles.size()}, frame, 1.0f);
     picture_.bind();
     tone_mapper_.draw(target_, kSamples, {});
 }

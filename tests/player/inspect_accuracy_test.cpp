@@ -7,7 +7,7 @@
 
 #include "paim/metrics/prefix_error.h"
 #include "player/inspect/accuracy.h"
-#include "player/render/cost.h"
+#include "player/inspect/cost.h"
 #include "tests/player/inspect_asset.h"
 #include "tests/player/test_asset.h"
 

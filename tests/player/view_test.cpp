@@ -11,7 +11,7 @@
 #include <tuple>
 
 #include "player/render/clip_from_local.h"
-#include "player/render/cost.h"
+#include "player/inspect/cost.h"
 #include "player/render/depth_range.h"
 #include "player/ui/keys.h"
 #include "player/ui/orbit_camera.h"

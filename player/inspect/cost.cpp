@@ -1,5 +1,5 @@
 // Counting bytes and multiply-adds.
-#include "player/render/cost.h"
+#include "player/inspect/cost.h"
 
 #include <algorithm>
 
