@@ -10,13 +10,13 @@
 
 #include "paim/base/file.h"
 #include "paim/codec/mesh_decoder.h"
-#include "paim/codec/sequence_bounds.h"
 #include "paim/format/paim/paim_read.h"
 #include "paim/format/paim/paim_write.h"
 #include "paim/image/exr.h"
 #include "paim/light/environment.h"
 #include "paim/light/sky.h"
 #include "paim/mesh/planes.h"
+#include "player/view/framing.h"
 #include "tests/cli/run_tool.h"
 #include "tests/exr_files.h"
 #include "tests/player/ray_cast.h"
@@ -68,8 +68,8 @@ Image expected_picture(const Asset& asset, double time, double rotation_rad, int
     const LightCoefficients light = turn_about_y(
         EnvironmentLight(make_sky()).coefficients(static_cast<int>(mesh.layout.in_bands)),
         rotation_rad);
-    const Camera camera = frame_bounds(sequence_bounds(asset),
-                                       static_cast<float>(width) / static_cast<float>(height));
+    const Camera camera = frame_asset(asset, kDefaultAzimuth_rad, kDefaultElevation_rad,
+                                      static_cast<float>(width) / static_cast<float>(height));
     return ray_cast(mesh.topology, from_planes(pose.positions),
                     vertex_radiance(mesh, time, {}, light), camera, width, height, background);
 }
@@ -159,8 +159,9 @@ TEST_F(PlayTest, ToneCurvesChangeBrightPngs) {
 }
 
 TEST_F(PlayTest, SnapshotReportsAsJson) {
-    const ToolResult result = play({"--snapshot", out("a.png"), "--size", "32x24", "--pose", "2.5",
-                                    "--transfer-components", "2", "--bands", "3", "--json"});
+    const ToolResult result =
+        play({"--snapshot", out("a.png"), "--size", "32x24", "--pose", "2.5",
+              "--transfer-components", "2", "--bands", "3", "--decoder", "gpu", "--json"});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(result.err, "");
     const auto json = nlohmann::json::parse(result.out);
@@ -313,7 +314,7 @@ TEST_F(PlayTest, RefusesCommandLinesThatMakeNoSense) {
     expect_failure({"--camera", "10,20,0"}, 1, "--camera distance factor");
     expect_failure({"--snapshot", out("a.jpg")}, 1, "ends in .png or .exr");
     expect_failure({"--snapshot", png, "--bench", "3"}, 1, "exclude each other");
-    expect_failure({"--json"}, 1, "--json needs --snapshot or --bench");
+    expect_failure({"--json"}, 1, "--json needs --snapshot, --frames-out or --bench");
     expect_failure({"--nonsense"}, 1, "--nonsense");
     EXPECT_FALSE(std::filesystem::exists(png));
 }
