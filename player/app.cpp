@@ -4,313 +4,415 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <memory>
-#include <optional>
 #include <utility>
 
 #include "paim/base/error.h"
-#include "paim/format/container/container_reader.h"
-#include "paim/format/container/sections.h"
+#include "paim/image/exr.h"
 #include "paim/image/png.h"
-#include "paim/light/load_light.h"
 #include "player/gl/check.h"
-#include "player/gl/window.h"
-#include "player/prefix_loader.h"
-#include "player/render/pose_bounds_cache.h"
-#include "player/render/scene_renderer.h"
-#include "player/render/tone_mapper.h"
-#include "player/ui/imgui_layer.h"
-#include "player/ui/keys.h"
-#include "player/ui/orbit_camera.h"
-#include "player/ui/overlay.h"
+#include "player/ui/recent_files.h"
+#include "player/view/framing.h"
+#include "player/view/view_file.h"
 
 namespace paim::player {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr double kMessageSeconds = 6.0;
-constexpr double kIdleWaitSeconds = 0.1;  // between frames while nothing moves
-constexpr int kSnapshotSamples = 2;
+constexpr double kIdleWaitSeconds = 0.1;  // at most, between looks at what has happened
+constexpr int kSettlingFrames = 3;
 
-// Uploads all of the model, so that limits can be raised again, or, where that is more than this
-// driver takes, what the options ask for.
-template <typename Upload>
-auto upload_within(const DecodeLimits& wanted, Upload upload) {
-    try {
-        return upload(DecodeLimits());
-    } catch (const Error&) {
-        return upload(wanted);
+}  // namespace
+
+App::App(const Options& options, Scene scene, std::unique_ptr<PrefixLoader> loader)
+    : options_(options), window_(options.size.first, options.size.second, "paim-play") {
+    session_ = std::make_unique<Session>(options, std::move(scene), std::move(loader), aspect());
+    listen();
+    imgui_.emplace(window_);
+    panels_.recent = read_recent_files();
+    window_.set_title(session_->model_path().filename().string() + " - paim-play");
+}
+
+void App::run() {
+    for (int i = 0; !window_.should_close() && i != options_.window_frames.value_or(-1); ++i) {
+        step();
+    }
+    if (options_.save_view_path) {
+        write_view(*options_.save_view_path, session_->view, session_->units());
     }
 }
 
-class App {
-  public:
-    // loader  of the rest of the file, or nullptr
-    App(const Options& options, Scene scene, PrefixLoader* loader)
-        : options_(options),
-          scene_(std::make_unique<Scene>(std::move(scene))),
-          loader_(loader),
-          window_(options.size.first, options.size.second,
-                  options.model_path.filename().string() + " - paim-play"),
-          renderer_(upload_within(options.wanted.limits(),
-                                  [&](const DecodeLimits& limits) {
-                                      return std::make_unique<SceneRenderer>(
-                                          *scene_->asset, scene_->environment, limits);
-                                  })),
-          range_(range()),
-          environment_name_(options.environment_path ? options.environment_path->filename().string()
-                                                     : "built-in sky") {
-        bounds_.emplace(*scene_->asset);
-        view_.time = options.pose;
-        view_.limits = options.limits;
-        view_.tone_curve = options.tone_curve;
-        view_.env_rotation_deg = std::remainder(options.env_rotation_rad * 180.0 / kPi, 360.0);
-        view_.background = options.background;
-        frame_all();
-        listen();
-        imgui_.emplace(window_);
+bool App::step() {
+    // Frames that were asked for by number are not waited for.
+    const bool waits = redraws_ == 0 && !is_moving() && !options_.window_frames;
+    window_.poll(waits || !is_visible() ? kIdleWaitSeconds : 0.0);
+    const auto now = Clock::now();
+    const double elapsed_s =
+        std::chrono::duration<double>(now - std::exchange(last_step_, now)).count();
+    std::string message;
+    if (session_->take_more(aspect(), message)) redraws_ = kSettlingFrames;
+    if (!message.empty()) say(message);
+    if (clip_) {
+        record_next();
+    } else {
+        advance(session_->view, session_->range().num_poses,
+                double{session_->asset().frames_per_second}, elapsed_s);
     }
+    follow_history();
+    const bool message_ends = !message_.empty() && now >= message_end_;
+    if (message_ends) message_.clear();
+    const bool draws = is_visible() && (redraws_ > 0 || message_ends || drawn_ != session_->view ||
+                                        options_.window_frames || !session_->loading().empty());
+    if (draws) draw();
+    session_->read_on();
+    return draws;
+}
 
-    void run() {
-        auto last = Clock::now();
-        for (int i = 0; !window_.should_close() && i != options_.window_frames.value_or(-1); ++i) {
-            const bool moving = view_.playing || view_.turning || options_.window_frames;
-            window_.poll(moving && is_visible() ? 0.0 : kIdleWaitSeconds);
-            const auto now = Clock::now();
-            const double elapsed_s = std::chrono::duration<double>(now - last).count();
-            last = now;
-            if (loader_ != nullptr) show_more();
-            advance(view_, range_, scene_->asset->frames_per_second, elapsed_s);
-            draw();
-            if (loader_ != nullptr) loader_->read_on();
-        }
-    }
+bool App::is_moving() const {
+    const ViewState& view = session_->view;
+    const bool plays =
+        view.animation.playing && view.animation.speed != 0.0 && session_->range().num_poses > 1;
+    return plays || (view.light.turning && view.light.turn_speed_deg != 0.0) ||
+           view.camera.turn_speed_deg != 0.0 || clip_ || (history_ && !history_->values.done());
+}
 
-  private:
-    ViewRange range() const {
-        const UploadPlan& plan = renderer_->plan();
-        return {scene_->asset->num_poses(), plan.geometry_components, plan.transfer_components,
-                plan.layout.in_bands, plan.vertex_components};
-    }
-
-    // Takes what has been read since the last frame; all else of the view stays. Throws the error of
-    // a file that should be whole and is not.
-    void show_more() {
-        loader_->check();
-        if (const std::string error = loader_->take_error(); !error.empty()) say(error);
-        std::optional<LoadedAsset> loaded = loader_->take();
-        if (!loaded) return;
-        auto scene = std::make_unique<Scene>(Scene{nullptr, scene_->environment, {}, 0, {}});
-        scene->asset = std::move(loaded->asset);
-        scene->bounds = loaded->bounds;
-        scene->size_bytes = loaded->progress.size_bytes;
-        scene->progress = loaded->progress;
-        try {
-            upload_within(options_.wanted.limits(), [&](const DecodeLimits& limits) {
-                renderer_->set_asset(*scene->asset, limits);
-            });
-        } catch (const Error& error) {
-            say(error.what());
+void App::listen() {
+    gl::WindowEvents& events = window_.events();
+    events.on_any = [this] { redraws_ = kSettlingFrames; };
+    events.on_key = [this](int key, bool shift) {
+        if (imgui_->wants_text()) return;
+        const KeyBinding* const binding = find_key(key, shift);
+        if (binding == nullptr) return;
+        if (binding->change != nullptr) binding->change(session_->view, session_->range());
+        carry_out(binding->command);
+    };
+    events.on_drag = [this](gl::MouseButton button, bool ctrl, double dx, double dy) {
+        if (imgui_->wants_mouse()) return;
+        const double x = dx / window_.height(), y = dy / window_.height();
+        ViewState& view = session_->view;
+        if (ctrl) {
+            const Eigen::Matrix3f axes = session_->presenter().camera(view).axes();
+            view.light.orientation = drag(view.light.orientation, axes, x, y);
             return;
         }
-        bounds_.emplace(*scene->asset);
-        scene_ = std::move(scene);
-        const ViewRange before = std::exchange(range_, range());
-        follow(view_, before, range_, options_.wanted.limits());
-        // Coarse poses have other bounds. A camera that somebody has moved stays.
-        const bool sharpens = !options_.play_prefix && !camera_moved_;
-        if (loaded->replaced || sharpens) frame_all();
-    }
-
-    void listen() {
-        gl::WindowEvents& events = window_.events();
-        events.on_key = [this](int key, bool shift) {
-            if (!imgui_->wants_text()) carry_out(command_of_key(key, shift));
-        };
-        events.on_drag = [this](gl::MouseButton button, double dx, double dy) {
-            if (imgui_->wants_mouse()) return;
-            camera_moved_ = true;
-            const auto x = static_cast<float>(dx / window_.height());
-            const auto y = static_cast<float>(dy / window_.height());
-            if (button == gl::MouseButton::left) {
-                camera_.orbit(x, y);
-            } else {
-                camera_.pan(x, y);
-            }
-        };
-        events.on_scroll = [this](double steps) {
-            if (imgui_->wants_mouse()) return;
-            camera_moved_ = true;
-            camera_.zoom(static_cast<float>(steps));
-        };
-        events.on_drop = [this](const auto& paths) {
-            if (!paths.empty()) change_light(paths.front());
-        };
-    }
-
-    void carry_out(Command command) {
-        if (command == Command::quit) {
-            window_.close();
-        } else if (command == Command::frame_all) {
-            frame_all();
-        } else if (command == Command::snapshot) {
-            save_view();
+        session_->camera_moved();
+        if (button == gl::MouseButton::left) {
+            view.camera.orbit.orbit(x, y);
         } else {
-            apply(command, view_, range_);
+            view.camera.orbit.pan(x, y);
         }
-    }
+    };
+    events.on_scroll = [this](double steps) {
+        if (imgui_->wants_mouse()) return;
+        session_->camera_moved();
+        session_->view.camera.orbit.zoom(steps);
+    };
+    events.on_click = [this](double x, double y) {
+        if (!imgui_->wants_mouse()) pick(x, y);
+    };
+    events.on_drop = [this](const auto& paths) {
+        for (const auto& path : paths) open(path);
+    };
+}
 
-    void frame_all() {
-        const auto [width, height] = window_.framebuffer_size();
-        const float aspect =
-            static_cast<float>(std::max(1, width)) / static_cast<float>(std::max(1, height));
-        camera_.frame(options_.camera, scene_->bounds, aspect);
+void App::carry_out(WindowCommand command) {
+    switch (command) {
+        case WindowCommand::none:
+            break;
+        case WindowCommand::frame_all:
+            session_->frame(aspect(), false);
+            break;
+        case WindowCommand::frame_pose:
+            session_->camera_moved();
+            session_->frame(aspect(), true);
+            break;
+        case WindowCommand::follow_body:
+            session_->follow_body(session_->view.camera.target != CameraTarget::pose);
+            break;
+        case WindowCommand::auto_exposure:
+            session_->view.tone_curve.exposure_ev =
+                session_->presenter().suitable_exposure_ev(session_->view);
+            break;
+        case WindowCommand::snapshot_png:
+            save_picture(".png");
+            break;
+        case WindowCommand::snapshot_exr:
+            save_picture(".exr");
+            break;
+        case WindowCommand::save_view:
+            save_view();
+            break;
+        case WindowCommand::open_file:
+            panels_.show_open = !panels_.show_open;
+            panels_.folder.clear();
+            break;
+        case WindowCommand::record:
+            record();
+            break;
+        case WindowCommand::full_screen:
+            window_.set_full_screen(!window_.is_full_screen());
+            break;
+        case WindowCommand::toggle_panels:
+            panels_.show_panels = !panels_.show_panels;
+            break;
+        case WindowCommand::toggle_help:
+            panels_.show_help = !panels_.show_help;
+            break;
+        case WindowCommand::quit:
+            window_.close();
+            break;
     }
+}
 
-    // False while the window is minimised.
-    bool is_visible() const {
-        const auto [width, height] = window_.framebuffer_size();
-        return width > 0 && height > 0;
+void App::open(const std::filesystem::path& path) {
+    try {
+        history_.reset();
+        clip_.reset();
+        say(session_->open(path, aspect()));
+        window_.set_title(session_->model_path().filename().string() + " - paim-play");
+        panels_.recent = add_recent_file(path);
+    } catch (const Error& error) {
+        say(error.what());
     }
+}
 
-    Frame current_frame() {
-        Frame frame;
-        frame.time = view_.time;
-        frame.limits = view_.limits;
-        frame.env_rotation_rad = view_.env_rotation_deg * kPi / 180.0;
-        frame.camera = camera_.camera();
-        frame.bounds = bounds_->at(view_.time, view_.limits.geometry_components);
-        frame.background = view_.background;
-        return frame;
+std::string App::message() const {
+    return message_;
+}
+
+void App::say(const std::string& message) {
+    message_ = message;
+    message_end_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                      std::chrono::duration<double>(kMessageSeconds));
+    redraws_ = kSettlingFrames;
+}
+
+bool App::is_visible() const {
+    const auto [width, height] = window_.framebuffer_size();
+    return width > 0 && height > 0;
+}
+
+float App::aspect() const {
+    const auto [width, height] = window_.framebuffer_size();
+    return static_cast<float>(std::max(1, width)) / static_cast<float>(std::max(1, height));
+}
+
+void App::draw() {
+    const auto [width, height] = window_.framebuffer_size();
+    const auto start = Clock::now();
+    redraws_ = std::max(0, redraws_ - 1);
+    draw_picture(width, height);
+    const PanelInfo info = panel_info();
+    drawn_ = session_->view;
+    imgui_->begin_frame();
+    const PanelRequests requests = draw_panels(info, session_->range(), panels_, session_->view);
+    window_.bind();
+    imgui_->end_frame();
+    gl::check_errors("drawing");
+    window_.swap();
+    const double frame_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    frame_ms_ += (frame_ms_ == 0.0 ? 1.0 : 0.1) * (frame_ms - frame_ms_);
+    for (const WindowCommand command : requests.commands) carry_out(command);
+    if (requests.open) open(*requests.open);
+}
+
+void App::draw_picture(int width, int height) {
+    const int samples =
+        samples_that_fit(width, height, options_.window_samples(), gl::max_target_size());
+    if (!target_ || target_->width() != width * samples || target_->height() != height * samples) {
+        target_.emplace(width * samples, height * samples);
     }
+    session_->presenter().draw(session_->view, *target_);
+    window_.bind();
+    tone_mapper_.draw(*target_, samples, Presenter::tone_curve(session_->view));
+}
 
-    void draw() {
+PanelInfo App::panel_info() {
+    PanelInfo info;
+    const CodedMesh& mesh = session_->asset().moving();
+    const SceneRenderer& renderer = session_->presenter().renderer();
+    info.title = session_->model_path().filename().string();
+    info.environment = session_->environment_name();
+    info.renderer = renderer_name_;
+    info.decoder = renderer.decodes_on_cpu() ? "vertices are decoded by the CPU"
+                                             : "vertices are decoded in shaders";
+    info.message = message_;
+    info.loading = session_->loading();
+    info.file_bytes = session_->file_bytes();
+    info.texture_bytes = renderer.texture_bytes();
+    info.buffer_bytes = renderer.buffer_bytes();
+    info.num_vertices = mesh.topology.num_vertices;
+    info.num_triangles = static_cast<uint32_t>(mesh.topology.triangles.size());
+    info.frame_ms = frame_ms_;
+    info.poses_per_second = session_->asset().frames_per_second;
+    const auto* words = words_of_codec(mesh.transfer->codec_name());
+    if (words != nullptr) info.vertex_components = words->components;
+    if (clip_) {
+        info.recorded =
+            static_cast<float>(clip_->num_written()) / static_cast<float>(clip_->num_frames());
+    }
+    if (panels_.show_panels) describe_view(info);
+    return info;
+}
+
+void App::describe_view(PanelInfo& info) {
+    Presenter& presenter = session_->presenter();
+    const ViewState& view = session_->view;
+    info.accuracy = session_->accuracy();
+    if (session_->accuracy_meter().stated()) info.stated = &*session_->accuracy_meter().stated();
+    const Camera camera = presenter.camera(view);
+    globe_.update(presenter.light(), camera.axes(), static_cast<int>(view.limits.bands),
+                  view.tone_curve);
+    info.globe_light = &globe_.light();
+    info.globe_reconstruction = &globe_.reconstruction();
+    info.negative_share = globe_.negative_share();
+    info.legend = presenter.legend();
+    if (info.legend != nullptr && info.legend->worst && info.legend->worst->value > 0.0f) {
+        info.worst = place_of(info.legend->worst->part, info.legend->worst->vertex);
+    }
+    const int bands = static_cast<int>(session_->range().limits.bands);
+    if (view.surface == SurfaceView::coefficient) {
+        if (!coefficient_lobe_ || coefficient_lobe_->bands() != bands) {
+            coefficient_lobe_.emplace(bands);
+        }
+        std::vector<float> coefficients(view.coefficient + 1, 0.0f);
+        coefficients.back() = 1.0f;
+        coefficient_lobe_->update(coefficients, camera);
+        info.coefficient_lobe = &coefficient_lobe_->texture();
+    }
+    if (view.picked) describe_picked(info);
+}
+
+void App::describe_picked(PanelInfo& info) {
+    Presenter& presenter = session_->presenter();
+    const ViewState& view = session_->view;
+    const int bands = static_cast<int>(session_->range().limits.bands);
+    if (!picked_lobe_ || picked_lobe_->bands() != bands) picked_lobe_.emplace(bands);
+    picked_lobe_->update(presenter.transfer_of(view, *view.picked), presenter.camera(view));
+    info.picked = PickedInfo{*view.picked, &picked_lobe_->texture(), {}, {}, 0};
+    info.picked_place = place_of(view.picked->part, view.picked->vertex);
+    if (!history_) return;
+    info.picked->history_title = std::string(row_of(history_->surface).words);
+    info.picked->history = history_->values.values();
+    info.picked->num_poses = history_->values.times().size();
+}
+
+std::optional<PicturePlace> App::place_of(uint32_t part, uint32_t vertex) {
+    Presenter& presenter = session_->presenter();
+    const ViewState& view = session_->view;
+    if (view.comparison == Comparison::side_by_side) return std::nullopt;
+    const std::optional<Vec3f> place =
+        project(presenter.camera(view), aspect(), presenter.position_of(view, {part, vertex}));
+    if (!place) return std::nullopt;
+    return PicturePlace{place->x(), place->y()};
+}
+
+void App::pick(double x, double y) {
+    session_->view.picked = session_->presenter().pick(session_->view, static_cast<float>(x),
+                                                       static_cast<float>(y), aspect());
+}
+
+// Some poses of the history of the picked vertex at every step, so that the window stays alive.
+void App::follow_history() {
+    constexpr std::chrono::milliseconds kShare(8);
+    const ViewState& view = session_->view;
+    if (!view.picked) {
+        history_.reset();
+        return;
+    }
+    const SurfaceView surface =
+        is_error_view(view.surface) ? view.surface : SurfaceView::transfer_error;
+    if (!history_ || history_->vertex != *view.picked || history_->surface != surface ||
+        history_->limits != view.limits) {
+        history_.emplace(History{*view.picked, surface, view.limits,
+                                 session_->presenter().history(view, surface)});
+    }
+    if (history_->values.done()) return;
+    history_->values.advance(kShare);
+    redraws_ = std::max(redraws_, 1);
+}
+
+void App::save_picture(const char* extension) {
+    try {
         if (!is_visible()) return;
         const auto [width, height] = window_.framebuffer_size();
-        const auto start = Clock::now();
-        const int samples = samples_that_fit(width, height, options_.supersample.value_or(1),
-                                             gl::max_target_size());
-        if (!target_ || target_->width() != width * samples ||
-            target_->height() != height * samples) {
-            target_.emplace(width * samples, height * samples);
+        const int samples = options_.file_samples();
+        const Image image = session_->presenter().render(session_->view, width, height, samples);
+        const std::filesystem::path path = free_name(extension);
+        if (path.extension() == ".exr") {
+            write_exr(path, image);
+        } else {
+            write_png(path, image, Presenter::tone_curve(session_->view));
         }
-        renderer_->draw(current_frame(), *target_);
-        window_.bind();
-        tone_mapper_.draw(*target_, samples, view_.tone_curve);
-        imgui_->begin_frame();
-        draw_overlay(overlay_info(), range_, view_);
-        imgui_->end_frame();
-        gl::check_errors("drawing");
-        window_.swap();
-        const double frame_ms =
-            std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-        frame_ms_ += (frame_ms_ == 0.0 ? 1.0 : 0.1) * (frame_ms - frame_ms_);
+        say("saved " + path.string());
+    } catch (const Error& error) {
+        say(error.what());
     }
+}
 
-    OverlayInfo overlay_info() const {
-        OverlayInfo info;
-        info.title = options_.model_path.filename().string();
-        info.environment = environment_name_;
-        info.renderer = renderer_name_;
-        if (Clock::now() < message_end_) info.message = message_;
-        info.file_bytes = scene_->size_bytes;
-        if (loader_ != nullptr && !scene_->asset->complete) {
-            info.loading = progress_text(loader_->progress());
-        }
-        info.num_vertices = scene_->asset->moving().topology.num_vertices;
-        info.num_triangles =
-            static_cast<uint32_t>(scene_->asset->moving().topology.triangles.size());
-        info.frame_ms = frame_ms_;
-        info.cost = frame_cost(scene_->asset->moving(), view_.limits);
-        const auto* words = words_of_codec(scene_->asset->moving().transfer->codec_name());
-        if (words != nullptr) info.vertex_components = words->components;
-        return info;
+void App::save_view() {
+    try {
+        const std::filesystem::path path = free_name("-view.json");
+        write_view(path, session_->view, session_->units());
+        say("saved " + path.string() + "; --view starts from it");
+    } catch (const Error& error) {
+        say(error.what());
     }
+}
 
-    void say(const std::string& message) {
-        message_ = message;
-        message_end_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                          std::chrono::duration<double>(kMessageSeconds));
+void App::record() {
+    if (clip_) {
+        say(fmt::format("stopped: {} pictures in {}", clip_->num_written(),
+                        clip_->directory().string()));
+        clip_.reset();
+        return;
     }
-
-    void change_light(const std::filesystem::path& path) {
-        try {
-            const LoadedLight light = load_light(path, options_.env_mapping);
-            renderer_->set_environment(light.light);
-            environment_name_ = path.filename().string();
-            std::string message = "light: " + environment_name_;
-            for (const std::string& note : light.notes) message += "\n" + note;
-            say(message);
-        } catch (const Error& error) {
-            say(error.what());
-        }
+    try {
+        const double poses_per_second = double{session_->asset().frames_per_second};
+        const ClipLength length = clip_length(
+            poses_per_second,
+            clip_seconds(session_->view, session_->range().num_poses, poses_per_second));
+        clip_.emplace(free_name("-clip"), session_->model_path().stem().string(), length,
+                      session_->view, window_.framebuffer_size(), options_.file_samples());
+    } catch (const Error& error) {
+        say(error.what());
     }
+}
 
-    void save_view() {
-        try {
-            if (!is_visible()) return;
-            const auto [width, height] = window_.framebuffer_size();
-            const int samples = options_.supersample.value_or(kSnapshotSamples);
-            const Image image = renderer_->render(current_frame(), width, height, samples);
-            const std::filesystem::path path = free_name();
-            write_png(path, image, view_.tone_curve);
-            say("saved " + path.string());
-        } catch (const Error& error) {
-            say(error.what());
-        }
+void App::record_next() {
+    try {
+        redraws_ = kSettlingFrames;
+        if (clip_->write_next(session_->presenter())) return;
+        say(fmt::format("saved {} pictures in {}", clip_->num_written(),
+                        clip_->directory().string()));
+    } catch (const Error& error) {
+        say(error.what());
     }
+    clip_.reset();
+}
 
-    // NAME-001.png in the current directory, or the first number that is not taken.
-    std::filesystem::path free_name() const {
-        for (int i = 1;; ++i) {
-            const auto name = fmt::format("{}-{:03}.png", options_.model_path.stem().string(), i);
-            std::error_code ignored;
-            if (!std::filesystem::exists(name, ignored)) return name;
-        }
+std::filesystem::path App::free_name(const std::string& ending) const {
+    for (int i = 1;; ++i) {
+        const auto name =
+            fmt::format("{}-{:03}{}", session_->model_path().stem().string(), i, ending);
+        std::error_code ignored;
+        if (!std::filesystem::exists(name, ignored)) return name;
     }
-
-    const Options& options_;
-    std::unique_ptr<Scene> scene_;
-    PrefixLoader* loader_;
-    gl::Window window_;
-    std::string renderer_name_ = window_.renderer();
-    std::unique_ptr<SceneRenderer> renderer_;
-    ViewRange range_;
-    ToneMapper tone_mapper_;
-    std::optional<PoseBoundsCache> bounds_;
-    std::optional<gl::Target> target_;
-    std::optional<ImGuiLayer> imgui_;
-    OrbitCamera camera_;
-    bool camera_moved_ = false;  // by hand
-    ViewState view_;
-    std::string environment_name_;
-    std::string message_;
-    Clock::time_point message_end_{};
-    double frame_ms_ = 0.0;
-};
-
-}  // namespace
+}
 
 void run_app(const Options& options, Scene scene) {
     App(options, std::move(scene), nullptr).run();
 }
 
 void run_app_from_prefix(Options& options) {
-    LoaderPace pace;
-    pace.whole = !options.play_prefix;
-    // A file that is cut short is refused at once.
-    if (pace.whole) const ContainerReader checked(options.model_path, section::kKindAnimation);
-    PrefixLoader loader(options.model_path, pace);
-    LoadedAsset first = loader.wait_for_first([&] {
+    auto loader = start_loading(options.model_path, options.play_prefix);
+    LoadedAsset first = loader->wait_for_first([&] {
         fmt::print(stderr, "paim-play: note: {}: waiting for the first part that can be played\n",
                    options.model_path.string());
     });
     Scene scene = make_scene(options, std::move(first));
-    App(options, std::move(scene), &loader).run();
+    App(options, std::move(scene), std::move(loader)).run();
 }
 
 }  // namespace paim::player

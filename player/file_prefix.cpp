@@ -103,7 +103,7 @@ FilePrefix inspect_prefix(const std::filesystem::path& path) {
 LoadedAsset read_prefix(const std::filesystem::path& path, const FilePrefix& prefix,
                         uint64_t playable_bytes) {
     LoadedAsset loaded;
-    loaded.asset = read_asset(path, {.prefix = true, .most_bytes = playable_bytes});
+    loaded.asset = read_asset(path, {.prefix = true, .most_bytes = playable_bytes}, &loaded.units);
     loaded.progress = prefix.progress();
     if (playable_bytes < prefix.playable_bytes()) loaded.progress.size_bytes = playable_bytes;
     loaded.progress.components = num_components(loaded.asset->moving());

@@ -9,6 +9,7 @@
 #include "paim/codec/asset.h"
 #include "paim/format/paim/prefixes.h"
 #include "paim/mesh/bounds.h"
+#include "player/view/scene_units.h"
 
 namespace paim::player {
 
@@ -46,6 +47,7 @@ FilePrefix inspect_prefix(const std::filesystem::path& path);
 
 struct LoadedAsset {
     std::shared_ptr<const Asset> asset;
+    SceneUnits units;
     Bounds bounds;  // of the whole animation, with the components that are there
     LoadProgress progress;
     bool replaced = false;  // comes from another file than the asset before

@@ -1,26 +1,13 @@
 // paim-play: plays a .paim under a light that can be changed and turned.
-#include <filesystem>
-#include <system_error>
 #include <utility>
 
 #include "paim/cli/run_main.h"
 #include "player/app.h"
 #include "player/bench.h"
+#include "player/clip.h"
 #include "player/options.h"
-#include "player/prefix_loader.h"
 #include "player/scene.h"
 #include "player/snapshot.h"
-
-namespace {
-
-// Whether a window shows the first part of a file before all of it is read.
-bool is_large(const std::filesystem::path& path) {
-    std::error_code error;
-    const uintmax_t size_bytes = std::filesystem::file_size(path, error);
-    return !error && size_bytes > paim::player::LoaderPace::kFirstBytes;
-}
-
-}  // namespace
 
 int main(int argc, char** argv) {
     using namespace paim::player;
@@ -34,6 +21,8 @@ int main(int argc, char** argv) {
         Scene scene = load_scene(options);
         if (options.snapshot_path) {
             take_snapshot(options, scene);
+        } else if (options.clip) {
+            write_clip(options, scene);
         } else if (options.bench_frames) {
             run_bench(options, scene);
         } else {

@@ -61,13 +61,15 @@ void multiply(LowRank& matrix, float scale) {
 }  // namespace
 
 std::shared_ptr<const Asset> read_asset(const std::filesystem::path& path,
-                                        const ReadOptions& options) {
+                                        const ReadOptions& options, SceneUnits* units) {
     Asset asset = read_paim(path, options);
-    scale_to_unit(asset);
+    const Vec3d origin = asset.origin;
+    const float scale = scale_to_unit(asset);
+    if (units != nullptr) *units = {double{scale}, origin};
     return std::make_shared<const Asset>(std::move(asset));
 }
 
-void scale_to_unit(Asset& asset) {
+float scale_to_unit(Asset& asset) {
     // Every prefix of a file has the mean; only where that is one point do components decide.
     const LowRank& moving = asset.moving().positions;
     double largest = largest_magnitude(moving, moving.mean);
@@ -81,12 +83,13 @@ void scale_to_unit(Asset& asset) {
             std::max(largest, 0x1p-60 * largest_magnitude(part.positions, part.positions.mean));
     }
     const float scale = unit_scale(largest);
-    if (scale == 1.0f) return;
+    if (scale == 1.0f) return scale;
     for (CodedMesh& part : asset.parts) {
         multiply(part.positions, scale);
         for (RigidTransform& root : part.root_motion) root.translation *= double{scale};
     }
     asset.origin *= double{scale};
+    return scale;
 }
 
 }  // namespace paim::player

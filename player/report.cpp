@@ -1,21 +1,19 @@
-// Describing frames.
+// Describing pictures.
 #include "player/report.h"
 
 #include <algorithm>
 
 #include "paim/codec/section_row.h"
-#include "paim/codec/sequence_bounds.h"
+#include "player/inspect/cost.h"
 #include "player/render/codec_words.h"
-#include "player/render/cost.h"
-#include "player/ui/orbit_camera.h"
 
 namespace paim::player {
 
-nlohmann::ordered_json describe_frame(const Options& options, const Scene& scene,
-                                      const SceneRenderer& renderer, const std::string& driver,
-                                      int samples) {
+nlohmann::ordered_json describe_picture(const Options& options, const Scene& scene,
+                                        const Presenter& presenter, const ViewState& view,
+                                        const std::string& driver, int samples) {
     const CodedMesh& mesh = scene.asset->moving();
-    const Cost cost = frame_cost(mesh, options.limits);
+    const Cost cost = frame_cost(mesh, view.limits);
     nlohmann::ordered_json json;
     json["file"] = options.model_path.string();
     json["environment"] =
@@ -29,7 +27,7 @@ nlohmann::ordered_json describe_frame(const Options& options, const Scene& scene
     for (const NamedNumber& number : mesh.transfer->numbers()) {
         const bool limited = number.limit != nullptr;
         json[number.name] =
-            limited ? std::min(*number.value, options.limits.*number.limit) : *number.value;
+            limited ? std::min(*number.value, view.limits.*number.limit) : *number.value;
     }
     json["bands"] = cost.bands;
     json["channels"] = mesh.layout.channels;
@@ -42,7 +40,8 @@ nlohmann::ordered_json describe_frame(const Options& options, const Scene& scene
         json["whole_components"] = scene.progress->whole_components;
     }
     json["bytes_in_use"] = cost.bytes;
-    json["texture_bytes"] = renderer.texture_bytes();
+    json["texture_bytes"] = presenter.renderer().texture_bytes();
+    json["buffer_bytes"] = presenter.renderer().buffer_bytes();
     json["multiply_adds_per_vertex"] = cost.multiply_adds;
     for (const CodecWords& words : codec_words()) {
         const bool own = words.codec == mesh.transfer->codec_name();
@@ -52,19 +51,6 @@ nlohmann::ordered_json describe_frame(const Options& options, const Scene& scene
     json["supersample"] = samples;
     json["renderer"] = driver;
     return json;
-}
-
-Frame first_frame(const Options& options, const Scene& scene) {
-    Frame frame;
-    frame.time = options.pose;
-    frame.limits = options.limits;
-    frame.env_rotation_rad = options.env_rotation_rad;
-    const float aspect =
-        static_cast<float>(options.size.first) / static_cast<float>(options.size.second);
-    frame.camera = start_camera(options.camera, scene.bounds, aspect);
-    frame.bounds = pose_bounds(*scene.asset, options.pose, options.limits.geometry_components);
-    frame.background = options.background;
-    return frame;
 }
 
 }  // namespace paim::player

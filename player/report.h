@@ -1,4 +1,4 @@
-// The part of --json that snapshots and benchmarks share.
+// The part of --json that snapshots, clips and benchmarks share.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -6,18 +6,15 @@
 #include <string>
 
 #include "player/options.h"
-#include "player/render/scene_renderer.h"
+#include "player/presenter.h"
 #include "player/scene.h"
 
 namespace paim::player {
 
 // Describes the file, the mesh, the detail in use and its cost, the picture's size and the driver.
 // driver  as its context describes itself
-nlohmann::ordered_json describe_frame(const Options& options, const Scene& scene,
-                                      const SceneRenderer& renderer, const std::string& driver,
-                                      int samples);
-
-// The first frame that the options ask for.
-Frame first_frame(const Options& options, const Scene& scene);
+nlohmann::ordered_json describe_picture(const Options& options, const Scene& scene,
+                                        const Presenter& presenter, const ViewState& view,
+                                        const std::string& driver, int samples);
 
 }  // namespace paim::player

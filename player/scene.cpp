@@ -42,7 +42,7 @@ EnvironmentLight load_environment(const Options& options) {
 Scene load_scene(Options& options) {
     if (options.play_prefix) return make_scene(options, load_prefix(options.model_path));
     LoadedAsset loaded;
-    loaded.asset = read_asset(options.model_path);
+    loaded.asset = read_asset(options.model_path, {}, &loaded.units);
     loaded.bounds = sequence_bounds(*loaded.asset);
     std::error_code ignored;
     loaded.progress.size_bytes = std::filesystem::file_size(options.model_path, ignored);
@@ -50,7 +50,8 @@ Scene load_scene(Options& options) {
 }
 
 Scene make_scene(Options& options, LoadedAsset loaded) {
-    Scene scene{nullptr, EnvironmentLight(Image(1, 1)), {}, 0, {}};
+    Scene scene{nullptr, EnvironmentLight(Image(1, 1)), {}, {}, 0, {}};
+    scene.units = loaded.units;
     scene.asset = std::move(loaded.asset);
     scene.bounds = loaded.bounds;
     scene.size_bytes = loaded.progress.size_bytes;
@@ -58,10 +59,12 @@ Scene make_scene(Options& options, LoadedAsset loaded) {
     const Asset& asset = *scene.asset;
     const CodedMesh& mesh = asset.moving();
 
+    ViewState view;
+    for (const auto& change : options.view_changes) change(view);
     const double last_pose = static_cast<double>(asset.num_poses()) - 1.0;
-    if (options.pose > last_pose) {
+    if (view.animation.time > last_pose) {
         throw_usage("--pose: expected 0 to {} ({} has {} poses), got {}", last_pose,
-                    options.model_path.string(), asset.num_poses(), options.pose);
+                    options.model_path.string(), asset.num_poses(), view.animation.time);
     }
     const WantedLimits& wanted = options.wanted;
     DecodeLimits& limits = options.limits;

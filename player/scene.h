@@ -15,6 +15,7 @@ namespace paim::player {
 struct Scene {
     std::shared_ptr<const Asset> asset;
     EnvironmentLight environment;
+    SceneUnits units;
     Bounds bounds;                         // of the whole animation
     uint64_t size_bytes = 0;               // of the .paim file, or of the prefix that is there
     std::optional<LoadProgress> progress;  // of the prefix, where the options ask for one

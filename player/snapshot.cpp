@@ -10,19 +10,18 @@
 #include "paim/image/exr.h"
 #include "paim/image/png.h"
 #include "player/gl/headless_context.h"
-#include "player/render/scene_renderer.h"
 #include "player/report.h"
+#include "player/start_view.h"
+#include "player/view/view_file.h"
 
 namespace paim::player {
 
 namespace {
 
-constexpr int kDefaultSamples = 2;
-
 // A note where a bright light leaves little but white.
-void warn_if_clipped(const Image& image, float exposure_ev) {
+void warn_if_clipped(const Image& image, const ToneCurve& curve) {
     constexpr double kMuch = 0.25;
-    const float white = std::exp2(-exposure_ev);
+    const float white = curve.white();
     const auto clipped =
         std::count_if(image.pixels.begin(), image.pixels.end(),
                       [&](const Vec3f& pixel) { return pixel.maxCoeff() > white; });
@@ -33,29 +32,51 @@ void warn_if_clipped(const Image& image, float exposure_ev) {
                100.0 * share, suggested_exposure_ev(image));
 }
 
+// What the colours of the surface mean.
+void describe_legend(const Legend& legend, nlohmann::ordered_json& json) {
+    json["surface"] = legend.title;
+    if (legend.kind != ScaleKind::none) {
+        json["scale_lowest"] = legend.lowest;
+        json["scale_highest"] = legend.highest;
+    }
+    if (legend.worst) {
+        json["worst_part"] = legend.worst->part;
+        json["worst_vertex"] = legend.worst->vertex;
+        json["worst_error"] = legend.worst->value;
+    }
+    if (legend.mean_error) json["mean_error"] = *legend.mean_error;
+    if (!legend.note.empty()) json["surface_note"] = legend.note;
+}
+
 }  // namespace
 
 void take_snapshot(const Options& options, const Scene& scene) {
     const auto context = gl::make_headless_context();
-    const int samples = options.supersample.value_or(kDefaultSamples);
-    SceneRenderer renderer(*scene.asset, scene.environment, options.limits);
-    const Image image = renderer.render(first_frame(options, scene), options.size.first,
-                                        options.size.second, samples);
+    const int samples = options.file_samples();
+    const auto [width, height] = options.size;
+    Presenter presenter = make_presenter(options, scene);
+    const ViewState view = start_view(options, scene, presenter,
+                                      static_cast<float>(width) / static_cast<float>(height));
+    const Image image = presenter.render(view, width, height, samples);
+    const ToneCurve curve = Presenter::tone_curve(view);
     const auto& path = *options.snapshot_path;
     if (path.extension() == ".exr") {
         write_exr(path, image);
     } else {
-        write_png(path, image, options.tone_curve);
-        warn_if_clipped(image, options.tone_curve.exposure_ev);
+        write_png(path, image, curve);
+        if (view.surface == SurfaceView::lit) warn_if_clipped(image, curve);
     }
+    if (options.save_view_path) write_view(*options.save_view_path, view, scene.units);
     if (!options.json) return;
     nlohmann::ordered_json json =
-        describe_frame(options, scene, renderer, context->description(), samples);
+        describe_picture(options, scene, presenter, view, context->description(), samples);
     json["snapshot"] = path.string();
-    json["pose"] = options.pose;
-    json["env_rotation_deg"] = options.env_rotation_rad * 180.0 / kPi;
-    json["exposure_ev"] = options.tone_curve.exposure_ev;
-    json["gamma"] = options.tone_curve.gamma;
+    json["pose"] = view.animation.time;
+    json["env_rotation_deg"] = view.light.orientation.yaw_deg;
+    json["exposure_ev"] = view.tone_curve.exposure_ev;
+    json["gamma"] = view.tone_curve.gamma;
+    json["tone_map"] = tone_operator_name(view.tone_curve.tone_operator);
+    if (const Legend* const legend = presenter.legend()) describe_legend(*legend, json);
     fmt::print("{}\n", json_text(json, 2));
 }
 

@@ -307,6 +307,13 @@ std::vector<NamedError> named_errors(const AssetError& error) {
     return errors;
 }
 
+std::optional<double> ErrorStatement::value(std::string_view name) const {
+    const auto found = std::find_if(errors.begin(), errors.end(),
+                                    [&](const NamedError& error) { return error.name == name; });
+    if (found == errors.end()) return {};
+    return found->value;
+}
+
 std::string error_statement_json(const AssetError& error, const BandPower& spectrum) {
     nlohmann::ordered_json json;
     json["light_spectrum"] = spectrum.name;

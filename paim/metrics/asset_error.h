@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "paim/codec/asset.h"
@@ -107,6 +108,9 @@ std::vector<NamedError> named_errors(const AssetError& error);
 struct ErrorStatement {
     std::string band_power;          // its name
     std::vector<NamedError> errors;  // those that the file states, in the order of named_errors()
+
+    // The error of this name; nothing if the file does not state it.
+    std::optional<double> value(std::string_view name) const;
 };
 
 // The JSON object of the member `measured`.

@@ -52,13 +52,6 @@ MatrixXd plane_gram(const LowRank& matrix, uint32_t plane, const std::vector<Mat
     return gram;
 }
 
-std::optional<double> stated(const ErrorStatement& statement, const char* name) {
-    const auto found = std::find_if(statement.errors.begin(), statement.errors.end(),
-                                    [&](const NamedError& error) { return error.name == name; });
-    if (found == statement.errors.end()) return {};
-    return found->value;
-}
-
 // √(whole² + dropped / norm)
 std::vector<double> add_in_squares(double whole, const std::vector<double>& dropped, double norm) {
     std::vector<double> errors;
@@ -91,13 +84,14 @@ ComponentEnergy component_energy(const CodedMesh& mesh, Attribute attribute,
     PAIM_CHECK_EQ(plane_weight.size(), size_t{matrix.num_planes});
     const std::vector<MatrixXd> metrics =
         attribute == Attribute::transfer ? point_metrics(*mesh.transfer) : std::vector<MatrixXd>{};
-    std::vector<MatrixXd> planes(matrix.num_planes);
+    const Index num_columns = 1 + Index{matrix.num_components};
+    std::vector<MatrixXd> planes(matrix.num_planes, MatrixXd::Zero(num_columns, num_columns));
     parallel_for(planes.size(), 1, [&](size_t j, size_t) {
         const auto plane = static_cast<uint32_t>(j);
+        if (plane_weight[j] == 0.0) return;
         const double step = double{matrix.step(plane)};
         planes[j] = plane_weight[j] * step * step * plane_gram(matrix, plane, metrics);
     });
-    const Index num_columns = 1 + Index{matrix.num_components};
     MatrixXd energy = MatrixXd::Zero(num_columns, num_columns);
     for (const MatrixXd& gram : planes) energy += gram;
 
@@ -122,10 +116,7 @@ ComponentEnergy component_energy(const CodedMesh& mesh, Attribute attribute,
     return result;
 }
 
-namespace {
-
-// Of positions without exceptions, as stated errors are.
-ComponentEnergy usual_energy(const CodedMesh& mesh) {
+ComponentEnergy usual_position_energy(const CodedMesh& mesh) {
     const std::vector<double> alike(3, 1.0);
     const uint32_t num_usual = mesh.positions.num_usual_components();
     if (num_usual == mesh.positions.num_components) {
@@ -138,14 +129,12 @@ ComponentEnergy usual_energy(const CodedMesh& mesh) {
     return energy;
 }
 
-}  // namespace
-
 PrefixErrors prefix_errors(const CodedMesh& mesh, const std::optional<ErrorStatement>& statement) {
     const ErrorStatement whole = statement.value_or(ErrorStatement{});
     const bool named = whole.band_power == "flat" || whole.band_power == "natural";
     const std::optional<double> transfer_error =
-        named ? stated(whole, "transfer_total_error") : std::nullopt;
-    const std::optional<double> position_rms = stated(whole, "position_rms");
+        named ? whole.value("transfer_total_error") : std::nullopt;
+    const std::optional<double> position_rms = whole.value("position_rms");
 
     const TransferLayout& layout = mesh.layout;
     const BandPower spectrum = parse_band_power(named ? whole.band_power : "flat", layout.in_bands);
@@ -156,9 +145,9 @@ PrefixErrors prefix_errors(const CodedMesh& mesh, const std::optional<ErrorState
     const ComponentEnergy transfer = component_energy(mesh, Attribute::transfer, weights);
     // The norm of the bake, if the decoded transfer and its error are orthogonal.
     const double error_to_bake =
-        transfer_error ? stated(whole, "transfer_deviation").value_or(0.0) : 0.0;
+        transfer_error ? whole.value("transfer_deviation").value_or(0.0) : 0.0;
     const double share = error_to_bake < 1.0 ? 1.0 - error_to_bake * error_to_bake : 1.0;
-    const ComponentEnergy geometry = usual_energy(mesh);
+    const ComponentEnergy geometry = usual_position_energy(mesh);
     const double num_positions = static_cast<double>(face_vertices(mesh.topology).size()) *
                                  static_cast<double>(mesh.num_poses());
     return {

@@ -18,9 +18,13 @@ struct ComponentEnergy {
     std::vector<double> dropped;  // [1 + K] ‖x̂ − x̂_k‖², x̂_k with the first k components
 };
 
-// plane_weight [planes] of squares
+// plane_weight [planes] of squares; planes of weight 0 cost nothing
 ComponentEnergy component_energy(const CodedMesh& mesh, Attribute attribute,
                                  const std::vector<double>& plane_weight);
+
+// Of positions, all planes alike, without exceptions (LowRank::num_usual_components()), as stated
+// errors of positions are.
+ComponentEnergy usual_position_energy(const CodedMesh& mesh);
 
 // Errors with the first k components, k = 0 … K. The stated error of the whole file and the
 // contribution of the missing components are assumed to be orthogonal: error² = stated² + dropped.

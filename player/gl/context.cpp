@@ -3,11 +3,17 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
+#include <string_view>
+
 #include "paim/base/error.h"
 
 namespace paim::player::gl {
 
 namespace {
+
+constexpr std::string_view kSoftwareRenderers[] = {"llvmpipe", "softpipe", "SWR", "SwiftShader",
+                                                   "Software Rasterizer"};
 
 std::string text(GLenum name) {
     const GLubyte* value = glGetString(name);
@@ -24,6 +30,13 @@ std::string Context::description() const {
     // OpenGL ES already starts its version with its name.
     const std::string api = epoxy_is_desktop_gl() ? "OpenGL " : "";
     return renderer() + ", " + api + text(GL_VERSION);
+}
+
+bool draws_in_software() {
+    const std::string renderer = text(GL_RENDERER);
+    return std::ranges::any_of(kSoftwareRenderers, [&](std::string_view name) {
+        return renderer.find(name) != std::string::npos;
+    });
 }
 
 void require_version() {

@@ -17,6 +17,10 @@ class Context {
     std::string description() const;
 };
 
+// Whether the current context's driver draws on the CPU, as Mesa's llvmpipe and softpipe and
+// SwiftShader do.
+bool draws_in_software();
+
 // Throws Error(unsupported) unless the current context is OpenGL >= 3.3 or OpenGL ES >= 3.0.
 void require_version();
 

@@ -54,11 +54,14 @@ class Shader {
 }  // namespace
 
 Program::Program(std::string name, std::string_view vertex_source, std::string_view fragment_source,
-                 std::string_view defines) {
+                 std::string_view defines, const char* captured) {
     const Shader vertex(name, GL_VERTEX_SHADER, defines, vertex_source);
     const Shader fragment(name, GL_FRAGMENT_SHADER, defines, fragment_source);
     glAttachShader(handle_.id(), vertex.id());
     glAttachShader(handle_.id(), fragment.id());
+    if (captured != nullptr) {
+        glTransformFeedbackVaryings(handle_.id(), 1, &captured, GL_INTERLEAVED_ATTRIBS);
+    }
     glLinkProgram(handle_.id());
     glDetachShader(handle_.id(), vertex.id());
     glDetachShader(handle_.id(), fragment.id());
@@ -84,6 +87,10 @@ void Program::set(const char* uniform, const Eigen::Vector2f& value) const {
 
 void Program::set(const char* uniform, const Eigen::Vector3f& value) const {
     glUniform3fv(location(uniform), 1, value.data());
+}
+
+void Program::set(const char* uniform, const Eigen::Vector4f& value) const {
+    glUniform4fv(location(uniform), 1, value.data());
 }
 
 void Program::set(const char* uniform, const Eigen::Matrix3f& value) const {

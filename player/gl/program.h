@@ -15,9 +15,11 @@ class Program {
   public:
     // The sources have no #version line: the one that fits the current context is put before them.
     // Throws Error(unsupported) with `name`, the stage and the driver's log.
-    // defines  #define lines for both, each with its line end
+    // defines   #define lines for both, each with its line end
+    // captured  the output of the vertex shader that transform feedback keeps (gl/feedback.h), or
+    //           nullptr
     Program(std::string name, std::string_view vertex_source, std::string_view fragment_source,
-            std::string_view defines = {});
+            std::string_view defines = {}, const char* captured = nullptr);
 
     void use() const { glUseProgram(handle_.id()); }
 
@@ -27,6 +29,7 @@ class Program {
     void set(const char* uniform, float value) const;
     void set(const char* uniform, const Eigen::Vector2f& value) const;
     void set(const char* uniform, const Eigen::Vector3f& value) const;
+    void set(const char* uniform, const Eigen::Vector4f& value) const;
     void set(const char* uniform, const Eigen::Matrix3f& value) const;
     void set(const char* uniform, const glm::mat4& value) const;
 

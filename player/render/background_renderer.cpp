@@ -5,9 +5,26 @@
 
 #include "paim/image/area_average.h"
 #include "player/gl/check.h"
+#include "player/light/blur_latlong.h"
 #include "player/shaders/sources.h"
 
 namespace paim::player {
+
+namespace {
+
+constexpr double kBlur_deg = 8.0;  // standard deviation
+
+void upload(const gl::TextureHandle& texture, const Image& image) {
+    glBindTexture(GL_TEXTURE_2D, texture.id());
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB32F, image.width, image.height, 0, GL_RGB, GL_FLOAT,
+                 image.pixels.data());
+    gl::check_errors("uploading the environment");
+}
+
+}  // namespace
 
 BackgroundRenderer::BackgroundRenderer()
     : program_("background", shaders::fullscreen_vert, shaders::background_frag) {
@@ -17,15 +34,9 @@ BackgroundRenderer::BackgroundRenderer()
 void BackgroundRenderer::set_environment(const Image& environment) {
     const int max_size = gl::max_texture_size();
     const bool fits = environment.width <= max_size && environment.height <= max_size;
-    const Image smaller = fits ? Image() : fit_latlong(environment, max_size, max_size);
-    const Image& image = fits ? environment : smaller;
-    glBindTexture(GL_TEXTURE_2D, environment_.id());
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB32F, image.width, image.height, 0, GL_RGB, GL_FLOAT,
-                 image.pixels.data());
-    gl::check_errors("uploading the environment");
+    upload(sharp_, smooth_if_small(fits ? environment
+                                        : fit_latlong(environment, max_size, max_size)));
+    to_blur_ = environment;
 }
 
 void BackgroundRenderer::clear(const Frame& frame) const {
@@ -35,20 +46,22 @@ void BackgroundRenderer::clear(const Frame& frame) const {
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
-void BackgroundRenderer::draw(const Frame& frame, float aspect) const {
-    if (frame.background.kind != Background::Kind::environment) return;
-    // The map turns by the angle, so directions are looked up turned back by it.
-    const Eigen::Matrix3f light_from_world =
-        Eigen::AngleAxisf(static_cast<float>(-frame.env_rotation_rad), Vec3f::UnitY())
-            .toRotationMatrix();
+void BackgroundRenderer::draw(const Frame& frame, float aspect) {
+    if (frame.background.kind == Background::Kind::color) return;
+    const bool blurred = frame.background.kind == Background::Kind::blurred;
+    if (blurred && to_blur_) {
+        upload(blurred_, blur_latlong(*to_blur_, kBlur_deg));
+        to_blur_.reset();
+    }
     const float half_height = std::tan(0.5f * frame.camera.vertical_fov_rad);
     program_.use();
-    program_.set("light_axes", Eigen::Matrix3f(light_from_world * frame.camera.axes()));
+    program_.set("light_axes", Eigen::Matrix3f(frame.environment_from_world * frame.camera.axes()));
     program_.set("half_extent", Eigen::Vector2f(half_height * aspect, half_height));
     const PictureRegion& region = frame.region;
     program_.set("region_corner", Eigen::Vector2f(region.left, region.bottom));
     program_.set("region_size", Eigen::Vector2f(region.width, region.height));
-    program_.set_texture("environment", 0, environment_);
+    program_.set("strength", frame.environment_strength);
+    program_.set_texture("environment", 0, blurred ? blurred_ : sharp_);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LEQUAL);  // the triangle lies on the far plane, at the depth that was cleared to
     triangle_.draw();

@@ -1,6 +1,8 @@
 // Fills the picture with what is behind the mesh.
 #pragma once
 
+#include <optional>
+
 #include "paim/image/image.h"
 #include "player/gl/data_texture.h"
 #include "player/gl/fullscreen.h"
@@ -13,8 +15,8 @@ class BackgroundRenderer {
   public:
     BackgroundRenderer();
 
-    // The lat-long map to show from now on. An image larger than this driver's textures is averaged
-    // down until it fits.
+    // The lat-long map to show from now on. Maps of few pixels are made smooth
+    // (smooth_if_small()). One larger than this driver's textures is averaged down until it fits.
     void set_environment(const Image& environment);
 
     // Clears colour and depth of the current target; before the mesh is drawn.
@@ -22,12 +24,13 @@ class BackgroundRenderer {
 
     // Draws the environment, if the frame shows it, where there is no mesh.
     // aspect  of the whole picture
-    void draw(const Frame& frame, float aspect) const;
+    void draw(const Frame& frame, float aspect);
 
   private:
     gl::Program program_;
     gl::FullscreenTriangle triangle_;
-    gl::TextureHandle environment_;
+    gl::TextureHandle sharp_, blurred_;
+    std::optional<Image> to_blur_;  // the map; empty: blurred_ is up to date
 };
 
 }  // namespace paim::player

@@ -1,17 +1,27 @@
 // What one picture shows.
 #pragma once
 
+#include <functional>
+#include <vector>
+
 #include "paim/base/vector.h"
-#include "paim/codec/mesh_decoder.h"
+#include "paim/codec/decode_limits.h"
+#include "paim/light/light.h"
 #include "paim/mesh/bounds.h"
 #include "paim/shade/camera.h"
 
 namespace paim::player {
 
 struct Background {
-    enum class Kind { environment, color };
+    enum class Kind {
+        environment,
+        blurred,  // the environment, out of focus
+        color,
+    };
     Kind kind = Kind::environment;
     Vec3f color = Vec3f::Zero();  // linear radiance
+
+    bool operator==(const Background&) const = default;
 };
 
 // Part of a picture: its lower left corner and its size, as fractions of the picture's.
@@ -24,16 +34,35 @@ struct PictureRegion {
     }
 };
 
+// One copy of the asset.
+struct Instance {
+    double time_offset = 0.0;      // in poses; the animation starts over after the last pose
+    Vec3d offset = Vec3d::Zero();  // from where the asset stands, scene units
+};
+
+// [parts][V] linear RGB.
+using PartColors = std::vector<std::vector<Vec3f>>;
+
 // Lengths are in the model's unit. Cameras and depths take squares of them in single precision, so
 // that the model has to be of about unit size (player/read_asset.h).
 struct Frame {
     double time = 0.0;  // in poses
     DecodeLimits limits;
-    double env_rotation_rad = 0.0;  // about +Y, counter-clockwise seen from above
+    LightCoefficients light;  // of the scene
+    // Colours to show instead of radiance, of the pose at a time; valid until the next call.
+    std::function<const PartColors&(double time)> colors;
+    bool edges = false;  // draws the edges of all triangles, too
+    std::vector<Instance> instances{Instance{}};
     Camera camera;
-    Bounds bounds;  // hold the mesh at this time; near and far planes come from them
+    Bounds bounds;  // hold all instances at this time; near and far planes come from them
     Background background;
+    // From directions of the world to those of the environment's map.
+    Eigen::Matrix3f environment_from_world = Eigen::Matrix3f::Identity();
+    float environment_strength = 1.0f;  // factor of the map's radiance
     PictureRegion region;  // what the target shows; the camera is that of the whole picture
 };
+
+// The time of an instance, in poses: that of the frame where it has no offset.
+double time_of(const Frame& frame, const Instance& instance, uint32_t num_poses);
 
 }  // namespace paim::player

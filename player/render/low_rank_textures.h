@@ -1,4 +1,4 @@
-// A matrix in textures, for the vertex shader to rebuild (shaders/model.vert): its mean, its
+// A matrix in textures, for the vertex shader to rebuild (shaders/vertex_data.glsl): its mean, its
 // components and their weights at a time.
 #pragma once
 

@@ -8,53 +8,57 @@
 
 namespace paim::player {
 
-SceneRenderer::SceneRenderer(const Asset& asset, EnvironmentLight environment,
-                             const DecodeLimits& limits)
-    : environment_(std::move(environment)) {
-    set_asset(asset, limits);
-    background_renderer_.set_environment(environment_.image());
+SceneRenderer::SceneRenderer(std::shared_ptr<const Asset> asset, const DecodeLimits& limits,
+                             Decoder decoder)
+    : decoder_(decoder) {
+    set_asset(std::move(asset), limits);
 }
 
-void SceneRenderer::set_asset(const Asset& asset, const DecodeLimits& limits) {
-    std::vector<std::unique_ptr<MeshRenderer>> parts;
-    for (const CodedMesh& mesh : asset.parts) {
-        parts.push_back(std::make_unique<MeshRenderer>(mesh, limits));
+void SceneRenderer::set_asset(std::shared_ptr<const Asset> asset, const DecodeLimits& limits) {
+    auto vertices = make_vertex_source(asset, limits, decoder_);
+    std::vector<SurfaceMesh> surfaces;
+    std::vector<size_t> num_following;
+    for (const CodedMesh& mesh : asset->parts) {
+        surfaces.emplace_back(mesh.topology);
+        num_following.push_back(mesh.topology.num_triangles_before(mesh.num_following));
     }
-    parts_ = std::move(parts);
-    if (light_.bands != static_cast<int>(plan().layout.in_bands)) project_light();
+    vertices_ = std::move(vertices);
+    surfaces_ = std::move(surfaces);
+    num_following_ = std::move(num_following);
+    asset_ = std::move(asset);
 }
 
-uint64_t SceneRenderer::texture_bytes() const {
+uint64_t SceneRenderer::buffer_bytes() const {
     uint64_t bytes = 0;
-    for (const auto& part : parts_) bytes += part->texture_bytes();
+    for (const SurfaceMesh& surface : surfaces_) bytes += surface.buffer_bytes();
     return bytes;
 }
 
-void SceneRenderer::set_environment(const EnvironmentLight& environment) {
-    background_renderer_.set_environment(environment.image());
-    environment_ = environment;
-    project_light();
-}
-
-void SceneRenderer::project_light() {
-    light_ = environment_.coefficients(static_cast<int>(plan().layout.in_bands));
-    turned_light_ = light_;
-    turned_rad_ = 0.0;
-}
-
 void SceneRenderer::draw(const Frame& frame, const gl::Target& target) {
-    draw(frame, target, static_cast<float>(target.width()) / static_cast<float>(target.height()));
+    target.bind();
+    draw(frame, static_cast<float>(target.width()) / static_cast<float>(target.height()));
 }
 
-void SceneRenderer::draw(const Frame& frame, const gl::Target& target, float aspect) {
-    if (frame.env_rotation_rad != turned_rad_) {
-        turned_light_ = turn_about_y(light_, frame.env_rotation_rad);
-        turned_rad_ = frame.env_rotation_rad;
-    }
-    target.bind();
+void SceneRenderer::draw(const Frame& frame, float aspect) {
     background_renderer_.clear(frame);
-    for (const auto& part : parts_) part->draw(frame, turned_light_, aspect);
+    for (const Instance& instance : frame.instances) draw_instance(frame, instance, aspect);
     background_renderer_.draw(frame, aspect);
+}
+
+void SceneRenderer::draw_instance(const Frame& frame, const Instance& instance, float aspect) {
+    const double time = time_of(frame, instance, asset_->num_poses());
+    vertices_->update(time, frame.limits, frame.colors ? nullptr : &frame.light, surfaces_);
+    if (frame.colors) {
+        const PartColors& colors = frame.colors(time);
+        for (size_t j = 0; j < surfaces_.size(); ++j) surfaces_[j].upload_colors(colors[j]);
+        vertices_->forget_colors();
+    }
+    for (size_t j = 0; j < surfaces_.size(); ++j) {
+        const CodedMesh& mesh = asset_->parts[j];
+        const SurfacePlace place{num_following_[j], root_at(mesh.root_motion, time),
+                                 instance.offset};
+        surface_renderer_.draw(surfaces_[j], mesh.topology.triangles.size(), place, frame, aspect);
+    }
 }
 
 void SceneRenderer::draw_tiles(const Frame& frame, const Tiling& tiling, const gl::Target& target,
@@ -65,7 +69,8 @@ void SceneRenderer::draw_tiles(const Frame& frame, const Tiling& tiling, const g
     for (int row = 0; row < tiling.num_rows(); ++row) {
         for (int column = 0; column < tiling.num_columns(); ++column) {
             of_tile.region = tiling.region(column, row);
-            draw(of_tile, target, aspect);
+            target.bind();
+            draw(of_tile, aspect);
             if (on_tile) on_tile(column, row);
         }
     }

@@ -1,4 +1,4 @@
-// All parts of an asset under a light before their background: all that one frame needs.
+// All instances of all parts of an asset before their background: all that one frame needs.
 #pragma once
 
 #include <functional>
@@ -7,37 +7,40 @@
 
 #include "paim/codec/asset.h"
 #include "paim/image/image.h"
-#include "paim/light/environment.h"
-#include "paim/light/light.h"
 #include "player/gl/target.h"
 #include "player/render/background_renderer.h"
 #include "player/render/frame.h"
-#include "player/render/mesh_renderer.h"
+#include "player/render/surface_mesh.h"
+#include "player/render/surface_renderer.h"
 #include "player/render/tiles.h"
+#include "player/render/vertex_source.h"
 
 namespace paim::player {
 
 class SceneRenderer {
   public:
-    // Keeps a reference to the asset. Nothing beyond the limits is uploaded. Errors (unsupported):
-    // the asset does not fit into this driver's textures, or this player does not draw its codec.
-    SceneRenderer(const Asset& asset, EnvironmentLight environment, const DecodeLimits& limits);
+    // Nothing beyond the limits is uploaded. Errors: those of make_vertex_source().
+    SceneRenderer(std::shared_ptr<const Asset> asset, const DecodeLimits& limits, Decoder decoder);
 
-    // Shows this asset from now on, under the same light, and keeps a reference to it. On an error
-    // the old one stays.
-    void set_asset(const Asset& asset, const DecodeLimits& limits);
+    // Shows this asset from now on. On an error the old one stays.
+    void set_asset(std::shared_ptr<const Asset> asset, const DecodeLimits& limits);
 
-    // Replaces light and background. On an error the old ones stay.
-    void set_environment(const EnvironmentLight& environment);
+    // The map behind the meshes, at first black (BackgroundRenderer::set_environment()).
+    void set_environment(const Image& map) { background_renderer_.set_environment(map); }
 
-    // What can be shown of the part that moves.
-    const UploadPlan& plan() const { return parts_.front()->plan(); }
-
-    // Of all parts.
-    uint64_t texture_bytes() const;
+    // What can be shown at most of the part that moves.
+    DecodeLimits most() const { return vertices_->most(); }
+    // Of all textures that hold the asset, and of all vertices and triangles.
+    uint64_t texture_bytes() const { return vertices_->texture_bytes(); }
+    uint64_t buffer_bytes() const;
+    bool decodes_on_cpu() const { return vertices_->is_on_cpu(); }
 
     // Draws the whole picture into the target.
     void draw(const Frame& frame, const gl::Target& target);
+
+    // Draws what the frame's region shows over what the current target holds.
+    // aspect  of the whole picture
+    void draw(const Frame& frame, float aspect);
 
     // Draws the tiles of a picture one after the other into the target, which has the size of a
     // tile.
@@ -50,15 +53,15 @@ class SceneRenderer {
     Image render(const Frame& frame, int width, int height, int samples);
 
   private:
-    void draw(const Frame& frame, const gl::Target& target, float aspect);
-    void project_light();
+    void draw_instance(const Frame& frame, const Instance& instance, float aspect);
 
-    std::vector<std::unique_ptr<MeshRenderer>> parts_;
+    Decoder decoder_;
+    std::shared_ptr<const Asset> asset_;
+    std::unique_ptr<VertexSource> vertices_;
+    std::vector<SurfaceMesh> surfaces_;  // one for each part
+    std::vector<size_t> num_following_;  // of each part: triangles before those of a floor
+    SurfaceRenderer surface_renderer_;
     BackgroundRenderer background_renderer_;
-    EnvironmentLight environment_;
-    LightCoefficients light_;         // not turned
-    LightCoefficients turned_light_;  // by turned_rad_
-    double turned_rad_ = 0.0;
 };
 
 }  // namespace paim::player

@@ -8,10 +8,10 @@
 #include <string_view>
 
 #include "paim/codec/asset.h"
+#include "paim/codec/decode_limits.h"
 #include "paim/light/light.h"
 #include "player/gl/program.h"
 #include "player/render/codec_words.h"
-#include "player/render/frame.h"
 #include "player/render/upload_plan.h"
 
 namespace paim::player {
@@ -20,14 +20,16 @@ class TransferTextures {
   public:
     virtual ~TransferTextures() = default;
 
-    // Chooses the part of shaders/model.vert that reads these textures.
+    // GLSL that reads these textures and defines shade(v), the radiance of a vertex before its albedo
+    // (shaders/radiance.vert), and the #define lines before it.
+    virtual std::string_view shader() const = 0;
     virtual std::string defines() const = 0;
     virtual uint64_t size_bytes() const = 0;
 
     // Uploads everything that changes with time and light, hands textures and counts to the
     // program, which is in use, and returns the first texture unit that is free after those from
     // `unit`.
-    virtual int bind(const gl::Program& program, int unit, const Frame& frame,
+    virtual int bind(const gl::Program& program, int unit, double time, const DecodeLimits& limits,
                      const LightCoefficients& light) = 0;
 };
 

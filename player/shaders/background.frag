@@ -4,6 +4,7 @@
 uniform sampler2D environment;  // lat-long, row 0 on top, as in OpenEXR
 uniform mat3 light_axes;        // right, up, backward of the camera, in the light's own frame
 uniform vec2 half_extent;       // of the picture at distance 1: tan(fov / 2) * (aspect, 1)
+uniform float strength;         // factor of the radiance
 uniform vec2 region_corner;     // of the part of the picture that is drawn, lower left, 0 to 1
 uniform vec2 region_size;       // of that part; 1 is the picture
 
@@ -32,5 +33,5 @@ void main() {
     ivec2 at = ivec2(corner);
     vec3 upper = mix(texel(at, size), texel(at + ivec2(1, 0), size), weight.x);
     vec3 lower = mix(texel(at + ivec2(0, 1), size), texel(at + ivec2(1, 1), size), weight.x);
-    radiance = vec4(mix(upper, lower, weight.y), 1.0);
+    radiance = vec4(strength * mix(upper, lower, weight.y), 1.0);
 }

@@ -3,6 +3,7 @@
 
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
+#include <epoxy/gl.h>
 #include <imgui.h>
 
 namespace paim::player {
@@ -20,7 +21,7 @@ ImGuiLayer::ImGuiLayer(const gl::Window& window) {
     style.ScaleAllSizes(window.content_scale());
     io.FontGlobalScale = window.content_scale();
     ImGui_ImplGlfw_InitForOpenGL(window.handle(), true);
-    ImGui_ImplOpenGL3_Init("#version 330 core");
+    ImGui_ImplOpenGL3_Init(epoxy_is_desktop_gl() ? "#version 330 core" : "#version 300 es");
 }
 
 ImGuiLayer::~ImGuiLayer() {

@@ -1,4 +1,4 @@
-// Keys to commands, commands to changes of the view.
+// Keys and what they do.
 #include "player/ui/keys.h"
 
 #define GLFW_INCLUDE_NONE
@@ -7,13 +7,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "player/render/codec_words.h"
 
 namespace paim::player {
 
 namespace {
+
+constexpr float kExposureStep = 0.25f;
+constexpr float kGammaStep = 0.2f;
+constexpr double kTurnStep_deg = 5.0;
 
 // What codecs call the components that vertices sum up themselves.
 std::string vertex_components() {
@@ -24,99 +27,55 @@ std::string vertex_components() {
     return names;
 }
 
-const std::vector<KeyRow>& keys() {
-    static const std::vector<KeyRow> rows = {
-        KeyRow{"Space", "play or pause", {GLFW_KEY_SPACE, false, Command::play_pause}},
-        KeyRow{"Left, Right",
-               "one pose back, forth",
-               {GLFW_KEY_LEFT, false, Command::previous_pose},
-               {GLFW_KEY_RIGHT, false, Command::next_pose}},
-        KeyRow{"Home, End",
-               "first, last pose",
-               {GLFW_KEY_HOME, false, Command::first_pose},
-               {GLFW_KEY_END, false, Command::last_pose}},
-        KeyRow{"[  ]",
-               "fewer, more transfer components",
-               {GLFW_KEY_LEFT_BRACKET, false, Command::fewer_transfer_components},
-               {GLFW_KEY_RIGHT_BRACKET, false, Command::more_transfer_components}},
-        KeyRow{"Shift+[  ]",
-               "fewer, more " + vertex_components(),
-               {GLFW_KEY_LEFT_BRACKET, true, Command::fewer_vertex_components},
-               {GLFW_KEY_RIGHT_BRACKET, true, Command::more_vertex_components}},
-        KeyRow{";  '",
-               "fewer, more geometry components",
-               {GLFW_KEY_SEMICOLON, false, Command::fewer_geometry_components},
-               {GLFW_KEY_APOSTROPHE, false, Command::more_geometry_components}},
-        KeyRow{"Shift+B, B",
-               "fewer, more bands",
-               {GLFW_KEY_B, true, Command::fewer_bands},
-               {GLFW_KEY_B, false, Command::more_bands}},
-        KeyRow{"Shift+E, E",
-               "exposure down, up by 1/4 stop",
-               {GLFW_KEY_E, true, Command::lower_exposure},
-               {GLFW_KEY_E, false, Command::raise_exposure}},
-        KeyRow{"Shift+G, G",
-               "gamma down, up; below 1 is sRGB",
-               {GLFW_KEY_G, true, Command::lower_gamma},
-               {GLFW_KEY_G, false, Command::raise_gamma}},
-        KeyRow{",  .",
-               "turn the light by 5 degrees",
-               {GLFW_KEY_COMMA, false, Command::turn_light_clockwise},
-               {GLFW_KEY_PERIOD, false, Command::turn_light_counter_clockwise}},
-        KeyRow{"L", "keep the light turning", {GLFW_KEY_L, false, Command::auto_turn}},
-        KeyRow{"K",
-               "next background: environment, black, grey, white",
-               {GLFW_KEY_K, false, Command::next_background}},
-        KeyRow{"F", "show the whole animation", {GLFW_KEY_F, false, Command::frame_all}},
-        KeyRow{"S", "save the view as a PNG file", {GLFW_KEY_S, false, Command::snapshot}},
-        KeyRow{"Tab", "hide or show the panels", {GLFW_KEY_TAB, false, Command::toggle_panel}},
-        KeyRow{"H", "hide or show this help", {GLFW_KEY_H, false, Command::toggle_help}},
-        KeyRow{"Esc", "quit", {GLFW_KEY_ESCAPE, false, Command::quit}},
-    };
-    return rows;
+template <uint32_t DecodeLimits::*kLimit, int kStep>
+void change_limit(ViewState& view, const ViewRange& range) {
+    constexpr uint32_t kLowest = kLimit == &DecodeLimits::bands ? 1 : 0;
+    const int64_t changed = int64_t{view.limits.*kLimit} + kStep;
+    view.limits.*kLimit = static_cast<uint32_t>(
+        std::clamp<int64_t>(changed, kLowest, std::max(kLowest, range.limits.*kLimit)));
 }
 
-constexpr float kExposureStep = 0.25f;
-constexpr float kGammaStep = 0.2f;
-constexpr double kTurnStepDegrees = 5.0;
-
-uint32_t fewer(uint32_t value, uint32_t lowest) {
-    return value > lowest ? value - 1 : lowest;
-}
-
-uint32_t more(uint32_t value, uint32_t highest) {
-    return value < highest ? value + 1 : highest;
-}
-
-// A whole pose `step` away from the one shown, round the ends.
-void step_pose(ViewState& view, const ViewRange& range, int step) {
-    const auto num_poses = static_cast<double>(range.num_poses);
-    const double pose = std::min(view.time, num_poses - 1.0);
-    const double next = step < 0 ? std::ceil(pose) - 1.0 : std::floor(pose) + 1.0;
-    view.time = next < 0.0 ? num_poses - 1.0 : next >= num_poses ? 0.0 : next;
-    view.playing = false;
-}
-
-void show_pose(ViewState& view, double pose) {
-    view.time = pose;
-    view.playing = false;
-}
-
-// 0 (sRGB), 1, 1.2, … 5.
-void change_gamma(ViewState& view, float step) {
+template <int kStep>
+void change_gamma(ViewState& view, const ViewRange&) {
+    // 0 (sRGB), 1, 1.2, … 5.
     float& gamma = view.tone_curve.gamma;
     if (gamma == 0.0f) {
-        gamma = step > 0.0f ? 1.0f : 0.0f;
+        gamma = kStep > 0 ? 1.0f : 0.0f;
         return;
     }
-    gamma = std::round((gamma + step) * 10.0f) / 10.0f;
+    gamma = std::round((gamma + kStep * kGammaStep) * 10.0f) / 10.0f;
     if (gamma < 1.0f) gamma = 0.0f;
     gamma = std::min(gamma, 5.0f);
 }
 
-void next_background(Background& background) {
-    if (background.kind == Background::Kind::environment) {
-        background = {Background::Kind::color, Vec3f::Zero()};
+template <int kSteps>
+void change_exposure(ViewState& view, const ViewRange&) {
+    float& exposure_ev = view.tone_curve.exposure_ev;
+    exposure_ev = std::clamp(exposure_ev + kSteps * kExposureStep, -30.0f, 30.0f);
+}
+
+void next_tone_operator(ViewState& view, const ViewRange&) {
+    const auto names = tone_operator_names();
+    const auto at = std::find_if(names.begin(), names.end(), [&](const auto& name) {
+        return name.second == view.tone_curve.tone_operator;
+    });
+    view.tone_curve.tone_operator = (at + 1 == names.end() ? names.begin() : at + 1)->second;
+}
+
+template <int kSteps>
+void turn_light(ViewState& view, const ViewRange&) {
+    double& yaw_deg = view.light.orientation.yaw_deg;
+    yaw_deg = std::remainder(yaw_deg + kSteps * kTurnStep_deg, 360.0);
+}
+
+// Environment, blurred, black, grey, white.
+void next_background(ViewState& view, const ViewRange&) {
+    using enum Background::Kind;
+    Background& background = view.background;
+    if (background.kind == environment) {
+        background.kind = blurred;
+    } else if (background.kind == blurred) {
+        background = {color, Vec3f::Zero()};
     } else if (background.color == Vec3f::Zero()) {
         background.color = Vec3f::Constant(0.2f);
     } else if (background.color != Vec3f::Ones()) {
@@ -126,130 +85,205 @@ void next_background(Background& background) {
     }
 }
 
-// The following carry out some of the commands each, and return whether this was one of them.
-
-bool change_pose(Command command, ViewState& view, const ViewRange& range) {
-    switch (command) {
-        case Command::play_pause:
-            view.playing = !view.playing;
-            return true;
-        case Command::previous_pose:
-            step_pose(view, range, -1);
-            return true;
-        case Command::next_pose:
-            step_pose(view, range, 1);
-            return true;
-        case Command::first_pose:
-            show_pose(view, 0.0);
-            return true;
-        case Command::last_pose:
-            show_pose(view, static_cast<double>(range.num_poses) - 1.0);
-            return true;
-        default:
-            return false;
-    }
+template <int kStep>
+void next_surface(ViewState& view, const ViewRange&) {
+    const auto count = static_cast<int>(surface_views().size());
+    view.surface =
+        static_cast<SurfaceView>((static_cast<int>(view.surface) + kStep + count) % count);
 }
 
-bool change_limits(Command command, DecodeLimits& limits, const ViewRange& range) {
-    switch (command) {
-        case Command::fewer_transfer_components:
-            limits.transfer_components = fewer(limits.transfer_components, 0);
-            return true;
-        case Command::more_transfer_components:
-            limits.transfer_components =
-                more(limits.transfer_components, range.transfer_components);
-            return true;
-        case Command::fewer_vertex_components:
-            limits.vertex_components = fewer(limits.vertex_components, 0);
-            return true;
-        case Command::more_vertex_components:
-            limits.vertex_components = more(limits.vertex_components, range.vertex_components);
-            return true;
-        case Command::fewer_geometry_components:
-            limits.geometry_components = fewer(limits.geometry_components, 0);
-            return true;
-        case Command::more_geometry_components:
-            limits.geometry_components =
-                more(limits.geometry_components, range.geometry_components);
-            return true;
-        case Command::fewer_bands:
-            limits.bands = fewer(limits.bands, 1);
-            return true;
-        case Command::more_bands:
-            limits.bands = more(limits.bands, range.bands);
-            return true;
-        default:
-            return false;
-    }
+template <int kStep>
+void next_coefficient(ViewState& view, const ViewRange& range) {
+    const auto count = static_cast<int>(range.limits.bands * range.limits.bands);
+    view.surface = SurfaceView::coefficient;
+    view.coefficient =
+        static_cast<uint32_t>((static_cast<int>(view.coefficient) + kStep + count) % count);
 }
 
-void turn_light(ViewState& view, double degrees) {
-    view.env_rotation_deg = std::remainder(view.env_rotation_deg + degrees, 360.0);
+void next_comparison(ViewState& view, const ViewRange&) {
+    using enum Comparison;
+    view.comparison = view.comparison == none   ? wipe
+                      : view.comparison == wipe ? side_by_side
+                                                : none;
 }
 
-bool change_display(Command command, ViewState& view) {
-    switch (command) {
-        case Command::lower_exposure:
-            view.tone_curve.exposure_ev -= kExposureStep;
-            return true;
-        case Command::raise_exposure:
-            view.tone_curve.exposure_ev += kExposureStep;
-            return true;
-        case Command::lower_gamma:
-            change_gamma(view, -kGammaStep);
-            return true;
-        case Command::raise_gamma:
-            change_gamma(view, kGammaStep);
-            return true;
-        case Command::turn_light_clockwise:
-            turn_light(view, -kTurnStepDegrees);
-            return true;
-        case Command::turn_light_counter_clockwise:
-            turn_light(view, kTurnStepDegrees);
-            return true;
-        case Command::auto_turn:
-            view.turning = !view.turning;
-            return true;
-        case Command::next_background:
-            next_background(view.background);
-            return true;
-        case Command::toggle_panel:
-            view.show_panel = !view.show_panel;
-            return true;
-        case Command::toggle_help:
-            view.show_help = !view.show_help;
-            return true;
-        default:
-            return false;
-    }
+void next_crowd(ViewState& view, const ViewRange&) {
+    constexpr uint32_t kCrowds[] = {1, 9, 25, 100};
+    const auto* const next =
+        std::upper_bound(std::begin(kCrowds), std::end(kCrowds), view.num_instances);
+    view.num_instances = next == std::end(kCrowds) ? 1 : *next;
+}
+
+// Half as fast again, or twice: 1/4, 1/2, 1, 2, 4 in the same direction.
+template <int kStep>
+void change_speed(ViewState& view, const ViewRange&) {
+    double& speed = view.animation.speed;
+    const double faster = std::abs(speed) * (kStep > 0 ? 2.0 : 0.5);
+    speed = std::copysign(std::clamp(faster, 0.25, kMaxSpeed), speed);
+}
+
+using Limits = DecodeLimits;
+
+KeyGroup animation_keys() {
+    return {"Animation",
+            {{"Space",
+              "play or pause",
+              {{GLFW_KEY_SPACE, false,
+                [](ViewState& view, const ViewRange&) {
+                    view.animation.playing = !view.animation.playing;
+                }}}},
+             {"Left, Right",
+              "one pose back, forth",
+              {{GLFW_KEY_LEFT, false,
+                [](ViewState& view, const ViewRange& range) {
+                    step_pose(view.animation, range.num_poses, -1);
+                }},
+               {GLFW_KEY_RIGHT, false,
+                [](ViewState& view, const ViewRange& range) {
+                    step_pose(view.animation, range.num_poses, 1);
+                }}}},
+             {"Home, End",
+              "first, last pose",
+              {{GLFW_KEY_HOME, false,
+                [](ViewState& view, const ViewRange&) { show_pose(view.animation, 0.0); }},
+               {GLFW_KEY_END, false,
+                [](ViewState& view, const ViewRange& range) {
+                    show_pose(view.animation, static_cast<double>(range.num_poses) - 1.0);
+                }}}},
+             {"Down, Up",
+              "slower, faster",
+              {{GLFW_KEY_DOWN, false, change_speed<-1>}, {GLFW_KEY_UP, false, change_speed<1>}}},
+             {"R",
+              "play backwards or forwards",
+              {{GLFW_KEY_R, false,
+                [](ViewState& view, const ViewRange&) {
+                    view.animation.speed = -view.animation.speed;
+                }}}},
+             {"P",
+              "there and back, or from the start again",
+              {{GLFW_KEY_P, false,
+                [](ViewState& view, const ViewRange&) {
+                    view.animation.ping_pong = !view.animation.ping_pong;
+                }}}},
+             {"I",
+              "smooth in-betweens, or whole poses alone",
+              {{GLFW_KEY_I, false, [](ViewState& view, const ViewRange&) {
+                    view.animation.in_betweens = !view.animation.in_betweens;
+                }}}}}};
+}
+
+KeyGroup accuracy_keys() {
+    return {"Accuracy",
+            {{"[  ]",
+              "fewer, more transfer components",
+              {{GLFW_KEY_LEFT_BRACKET, false, change_limit<&Limits::transfer_components, -1>},
+               {GLFW_KEY_RIGHT_BRACKET, false, change_limit<&Limits::transfer_components, 1>}}},
+             {"Shift+[  ]",
+              "fewer, more " + vertex_components(),
+              {{GLFW_KEY_LEFT_BRACKET, true, change_limit<&Limits::vertex_components, -1>},
+               {GLFW_KEY_RIGHT_BRACKET, true, change_limit<&Limits::vertex_components, 1>}}},
+             {";  '",
+              "fewer, more geometry components",
+              {{GLFW_KEY_SEMICOLON, false, change_limit<&Limits::geometry_components, -1>},
+               {GLFW_KEY_APOSTROPHE, false, change_limit<&Limits::geometry_components, 1>}}},
+             {"Shift+B, B",
+              "fewer, more bands",
+              {{GLFW_KEY_B, true, change_limit<&Limits::bands, -1>},
+               {GLFW_KEY_B, false, change_limit<&Limits::bands, 1>}}},
+             {"X",
+              "compare with the whole file: wipe, side by side, not at all",
+              {{GLFW_KEY_X, false, next_comparison}}}}};
+}
+
+KeyGroup picture_keys() {
+    return {
+        "Light and picture",
+        {{",  .",
+          "turn the light by 5 degrees",
+          {{GLFW_KEY_COMMA, false, turn_light<-1>}, {GLFW_KEY_PERIOD, false, turn_light<1>}}},
+         {"L",
+          "keep the light turning",
+          {{GLFW_KEY_L, false,
+            [](ViewState& view, const ViewRange&) { view.light.turning = !view.light.turning; }}}},
+         {"N",
+          "key light on or off",
+          {{GLFW_KEY_N, false,
+            [](ViewState& view, const ViewRange&) { view.light.key_on = !view.light.key_on; }}}},
+         {"Shift+E, E",
+          "exposure down, up by 1/4 stop",
+          {{GLFW_KEY_E, true, change_exposure<-1>}, {GLFW_KEY_E, false, change_exposure<1>}}},
+         {"A",
+          "the exposure that suits what is lit",
+          {{GLFW_KEY_A, false, nullptr, WindowCommand::auto_exposure}}},
+         {"M", "next tone map", {{GLFW_KEY_M, false, next_tone_operator}}},
+         {"Shift+G, G",
+          "gamma down, up; below 1 is sRGB",
+          {{GLFW_KEY_G, true, change_gamma<-1>}, {GLFW_KEY_G, false, change_gamma<1>}}},
+         {"K",
+          "next background: environment, blurred, black, grey, white",
+          {{GLFW_KEY_K, false, next_background}}},
+         {"Shift+V, V",
+          "previous, next view of the surface",
+          {{GLFW_KEY_V, true, next_surface<-1>}, {GLFW_KEY_V, false, next_surface<1>}}},
+         {"Shift+C, C",
+          "previous, next coefficient of the transfer",
+          {{GLFW_KEY_C, true, next_coefficient<-1>}, {GLFW_KEY_C, false, next_coefficient<1>}}},
+         {"W",
+          "edges of the triangles",
+          {{GLFW_KEY_W, false,
+            [](ViewState& view, const ViewRange&) { view.edges = !view.edges; }}}},
+         {"Y", "a crowd: 1, 9, 25 or 100 copies", {{GLFW_KEY_Y, false, next_crowd}}}}};
+}
+
+KeyGroup window_keys() {
+    using enum WindowCommand;
+    return {
+        "Camera and window",
+        {{"F, Shift+F",
+          "show all poses, or this pose",
+          {{GLFW_KEY_F, false, nullptr, frame_all}, {GLFW_KEY_F, true, nullptr, frame_pose}}},
+         {"T",
+          "the camera follows the body, or stays",
+          {{GLFW_KEY_T, false, nullptr, follow_body}}},
+         {"S, Shift+S",
+          "save the picture as a PNG, OpenEXR file",
+          {{GLFW_KEY_S, false, nullptr, snapshot_png}, {GLFW_KEY_S, true, nullptr, snapshot_exr}}},
+         {"D", "save the view as a JSON file", {{GLFW_KEY_D, false, nullptr, save_view}}},
+         {"O", "open a model or a light", {{GLFW_KEY_O, false, nullptr, open_file}}},
+         {"F9", "record a clip as PNG files, or stop", {{GLFW_KEY_F9, false, nullptr, record}}},
+         {"F11", "full screen", {{GLFW_KEY_F11, false, nullptr, full_screen}}},
+         {"Tab", "hide or show the panels", {{GLFW_KEY_TAB, false, nullptr, toggle_panels}}},
+         {"H", "hide or show this help", {{GLFW_KEY_H, false, nullptr, toggle_help}}},
+         {"Esc", "quit", {{GLFW_KEY_ESCAPE, false, nullptr, quit}}}}};
 }
 
 }  // namespace
 
-std::span<const KeyRow> key_table() {
-    return keys();
+std::span<const KeyGroup> key_groups() {
+    static const std::vector<KeyGroup> groups = {animation_keys(), accuracy_keys(), picture_keys(),
+                                                 window_keys()};
+    return groups;
 }
 
 std::string keys_help() {
     std::string text = "Keys in the window:\n";
-    for (const KeyRow& row : keys()) text += fmt::format("  {:<12}  {}\n", row.keys, row.meaning);
+    for (const KeyGroup& group : key_groups()) {
+        for (const KeyRow& row : group.rows) {
+            text += fmt::format("  {:<12}  {}\n", row.keys, row.meaning);
+        }
+    }
     return text;
 }
 
-Command command_of_key(int glfw_key, bool shift) {
-    for (const KeyRow& row : keys()) {
-        for (const KeyBinding& binding : {row.first, row.second}) {
-            if (binding.command == Command::none) continue;
-            if (binding.glfw_key == glfw_key && binding.shift == shift) return binding.command;
+const KeyBinding* find_key(int glfw_key, bool shift) {
+    for (const KeyGroup& group : key_groups()) {
+        for (const KeyRow& row : group.rows) {
+            for (const KeyBinding& binding : row.bindings) {
+                if (binding.glfw_key == glfw_key && binding.shift == shift) return &binding;
+            }
         }
     }
-    return Command::none;
-}
-
-void apply(Command command, ViewState& view, const ViewRange& range) {
-    if (change_pose(command, view, range)) return;
-    if (change_limits(command, view.limits, range)) return;
-    change_display(command, view);
+    return nullptr;
 }
 
 }  // namespace paim::player

@@ -16,24 +16,32 @@ Options parse(std::vector<const char*> arguments) {
     return options;
 }
 
+ViewState view_of(const Options& options) {
+    ViewState view;
+    for (const auto& change : options.view_changes) change(view);
+    return view;
+}
+
 TEST(PlayOptions, AreConvertedToTheirUnits) {
-    const Options options = parse(
-        {"a.paim",   "--pose",     "2.5",       "--size",         "40x30",        "--camera",
-         "90,-45,3", "--env",      "light.exr", "--env-rotation", "180",          "--background",
-         "0,0.5,1",  "--exposure", "-2",        "--gamma",        "2.2",          "--supersample",
-         "3",        "--snapshot", "b.exr",     "--json",         "--progressive"});
+    const Options options =
+        parse({"a.paim",   "--pose",       "2.5",           "--size",     "40x30",
+               "--camera", "90,-45,3",     "--env",         "light.exr",  "--env-rotation",
+               "180",      "--background", "0,0.5,1",       "--exposure", "-2",
+               "--gamma",  "2.2",          "--supersample", "3",          "--snapshot",
+               "b.exr",    "--json",       "--progressive", "--tone-map", "aces"});
     EXPECT_EQ(options.model_path, "a.paim");
-    EXPECT_EQ(options.pose, 2.5);
+    const ViewState view = view_of(options);
+    EXPECT_EQ(view.animation.time, 2.5);
     EXPECT_EQ(options.size, std::pair(40, 30));
-    EXPECT_FLOAT_EQ(options.camera.azimuth_rad, static_cast<float>(kPi / 2.0));
-    EXPECT_FLOAT_EQ(options.camera.elevation_rad, static_cast<float>(-kPi / 4.0));
-    EXPECT_EQ(options.camera.distance_factor, 3.0f);
+    ASSERT_TRUE(options.camera);
+    EXPECT_DOUBLE_EQ(options.camera->azimuth_rad, kPi / 2.0);
+    EXPECT_DOUBLE_EQ(options.camera->elevation_rad, -kPi / 4.0);
+    EXPECT_EQ(options.camera->distance_factor, 3.0);
     EXPECT_EQ(options.environment_path, "light.exr");
-    EXPECT_DOUBLE_EQ(options.env_rotation_rad, kPi);
-    EXPECT_EQ(options.background.kind, Background::Kind::color);
-    EXPECT_EQ(options.background.color, Vec3f(0.0f, 0.5f, 1.0f));
-    EXPECT_EQ(options.tone_curve.exposure_ev, -2.0f);
-    EXPECT_EQ(options.tone_curve.gamma, 2.2f);
+    EXPECT_EQ(view.light.orientation.yaw_deg, 180.0);
+    EXPECT_EQ(view.background.kind, Background::Kind::color);
+    EXPECT_EQ(view.background.color, Vec3f(0.0f, 0.5f, 1.0f));
+    EXPECT_EQ(view.tone_curve, (ToneCurve{-2.0f, 2.2f, ToneOperator::aces}));
     EXPECT_EQ(options.supersample, 3);
     EXPECT_EQ(options.snapshot_path, "b.exr");
     EXPECT_TRUE(options.json);
@@ -43,17 +51,13 @@ TEST(PlayOptions, AreConvertedToTheirUnits) {
 
 TEST(PlayOptions, HaveDefaults) {
     const Options options = parse({"a.paim"});
-    EXPECT_EQ(options.pose, 0.0);
+    EXPECT_EQ(view_of(options), ViewState());
     EXPECT_EQ(options.size, std::pair(1280, 720));
-    EXPECT_FLOAT_EQ(options.camera.azimuth_rad, kDefaultAzimuth_rad);
-    EXPECT_FLOAT_EQ(options.camera.elevation_rad, kDefaultElevation_rad);
-    EXPECT_EQ(options.camera.distance_factor, 1.0f);
+    EXPECT_FALSE(options.camera || options.target || options.view_path || options.save_view_path ||
+                 options.clip || options.auto_exposure);
     EXPECT_FALSE(options.environment_path || options.supersample || options.bench_frames ||
                  options.window_frames || options.json || options.play_prefix);
-    EXPECT_EQ(options.background.kind, Background::Kind::environment);
-    EXPECT_EQ(options.tone_curve.exposure_ev, 0.0f);
-    EXPECT_EQ(options.tone_curve.gamma, 0.0f);
-    EXPECT_EQ(options.env_rotation_rad, 0.0);
+    EXPECT_EQ(options.decoder, Decoder::automatic);
     EXPECT_TRUE(options.opens_window());
     EXPECT_FALSE(parse({"a.paim", "--bench", "7"}).opens_window());
     EXPECT_EQ(parse({"a.paim", "--bench", "7"}).bench_frames, 7);

@@ -10,13 +10,13 @@
 
 #include "paim/base/file.h"
 #include "paim/codec/mesh_decoder.h"
-#include "paim/codec/sequence_bounds.h"
 #include "paim/format/paim/paim_read.h"
 #include "paim/format/paim/paim_write.h"
 #include "paim/image/exr.h"
 #include "paim/light/environment.h"
 #include "paim/light/sky.h"
 #include "paim/mesh/planes.h"
+#include "player/view/framing.h"
 #include "tests/cli/run_tool.h"
 #include "tests/exr_files.h"
 #include "tests/player/ray_cast.h"
@@ -68,8 +68,8 @@ Image expected_picture(const Asset& asset, double time, double rotation_rad, int
     const LightCoefficients light = turn_about_y(
         EnvironmentLight(make_sky()).coefficients(static_cast<int>(mesh.layout.in_bands)),
         rotation_rad);
-    const Camera camera = frame_bounds(sequence_bounds(asset),
-                                       static_cast<float>(width) / static_cast<float>(height));
+    const Camera camera = frame_asset(asset, kDefaultAzimuth_rad, kDefaultElevation_rad,
+                                      static_cast<float>(width) / static_cast<float>(height));
     return ray_cast(mesh.topology, from_planes(pose.positions),
                     vertex_radiance(mesh, time, {}, light), camera, width, height, background);
 }
@@ -137,15 +137,38 @@ TEST_F(PlayTest, SnapshotsAreRepeatableAndPngsWritten) {
     EXPECT_EQ(read_file(out("a.png"), size_bytes), read_file(out("b.png"), size_bytes));
 }
 
+// The background is 8: white after clamping. Neither other curve shows it as white at this exposure.
+TEST_F(PlayTest, ToneCurvesChangeBrightPngs) {
+    const Image bright(4, 2, Vec3f::Constant(8.0f));
+    write_exr(out("bright.exr"), bright);
+    std::vector<std::vector<uint8_t>> files;
+    for (const char* name : {"clamp", "reinhard", "aces"}) {
+        const ToolResult result =
+            play({"--snapshot", out("a.png"), "--size", "32x24", "--env", out("bright.exr"),
+                  "--exposure", "-1", "--tone-map", name, "--json"});
+        ASSERT_EQ(result.exit_code, 0) << result.err;
+        EXPECT_EQ(nlohmann::json::parse(result.out)["tone_map"], name);
+        const bool clipped = result.err.find("brighter than white") != std::string::npos;
+        EXPECT_EQ(clipped, std::string(name) == "clamp") << result.err;
+        const auto bytes = read_file(out("a.png"), std::filesystem::file_size(out("a.png")));
+        files.emplace_back(bytes.begin(), bytes.end());
+    }
+    EXPECT_NE(files[0], files[1]);
+    EXPECT_NE(files[1], files[2]);
+    EXPECT_NE(files[0], files[2]);
+}
+
 TEST_F(PlayTest, SnapshotReportsAsJson) {
-    const ToolResult result = play({"--snapshot", out("a.png"), "--size", "32x24", "--pose", "2.5",
-                                    "--transfer-components", "2", "--bands", "3", "--json"});
+    const ToolResult result =
+        play({"--snapshot", out("a.png"), "--size", "32x24", "--pose", "2.5",
+              "--transfer-components", "2", "--bands", "3", "--decoder", "gpu", "--json"});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(result.err, "");
     const auto json = nlohmann::json::parse(result.out);
     EXPECT_EQ(json["file"], file_.string());
     EXPECT_EQ(json["snapshot"], out("a.png"));
     EXPECT_EQ(json["pose"], 2.5);
+    EXPECT_EQ(json["tone_map"], "clamp");
     EXPECT_EQ(json["geometry_components"], 3);
     EXPECT_EQ(json["transfer_components"], 2);
     EXPECT_EQ(json["bands"], 3);
@@ -281,6 +304,8 @@ TEST_F(PlayTest, RefusesCommandLinesThatMakeNoSense) {
     expect_failure({"--bands", "0"}, 1, "--bands: expected a whole number from 1");
     expect_failure({"--exposure", "31"}, 1, "--exposure: expected a number from -30 to 30");
     expect_failure({"--gamma", "-2"}, 1, "--gamma");
+    expect_failure({"--tone-map", "filmic"}, 1,
+                   "--tone-map: expected one of clamp, reinhard, aces, got 'filmic'");
     expect_failure({"--size", "0x5"}, 1, "--size: expected WIDTHxHEIGHT");
     expect_failure({"--supersample", "9"}, 1, "--supersample: expected a whole number from 1 to 8");
     expect_failure({"--background", "blue"}, 1, "--background");
@@ -289,7 +314,7 @@ TEST_F(PlayTest, RefusesCommandLinesThatMakeNoSense) {
     expect_failure({"--camera", "10,20,0"}, 1, "--camera distance factor");
     expect_failure({"--snapshot", out("a.jpg")}, 1, "ends in .png or .exr");
     expect_failure({"--snapshot", png, "--bench", "3"}, 1, "exclude each other");
-    expect_failure({"--json"}, 1, "--json needs --snapshot or --bench");
+    expect_failure({"--json"}, 1, "--json needs --snapshot, --frames-out or --bench");
     expect_failure({"--nonsense"}, 1, "--nonsense");
     EXPECT_FALSE(std::filesystem::exists(png));
 }
@@ -347,6 +372,7 @@ TEST_F(PlayTest, HelpNamesEveryOptionAndKey) {
                              "--supersample",
                              "--exposure",
                              "--gamma",
+                             "--tone-map",
                              "--snapshot",
                              "--bench",
                              "--frames",

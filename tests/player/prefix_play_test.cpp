@@ -93,8 +93,8 @@ TEST_F(PrefixPlayTest, TakesAPrefixOnlyWhenAsked) {
     EXPECT_FALSE(std::filesystem::exists(out("a.png")));
 
     // More components may come, so that nothing is said of those that are not there.
-    const ToolResult limited =
-        snapshot(path_, out("a.png"), {"--progressive", "--transfer-components", "5"});
+    const ToolResult limited = snapshot(
+        path_, out("a.png"), {"--progressive", "--transfer-components", "5", "--exposure", "-3"});
     EXPECT_EQ(limited.exit_code, 0);
     EXPECT_EQ(limited.err, "");
 
@@ -124,7 +124,7 @@ TEST_F(PrefixPlayTest, WindowSharpensToTheWholeFilesPicture) {
         };
         result = run_tool({"/bin/sh", "-c",
                            "cd '" + directory_.path().string() + "' && exec " + PAIM_PLAY +
-                               " ball.paim --progressive --size 120x80 --bands 4"},
+                               " ball.paim --progressive --size 120x80 --bands 4 --turn-light 0"},
                           listen);
     });
     file_.write_up_to(file_.prefixes[0].size_bytes - 1);

@@ -10,8 +10,8 @@
 #include "paim/codec/sequence_bounds.h"
 #include "paim/codec/svd/svd_transfer.h"
 #include "paim/format/paim/paim_write.h"
-#include "player/report.h"
 #include "player/scene.h"
+#include "player/view/framing.h"
 #include "tests/first_components.h"
 #include "tests/player/test_asset.h"
 #include "tests/temporary_directory.h"
@@ -154,23 +154,31 @@ TEST(ScaleToUnit, LeavesPathsAndExceptionsFinite) {
 TEST(ScaleToUnit, IsAppliedToEveryFileThatIsLoaded) {
     const TemporaryDirectory directory;
     for (const bool prefix : {false, true}) {
-        Frame frames[2];
+        Camera cameras[2];
+        Bounds bounds[2];
         for (const int exponent : {0, -90}) {
             Asset asset = make_asset(Precision::f32);
             scale_asset(asset, exponent);
             Options options;
             options.model_path = directory / "a.paim";
             options.play_prefix = prefix;
-            options.camera = {1.0f, 0.5f, 3.0f};
             write_paim(options.model_path, asset);
             const Scene scene = load_scene(options);
-            frames[exponent == 0 ? 0 : 1] = first_frame(options, scene);
+            const size_t which = exponent == 0 ? 0 : 1;
+            cameras[which] = frame_asset(*scene.asset, 1.0f, 0.5f, 1.5f);
+            bounds[which] = pose_bounds(*scene.asset, 0.0, 100);
+            // Scene units are those of the file.
+            const Bounds in_file = pose_bounds(asset, 0.0, 100);
+            EXPECT_EQ(scene.units.to_scene(bounds[which].upper.cast<double>()),
+                      in_file.upper.cast<double>());
+            EXPECT_EQ(scene.units.to_model(in_file.upper.cast<double>()),
+                      bounds[which].upper.cast<double>());
         }
-        EXPECT_EQ(frames[0].camera.eye, frames[1].camera.eye);
-        EXPECT_EQ(frames[0].camera.target, frames[1].camera.target);
-        EXPECT_EQ(frames[0].bounds.lower, frames[1].bounds.lower);
-        EXPECT_EQ(frames[0].bounds.upper, frames[1].bounds.upper);
-        EXPECT_GT(frames[0].bounds.diagonal(), 1.0f);
+        EXPECT_EQ(cameras[0].eye, cameras[1].eye);
+        EXPECT_EQ(cameras[0].target, cameras[1].target);
+        EXPECT_EQ(bounds[0].lower, bounds[1].lower);
+        EXPECT_EQ(bounds[0].upper, bounds[1].upper);
+        EXPECT_GT(bounds[0].diagonal(), 1.0f);
     }
 }
 

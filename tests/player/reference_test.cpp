@@ -9,7 +9,6 @@
 #include "compressor/encode/encode.h"
 #include "compressor/encode/search/target_encode.h"
 #include "paim/codec/mesh_decoder.h"
-#include "paim/codec/sequence_bounds.h"
 #include "paim/format/paim/paim_read.h"
 #include "paim/format/paim/paim_write.h"
 #include "paim/image/exr.h"
@@ -20,6 +19,7 @@
 #include "paim/metrics/image_error.h"
 #include "paim/render/render.h"
 #include "paim/shade/shade.h"
+#include "player/view/framing.h"
 #include "poses/octopus.h"
 #include "poses/shapes.h"
 #include "tests/cli/run_tool.h"
@@ -91,7 +91,8 @@ class Pictures : public testing::Test {
             topology.append(still->topology);
         }
         const Camera camera =
-            frame_bounds(sequence_bounds(asset_), static_cast<float>(kWidth) / kHeight);
+            player::frame_asset(asset_, kDefaultAzimuth_rad, kDefaultElevation_rad,
+                                static_cast<float>(kWidth) / kHeight);
         return render_images(topology, positions, radiance, camera, kWidth, kHeight)[0];
     }
 

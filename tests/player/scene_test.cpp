@@ -45,16 +45,30 @@ Asset make_empty_asset() {
     return asset;
 }
 
-class SceneTest : public testing::TestWithParam<gl::Api> {
+struct Way {
+    const char* name;
+    gl::Api api;
+    Decoder decoder;
+};
+
+class SceneTest : public testing::TestWithParam<Way> {
   protected:
-    SceneTest() : context_(gl::make_headless_context(GetParam())) { gl::report_driver_messages(); }
+    SceneTest() : context_(gl::make_headless_context(GetParam().api)) {
+        gl::report_driver_messages();
+    }
+    SceneRenderer make_renderer(const Asset& asset, const EnvironmentLight& environment) const {
+        SceneRenderer renderer(std::make_shared<const Asset>(asset), {}, GetParam().decoder);
+        renderer.set_environment(environment.image());
+        return renderer;
+    }
     std::unique_ptr<gl::Context> context_;
 };
 
-INSTANTIATE_TEST_SUITE_P(Apis, SceneTest, testing::Values(gl::Api::desktop, gl::Api::es),
-                         [](const auto& api) {
-                             return api.param == gl::Api::desktop ? "Desktop" : "Es";
-                         });
+INSTANTIATE_TEST_SUITE_P(Ways, SceneTest,
+                         testing::Values(Way{"Desktop", gl::Api::desktop, Decoder::gpu},
+                                         Way{"Es", gl::Api::es, Decoder::gpu},
+                                         Way{"Cpu", gl::Api::desktop, Decoder::cpu}),
+                         [](const auto& way) { return way.param.name; });
 
 // Every pixel's direction, turned back by the light's angle and looked up on the CPU. Shaders may
 // compute atan to 4096 ulp (GLSL 4.1 and later; llvmpipe's is near 1e-6), and single precision
@@ -63,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(Apis, SceneTest, testing::Values(gl::Api::desktop, gl::
 TEST_P(SceneTest, BackgroundIsTheTurnedEnvironment) {
     const Asset asset = make_empty_asset();
     const EnvironmentLight environment(make_environment());
-    SceneRenderer renderer(asset, environment, {});
+    SceneRenderer renderer = make_renderer(asset, environment);
     struct View {
         Vec3f eye;
         double rotation_rad;
@@ -75,7 +89,7 @@ TEST_P(SceneTest, BackgroundIsTheTurnedEnvironment) {
         Frame frame;
         frame.camera.eye = view.eye;
         frame.camera.vertical_fov_rad = 1.2f;
-        frame.env_rotation_rad = view.rotation_rad;
+        light_frame(frame, environment, 5, view.rotation_rad);
         const Image image = renderer.render(frame, kWidth, kHeight, 1);
         const Eigen::AngleAxisd turn_back(-view.rotation_rad, Vec3d::UnitY());
         for (int y = 0; y < kHeight; ++y) {
@@ -96,7 +110,7 @@ TEST_P(SceneTest, BackgroundIsTheTurnedEnvironment) {
 TEST_P(SceneTest, LightTurnsWithTheBackground) {
     const Asset asset = make_test_asset({});
     const EnvironmentLight environment(make_environment());
-    SceneRenderer renderer(asset, environment, {});
+    SceneRenderer renderer = make_renderer(asset, environment);
     Frame frame;
     frame.time = 1.25;
     frame.bounds = pose_bounds(asset, frame.time, frame.limits.geometry_components);
@@ -104,7 +118,7 @@ TEST_P(SceneTest, LightTurnsWithTheBackground) {
     frame.background = {Background::Kind::color, Vec3f(0.1f, 0.2f, 0.3f)};
     Image previous(kWidth, kHeight);
     for (const double rotation_rad : {0.0, 1.0, -2.0, 0.0}) {
-        frame.env_rotation_rad = rotation_rad;
+        light_frame(frame, environment, 5, rotation_rad);
         const LightCoefficients light = turn_about_y(environment.coefficients(5), rotation_rad);
         DecodedPose pose;
         MeshDecoder(asset.moving()).decode(frame.time, frame.limits, pose);
@@ -155,8 +169,9 @@ TEST_P(SceneTest, AStillPartStandsNextToTheMovingOne) {
         asset.parts.push_back(still);
 
         const EnvironmentLight environment(make_environment());
-        SceneRenderer renderer(asset, environment, {});
+        SceneRenderer renderer = make_renderer(asset, environment);
         Frame frame;
+        light_frame(frame, environment, 5, 0.0);
         frame.time = 1.5;
         frame.limits.bands = 4;  // fewer than there are, for both
         frame.background.kind = Background::Kind::color;
@@ -189,8 +204,9 @@ TEST_P(SceneTest, AStillPartStandsNextToTheMovingOne) {
 
 TEST_P(SceneTest, SupersamplesAreAveraged) {
     const Asset asset = make_test_asset({});
-    SceneRenderer renderer(asset, EnvironmentLight(make_environment()), {});
+    SceneRenderer renderer = make_renderer(asset, EnvironmentLight(make_environment()));
     Frame frame;
+    light_frame(frame, EnvironmentLight(make_environment()), 5, 0.0);
     frame.bounds = pose_bounds(asset, 0.0, frame.limits.geometry_components);
     frame.camera = frame_bounds(frame.bounds, kAspect);
     const Image fine = renderer.render(frame, 3 * kWidth, 3 * kHeight, 1);
@@ -204,11 +220,11 @@ TEST_P(SceneTest, SupersamplesAreAveraged) {
 // fall to either side.
 TEST_P(SceneTest, TilesMakeTheSamePicture) {
     const Asset asset = make_test_asset({});
-    SceneRenderer renderer(asset, EnvironmentLight(make_environment()), {});
+    SceneRenderer renderer = make_renderer(asset, EnvironmentLight(make_environment()));
     Frame frame;
+    light_frame(frame, EnvironmentLight(make_environment()), 5, 0.7);
     frame.bounds = pose_bounds(asset, 0.0, frame.limits.geometry_components);
     frame.camera = frame_bounds(frame.bounds, kAspect);
-    frame.env_rotation_rad = 0.7;
     const Image expected = renderer.render(frame, kWidth, kHeight, 1);
     for (const Tiling& tiling :
          {Tiling{kWidth, kHeight, 32, 16}, Tiling{kWidth, kHeight, 7, kHeight}}) {
@@ -232,8 +248,9 @@ TEST_P(SceneTest, TilesMakeTheSamePicture) {
 // Wider than any driver draws at once: 90,000 samples.
 TEST_P(SceneTest, LargePicturesAreDrawnInTiles) {
     const Asset asset = make_test_asset({});
-    SceneRenderer renderer(asset, EnvironmentLight(make_environment()), {});
+    SceneRenderer renderer = make_renderer(asset, EnvironmentLight(make_environment()));
     Frame frame;
+    light_frame(frame, EnvironmentLight(make_environment()), 5, 0.0);
     frame.bounds = pose_bounds(asset, 0.0, frame.limits.geometry_components);
     frame.camera = frame_bounds(frame.bounds, 1.0f);
     constexpr int kLarge = 11250, kSamples = 8;
@@ -246,8 +263,8 @@ TEST_P(SceneTest, LargePicturesAreDrawnInTiles) {
 
 TEST_P(SceneTest, EnvironmentsAreReplaced) {
     const Asset asset = make_empty_asset();
-    SceneRenderer renderer(asset, EnvironmentLight(make_environment()), {});
-    renderer.set_environment(EnvironmentLight(Image(1, 1, Vec3f(0.5f, 0.25f, 4.0f))));
+    SceneRenderer renderer = make_renderer(asset, EnvironmentLight(make_environment()));
+    renderer.set_environment(Image(1, 1, Vec3f(0.5f, 0.25f, 4.0f)));
     const Image after = renderer.render({}, kWidth, kHeight, 1);
     for (const Vec3f& pixel : after.pixels) ASSERT_EQ(pixel, Vec3f(0.5f, 0.25f, 4.0f));
 }
@@ -303,13 +320,16 @@ TEST_P(SceneTest, ToneMapperAgreesWithToneCurve) {
     constexpr int kSamples = 2;
     const gl::Target picture(kSamples * kWidth, kSamples * kHeight);
     const Asset asset = make_empty_asset();
-    SceneRenderer renderer(asset, EnvironmentLight(make_environment()), {});
+    SceneRenderer renderer = make_renderer(asset, EnvironmentLight(make_environment()));
     renderer.draw({}, picture);
     const Image image = downsample(picture.read(), kSamples);
     const ToneMapper mapper;
     for (const ToneCurve& curve :
          {ToneCurve{0.0f, 0.0f}, ToneCurve{-2.5f, 0.0f}, ToneCurve{1.0f, 2.2f},
-          ToneCurve{-6.0f, 0.0f}, ToneCurve{-9.0f, 0.0f}}) {
+          ToneCurve{-6.0f, 0.0f}, ToneCurve{-9.0f, 0.0f},
+          ToneCurve{0.0f, 0.0f, ToneOperator::reinhard},
+          ToneCurve{3.0f, 2.2f, ToneOperator::reinhard}, ToneCurve{-2.0f, 0.0f, ToneOperator::aces},
+          ToneCurve{1.0f, 2.2f, ToneOperator::aces}, ToneCurve{30.0f, 0.0f, ToneOperator::aces}}) {
         const ByteTarget target(kWidth, kHeight);
         mapper.draw(picture, kSamples, curve);
         gl::check_errors("testing");

@@ -288,6 +288,12 @@ LightCoefficients make_test_light(int bands) {
     return light;
 }
 
+void light_frame(Frame& frame, const EnvironmentLight& environment, int bands, double angle_rad) {
+    frame.light = turn_about_y(environment.coefficients(bands), angle_rad);
+    frame.environment_from_world =
+        Eigen::AngleAxisf(static_cast<float>(-angle_rad), Vec3f::UnitY()).toRotationMatrix();
+}
+
 std::vector<Vec3f> vertex_radiance(const CodedMesh& mesh, double time, const DecodeLimits& limits,
                                    const LightCoefficients& light) {
     DecodedPose pose;

@@ -5,7 +5,8 @@
 
 #include "paim/codec/asset.h"
 #include "paim/codec/decode_limits.h"
-#include "paim/light/light.h"
+#include "paim/light/environment.h"
+#include "player/render/frame.h"
 
 namespace paim::player {
 
@@ -39,6 +40,9 @@ void scale_asset(Asset& asset, int exponent);
 
 // Random coefficients whose constant part outweighs the rest, so that radiance is mostly positive.
 LightCoefficients make_test_light(int bands);
+
+// Light and background of the frame: the environment, turned about +Y.
+void light_frame(Frame& frame, const EnvironmentLight& environment, int bands, double angle_rad);
 
 // Radiance of every vertex at `time` as the CPU decoder and shade() give it.
 std::vector<Vec3f> vertex_radiance(const CodedMesh& mesh, double time, const DecodeLimits& limits,

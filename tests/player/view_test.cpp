@@ -8,22 +8,25 @@
 #include <cmath>
 #include <set>
 #include <string>
-#include <tuple>
+#include <utility>
 
+#include "player/inspect/cost.h"
 #include "player/render/clip_from_local.h"
-#include "player/render/cost.h"
 #include "player/render/depth_range.h"
 #include "player/ui/keys.h"
-#include "player/ui/orbit_camera.h"
+#include "player/view/orbit_camera.h"
 #include "tests/player/test_asset.h"
 
 namespace paim::player {
 namespace {
 
-constexpr ViewRange kRange{4, 3, 5, 6, 2};
+constexpr ViewRange kRange{4, {3, 5, 6, 2}};
 
 void press(int key, bool shift, ViewState& view) {
-    apply(command_of_key(key, shift), view, kRange);
+    const KeyBinding* const binding = find_key(key, shift);
+    ASSERT_NE(binding, nullptr);
+    ASSERT_NE(binding->change, nullptr);
+    binding->change(view, kRange);
 }
 
 ViewState start() {
@@ -42,13 +45,13 @@ Limits limits_of(const ViewState& view) {
 
 TEST(ViewState, FollowsAnAssetThatGetsMoreComponents) {
     const DecodeLimits all;
-    constexpr ViewRange kMore{4, 4, 9, 6, 2};
+    constexpr ViewRange kMore{4, {4, 9, 6, 2}};
     ViewState view = start();
-    view.time = 1.5;
+    view.animation.time = 1.5;
     view.tone_curve.exposure_ev = 2.0f;
     follow(view, kRange, kMore, all);
     EXPECT_EQ(limits_of(view), (Limits{4, 9, 6, 2}));
-    EXPECT_EQ(view.time, 1.5);
+    EXPECT_EQ(view.animation.time, 1.5);
     EXPECT_EQ(view.tone_curve.exposure_ev, 2.0f);
 
     view = start();  // what was lowered stays
@@ -63,11 +66,11 @@ TEST(ViewState, FollowsAnAssetThatGetsMoreComponents) {
     follow(view, kRange, kMore, wanted);
     EXPECT_EQ(limits_of(view), (Limits{3, 7, 6, 2}));
 
-    view.time = 4.0;  // another asset, with less of everything
-    constexpr ViewRange kLess{2, 1, 0, 3, 0};
+    view.animation.time = 4.0;  // another asset, with less of everything
+    constexpr ViewRange kLess{2, {1, 0, 3, 0}};
     follow(view, kMore, kLess, wanted);
     EXPECT_EQ(limits_of(view), (Limits{1, 0, 3, 0}));
-    EXPECT_EQ(view.time, 2.0);
+    EXPECT_EQ(view.animation.time, 2.0);
 }
 
 TEST(Keys, ChangeLimitsWithinTheAsset) {
@@ -106,27 +109,27 @@ TEST(Keys, ChangeLimitsWithinTheAsset) {
 
 TEST(Keys, StepThroughPosesRoundTheEnds) {
     ViewState view = start();
-    view.time = 1.5;
+    view.animation.time = 1.5;
     press(GLFW_KEY_RIGHT, false, view);
-    EXPECT_EQ(view.time, 2.0);
-    EXPECT_FALSE(view.playing);
-    view.time = 1.5;
+    EXPECT_EQ(view.animation.time, 2.0);
+    EXPECT_FALSE(view.animation.playing);
+    view.animation.time = 1.5;
     press(GLFW_KEY_LEFT, false, view);
-    EXPECT_EQ(view.time, 1.0);
+    EXPECT_EQ(view.animation.time, 1.0);
     press(GLFW_KEY_LEFT, false, view);
     press(GLFW_KEY_LEFT, false, view);
-    EXPECT_EQ(view.time, 3.0);
+    EXPECT_EQ(view.animation.time, 3.0);
     press(GLFW_KEY_RIGHT, false, view);
-    EXPECT_EQ(view.time, 0.0);
-    view.time = 3.7;  // the last pose, held
+    EXPECT_EQ(view.animation.time, 0.0);
+    view.animation.time = 3.7;  // the last pose, held
     press(GLFW_KEY_LEFT, false, view);
-    EXPECT_EQ(view.time, 2.0);
+    EXPECT_EQ(view.animation.time, 2.0);
     press(GLFW_KEY_END, false, view);
-    EXPECT_EQ(view.time, 3.0);
+    EXPECT_EQ(view.animation.time, 3.0);
     press(GLFW_KEY_HOME, false, view);
-    EXPECT_EQ(view.time, 0.0);
+    EXPECT_EQ(view.animation.time, 0.0);
     press(GLFW_KEY_SPACE, false, view);
-    EXPECT_TRUE(view.playing);
+    EXPECT_TRUE(view.animation.playing);
 }
 
 TEST(Keys, ChangeToneLightAndBackground) {
@@ -147,12 +150,14 @@ TEST(Keys, ChangeToneLightAndBackground) {
     for (int i = 0; i < 99; ++i) press(GLFW_KEY_G, false, view);
     EXPECT_EQ(view.tone_curve.gamma, 5.0f);
     press(GLFW_KEY_PERIOD, false, view);
-    EXPECT_EQ(view.env_rotation_deg, 5.0);
+    EXPECT_EQ(view.light.orientation.yaw_deg, 5.0);
     press(GLFW_KEY_COMMA, false, view);
     press(GLFW_KEY_COMMA, false, view);
-    EXPECT_EQ(view.env_rotation_deg, -5.0);
+    EXPECT_EQ(view.light.orientation.yaw_deg, -5.0);
     press(GLFW_KEY_L, false, view);
-    EXPECT_TRUE(view.turning);
+    EXPECT_FALSE(view.light.turning);
+    press(GLFW_KEY_K, false, view);
+    EXPECT_EQ(view.background.kind, Background::Kind::blurred);
     for (const float grey : {0.0f, 0.2f, 1.0f}) {
         press(GLFW_KEY_K, false, view);
         EXPECT_EQ(view.background.kind, Background::Kind::color);
@@ -160,66 +165,102 @@ TEST(Keys, ChangeToneLightAndBackground) {
     }
     press(GLFW_KEY_K, false, view);
     EXPECT_EQ(view.background.kind, Background::Kind::environment);
-    press(GLFW_KEY_H, false, view);
-    EXPECT_TRUE(view.show_help);
+    press(GLFW_KEY_M, false, view);
+    EXPECT_EQ(view.tone_curve.tone_operator, ToneOperator::reinhard);
+    for (int i = 0; i < 2; ++i) press(GLFW_KEY_M, false, view);
+    EXPECT_EQ(view.tone_curve.tone_operator, ToneOperator::clamp);
 }
 
-// All that keys may change.
-auto state_of(const ViewState& view) {
-    return std::tuple(view.time, view.playing, limits_of(view), view.tone_curve.exposure_ev,
-                      view.tone_curve.gamma, view.env_rotation_deg, view.turning,
-                      view.background.kind, view.show_help, view.show_panel);
-}
-
-TEST(Keys, EveryCommandHasAKeyOfItsOwnAndAnEffect) {
-    std::set<Command> reached;
-    for (const KeyRow& row : key_table()) {
-        for (const KeyBinding& binding : {row.first, row.second}) {
-            if (binding.command == Command::none) continue;
-            EXPECT_EQ(command_of_key(binding.glfw_key, binding.shift), binding.command);
-            EXPECT_TRUE(reached.insert(binding.command).second) << row.keys;
-        }
-        EXPECT_NE(keys_help().find(row.meaning), std::string::npos);
+TEST(Keys, ChangeSpeedAndWhatTheSurfaceShows) {
+    ViewState view = start();
+    for (const double speed : {2.0, 4.0, 4.0}) {
+        press(GLFW_KEY_UP, false, view);
+        EXPECT_EQ(view.animation.speed, speed);
     }
-    ViewState middle = start();  // where every command has something to change
-    middle.time = 1.5;
+    press(GLFW_KEY_R, false, view);
+    EXPECT_EQ(view.animation.speed, -4.0);
+    press(GLFW_KEY_DOWN, false, view);
+    EXPECT_EQ(view.animation.speed, -2.0);
+
+    press(GLFW_KEY_C, true, view);  // the first is coefficient 0; before it comes the last
+    EXPECT_EQ(view.surface, SurfaceView::coefficient);
+    EXPECT_EQ(view.coefficient, 35u);
+    press(GLFW_KEY_C, false, view);
+    EXPECT_EQ(view.coefficient, 0u);
+    view.surface = SurfaceView::lit;
+    for (size_t i = 1; i <= surface_views().size(); ++i) {
+        press(GLFW_KEY_V, false, view);
+        EXPECT_EQ(view.surface, surface_views()[i % surface_views().size()].view);
+    }
+    press(GLFW_KEY_V, true, view);
+    EXPECT_EQ(view.surface, surface_views().back().view);
+
+    using enum Comparison;
+    for (const Comparison comparison : {wipe, side_by_side, none}) {
+        press(GLFW_KEY_X, false, view);
+        EXPECT_EQ(view.comparison, comparison);
+    }
+    for (const uint32_t count : {9u, 25u, 100u, 1u}) {
+        press(GLFW_KEY_Y, false, view);
+        EXPECT_EQ(view.num_instances, count);
+    }
+}
+
+TEST(Keys, EveryKeyIsItsOwnAndDoesSomething) {
+    std::set<std::pair<int, bool>> keys;
+    std::set<WindowCommand> commands;
+    ViewState middle = start();  // where every key has something to change
+    middle.animation.time = 1.5;
     middle.limits = {2, 3, 4, 1};
     middle.tone_curve.gamma = 2.0f;
-    for (int j = 1; j <= static_cast<int>(Command::quit); ++j) {
-        const auto command = static_cast<Command>(j);
-        EXPECT_EQ(reached.count(command), 1u) << j;
-        ViewState view = middle;
-        apply(command, view, kRange);
-        const bool is_of_the_window = command == Command::frame_all ||
-                                      command == Command::snapshot || command == Command::quit;
-        EXPECT_EQ(state_of(view) == state_of(middle), is_of_the_window) << j;
+    const std::string help = keys_help();
+    for (const KeyGroup& group : key_groups()) {
+        for (const KeyRow& row : group.rows) {
+            EXPECT_NE(help.find(row.meaning), std::string::npos);
+            EXPECT_FALSE(row.bindings.empty()) << row.keys;
+            for (const KeyBinding& binding : row.bindings) {
+                EXPECT_TRUE(keys.emplace(binding.glfw_key, binding.shift).second) << row.keys;
+                EXPECT_EQ(find_key(binding.glfw_key, binding.shift), &binding);
+                ASSERT_NE(binding.change != nullptr, binding.command != WindowCommand::none);
+                if (binding.change == nullptr) {
+                    EXPECT_TRUE(commands.insert(binding.command).second) << row.keys;
+                    continue;
+                }
+                ViewState view = middle;
+                binding.change(view, kRange);
+                EXPECT_FALSE(view == middle) << row.keys;
+            }
+        }
     }
+    EXPECT_EQ(commands.size(), static_cast<size_t>(WindowCommand::quit));
 }
 
 TEST(Keys, NameTheCommandsOfTheWindow) {
-    EXPECT_EQ(command_of_key(GLFW_KEY_ESCAPE, false), Command::quit);
-    EXPECT_EQ(command_of_key(GLFW_KEY_S, false), Command::snapshot);
-    EXPECT_EQ(command_of_key(GLFW_KEY_F, false), Command::frame_all);
-    EXPECT_EQ(command_of_key(GLFW_KEY_Q, false), Command::none);
-    EXPECT_EQ(command_of_key(GLFW_KEY_S, true), Command::none);
+    EXPECT_EQ(find_key(GLFW_KEY_ESCAPE, false)->command, WindowCommand::quit);
+    EXPECT_EQ(find_key(GLFW_KEY_S, false)->command, WindowCommand::snapshot_png);
+    EXPECT_EQ(find_key(GLFW_KEY_S, true)->command, WindowCommand::snapshot_exr);
+    EXPECT_EQ(find_key(GLFW_KEY_F, false)->command, WindowCommand::frame_all);
+    EXPECT_EQ(find_key(GLFW_KEY_Q, false), nullptr);
+    EXPECT_EQ(find_key(GLFW_KEY_ESCAPE, true), nullptr);
 }
 
 TEST(Advance, HoldsTheLastPoseAndStartsOver) {
     ViewState view = start();
-    view.time = 3.0;
-    advance(view, kRange, 10.0f, 0.05);
-    EXPECT_NEAR(view.time, 3.5, 1e-6);
-    advance(view, kRange, 10.0f, 0.1);
-    EXPECT_NEAR(view.time, 0.5, 1e-6);
-    view.playing = false;
-    advance(view, kRange, 10.0f, 1.0);
-    EXPECT_NEAR(view.time, 0.5, 1e-6);
-    EXPECT_EQ(view.env_rotation_deg, 0.0);
-    view.turning = true;
-    advance(view, kRange, 10.0f, 1.0);
-    EXPECT_GT(view.env_rotation_deg, 0.0);
-    advance(view, kRange, 10.0f, 1e6);
-    EXPECT_LE(std::abs(view.env_rotation_deg), 180.0);
+    view.light.turning = false;
+    view.animation.time = 3.0;
+    advance(view, kRange.num_poses, 10.0, 0.05);
+    EXPECT_NEAR(view.animation.time, 3.5, 1e-6);
+    advance(view, kRange.num_poses, 10.0, 0.1);
+    EXPECT_NEAR(view.animation.time, 0.5, 1e-6);
+    view.animation.playing = false;
+    advance(view, kRange.num_poses, 10.0, 1.0);
+    EXPECT_NEAR(view.animation.time, 0.5, 1e-6);
+    EXPECT_EQ(view.light.orientation.yaw_deg, 0.0);
+    view.light.turning = true;
+    advance(view, kRange.num_poses, 10.0, 1.0);
+    EXPECT_GT(view.light.orientation.yaw_deg, 0.0);
+    advance(view, kRange.num_poses, 10.0, 1e6);
+    EXPECT_LE(std::abs(view.light.orientation.yaw_deg), 180.0);
 }
 
 Bounds unit_bounds() {
@@ -229,46 +270,41 @@ Bounds unit_bounds() {
     return bounds;
 }
 
-TEST(OrbitCamera, StartsWhereSnapshotsAreTaken) {
-    CameraOptions options;
-    options.azimuth_rad = -1.0f;
-    options.elevation_rad = 0.7f;
-    options.distance_factor = 1.5f;
-    const Camera expected = start_camera(options, unit_bounds(), 1.5f);
-    OrbitCamera orbit;
-    orbit.frame(options, unit_bounds(), 1.5f);
+TEST(OrbitCamera, LooksLikeTheCameraThatItIsMadeOf) {
+    const Camera expected = frame_bounds(unit_bounds(), 1.5f, -1.0f, 0.7f);
+    const OrbitCamera orbit = OrbitCamera::of(expected);
+    EXPECT_NEAR(orbit.azimuth_rad, -1.0, 1e-6);
+    EXPECT_NEAR(orbit.elevation_rad, 0.7, 1e-6);
     // Floats of a few units, after a handful of operations.
     EXPECT_LT((orbit.camera().eye - expected.eye).norm(), 1e-5f);
     EXPECT_EQ(orbit.camera().target, expected.target);
-
-    const Camera nearer = start_camera({-1.0f, 0.7f, 0.75f}, unit_bounds(), 1.5f);
-    EXPECT_NEAR((nearer.eye - nearer.target).norm(), 0.5f * (expected.eye - expected.target).norm(),
-                1e-5f);
+    const Vec3f moved = orbit.camera(Vec3d(1.0, 2.0, 4.0)).eye - orbit.camera().eye;
+    EXPECT_LT((moved - Vec3f(1.0f, 2.0f, 4.0f)).norm(), 1e-5f);
 }
 
 TEST(OrbitCamera, MovesWithTheMouse) {
-    OrbitCamera orbit;
-    orbit.frame({0.0f, 0.0f, 1.0f}, unit_bounds(), 1.0f);
+    const OrbitCamera start = OrbitCamera::of(frame_bounds(unit_bounds(), 1.0f, 0.0f, 0.0f));
+    OrbitCamera orbit = start;
     const Camera before = orbit.camera();
-    orbit.orbit(-0.5f, 0.0f);  // a quarter turn: the camera goes to +X
+    orbit.orbit(-0.5, 0.0);  // a quarter turn: the camera goes to +X
     EXPECT_GT(orbit.camera().eye.x() - before.target.x(), 3.0f);
-    orbit.orbit(0.0f, 9.0f);  // stops before the pole
+    orbit.orbit(0.0, 9.0);  // stops before the pole
     const Vec3f up = (orbit.camera().eye - before.target).normalized();
     EXPECT_GT(up.y(), 0.99f);
     EXPECT_LT(up.y(), 0.9999f);
 
-    orbit.frame({0.0f, 0.0f, 1.0f}, unit_bounds(), 1.0f);
-    orbit.pan(1.0f, 0.0f);  // by the height of the view, to the right: the target goes left
+    orbit = start;
+    orbit.pan(1.0, 0.0);  // by the height of the view, to the right: the target goes left
     const float height =
         2.0f * (before.eye - before.target).norm() * std::tan(0.5f * before.vertical_fov_rad);
     EXPECT_NEAR(before.target.x() - orbit.camera().target.x(), height, 1e-4f);
 
-    orbit.frame({0.0f, 0.0f, 1.0f}, unit_bounds(), 1.0f);
-    orbit.zoom(1.0f);
+    orbit = start;
+    orbit.zoom(1.0);
     EXPECT_LT((orbit.camera().eye - before.target).norm(), (before.eye - before.target).norm());
-    for (int i = 0; i < 1000; ++i) orbit.zoom(20.0f);
+    for (int i = 0; i < 1000; ++i) orbit.zoom(20.0);
     EXPECT_GT((orbit.camera().eye - before.target).norm(), 0.0f);
-    for (int i = 0; i < 1000; ++i) orbit.zoom(-20.0f);
+    for (int i = 0; i < 1000; ++i) orbit.zoom(-20.0);
     EXPECT_TRUE(orbit.camera().eye.allFinite());
 }
 

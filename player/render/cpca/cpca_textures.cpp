@@ -124,7 +124,7 @@ CpcaTextures::CpcaTextures(const CodedMesh& mesh, const UploadPlan& plan)
 }
 
 std::string CpcaTextures::defines() const {
-    return fmt::format("#define CLUSTERED\n#define coefficients_int16_sampler {}\n",
+    return fmt::format("#define coefficients_int16_sampler {}\n",
                        gl::sampler_type(int16_.format()));
 }
 
@@ -133,11 +133,11 @@ uint64_t CpcaTextures::size_bytes() const {
            basis_radiance_.size_bytes();
 }
 
-void CpcaTextures::update_basis_radiance(const Frame& frame, const LightCoefficients& light) {
-    DecodeLimits limits = frame.limits;
+void CpcaTextures::update_basis_radiance(double time, DecodeLimits limits,
+                                         const LightCoefficients& light) {
     limits.bands = std::min(limits.bands, plan_.layout.in_bands);
     limits.transfer_components = std::min(limits.transfer_components, plan_.transfer_components);
-    player_.basis_radiance(frame.time, limits, light, row_radiance_);
+    player_.basis_radiance(time, limits, light, row_radiance_);
     const uint32_t stride = clusters_.rows_per_cluster();
     for (size_t c = 0; c < clusters_.num_clusters; ++c) {
         const Vec3f* rows = row_radiance_.data() + c * stride;
@@ -153,14 +153,14 @@ void CpcaTextures::update_basis_radiance(const Frame& frame, const LightCoeffici
     basis_radiance_.update(scratch_);
 }
 
-int CpcaTextures::bind(const gl::Program& program, int unit, const Frame& frame,
-                       const LightCoefficients& light) {
-    update_basis_radiance(frame, light);
+int CpcaTextures::bind(const gl::Program& program, int unit, double time,
+                       const DecodeLimits& limits, const LightCoefficients& light) {
+    update_basis_radiance(time, limits, light);
     program.set_texture("cluster", unit++, cluster_.handle());
     program.set_texture("coefficients_int16", unit++, int16_.handle());
     program.set_texture("coefficients_int8", unit++, int8_.handle());
     program.set_texture("basis_radiance", unit++, basis_radiance_.handle());
-    const uint32_t components = std::min(frame.limits.vertex_components, plan_.vertex_components);
+    const uint32_t components = std::min(limits.vertex_components, plan_.vertex_components);
     const uint32_t groups = (components + kGroupSize - 1) / kGroupSize;
     const uint32_t int16_groups = std::min(groups, num_int16_groups_);
     program.set("product_texels", static_cast<int>(basis_texels(plan_)));

@@ -12,17 +12,22 @@
 
 namespace paim::player {
 
+namespace shaders {
+extern const std::string_view cpca_shade_glsl;  // cpca_shade.glsl
+}
+
 class CpcaTextures : public TransferTextures {
   public:
     CpcaTextures(const CodedMesh& mesh, const UploadPlan& plan);
 
+    std::string_view shader() const override { return shaders::cpca_shade_glsl; }
     std::string defines() const override;
     uint64_t size_bytes() const override;
-    int bind(const gl::Program& program, int unit, const Frame& frame,
+    int bind(const gl::Program& program, int unit, double time, const DecodeLimits& limits,
              const LightCoefficients& light) override;
 
   private:
-    void update_basis_radiance(const Frame& frame, const LightCoefficients& light);
+    void update_basis_radiance(double time, DecodeLimits limits, const LightCoefficients& light);
 
     const VertexClusters& clusters_;
     UploadPlan plan_;

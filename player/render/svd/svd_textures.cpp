@@ -68,11 +68,11 @@ void SvdTextures::update_light(const LightCoefficients& light, uint32_t bands) {
     light_.update(scratch_);
 }
 
-int SvdTextures::bind(const gl::Program& program, int unit, const Frame& frame,
+int SvdTextures::bind(const gl::Program& program, int unit, double time, const DecodeLimits& limits,
                       const LightCoefficients& light) {
-    const uint32_t bands = std::min(frame.limits.bands, plan_.layout.in_bands);
+    const uint32_t bands = std::min(limits.bands, plan_.layout.in_bands);
     update_light(light, bands);
-    unit = matrix_.bind(program, unit, frame.time, frame.limits.transfer_components);
+    unit = matrix_.bind(program, unit, time, limits.transfer_components);
     program.set_texture("light", unit++, light_.handle());
     program.set("num_channels", static_cast<int>(plan_.layout.channels));
     program.set("groups_per_channel", static_cast<int>(plan_.groups_per_channel()));

@@ -8,13 +8,18 @@
 
 namespace paim::player {
 
+namespace shaders {
+extern const std::string_view svd_shade_glsl;  // svd_shade.glsl
+}
+
 class SvdTextures : public TransferTextures {
   public:
     SvdTextures(const CodedMesh& mesh, const UploadPlan& plan);
 
+    std::string_view shader() const override { return shaders::svd_shade_glsl; }
     std::string defines() const override { return matrix_.defines(); }
     uint64_t size_bytes() const override { return matrix_.size_bytes() + light_.size_bytes(); }
-    int bind(const gl::Program& program, int unit, const Frame& frame,
+    int bind(const gl::Program& program, int unit, double time, const DecodeLimits& limits,
              const LightCoefficients& light) override;
 
   private:

@@ -1,0 +1,31 @@
+// A picture of eight bits a channel, as panels show it.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "player/gl/handle.h"
+
+namespace paim::player::gl {
+
+class BytePicture {
+  public:
+    BytePicture(int width, int height);
+
+    int width() const { return width_; }
+    int height() const { return height_; }
+    const TextureHandle& texture() const { return texture_; }
+
+    // rgb  [height][width][3], row 0 on top; shown upside down by OpenGL's own convention
+    void upload(std::span<const uint8_t> rgb) const;
+
+    // Draws go here from now on, over all of it.
+    void bind() const;
+
+  private:
+    int width_, height_;
+    TextureHandle texture_;
+    FramebufferHandle framebuffer_;
+};
+
+}  // namespace paim::player::gl

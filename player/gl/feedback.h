@@ -1,0 +1,16 @@
+// Transform feedback: keeps what a vertex shader computes, in a buffer, and draws nothing.
+#pragma once
+
+#include <cstdint>
+
+#include "player/gl/handle.h"
+#include "player/gl/program.h"
+
+namespace paim::player::gl {
+
+// Runs the program's vertex shader once for each vertex first … first + count − 1 (gl_VertexID) and
+// writes the output that the program captures, num_floats 32-bit floats a vertex, to its place in the
+// buffer: vertex v at v · num_floats. The program is in use, and captures one output.
+void capture_vertices(const BufferHandle& buffer, int num_floats, uint32_t first, uint32_t count);
+
+}  // namespace paim::player::gl

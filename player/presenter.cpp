@@ -1,0 +1,317 @@
+// Views to frames.
+#include "player/presenter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "player/inspect/lobe.h"
+#include "player/inspect/pick.h"
+#include "player/light/auto_exposure.h"
+#include "player/view/crowd.h"
+#include "player/view/framing.h"
+
+namespace paim::player {
+
+namespace {
+
+// Behind colours that stand for numbers.
+const Background kNeutral{Background::Kind::color, Vec3f::Constant(0.03f)};
+
+Image columns(const Image& image, int first, int last) {
+    Image part(last - first, image.height);
+    for (int y = 0; y < image.height; ++y) {
+        for (int x = first; x < last; ++x) part.at(x - first, y) = image.at(x, y);
+    }
+    return part;
+}
+
+void copy_columns(const Image& from, int first, Image& to) {
+    for (int y = 0; y < from.height; ++y) {
+        for (int x = 0; x < from.width; ++x) to.at(first + x, y) = from.at(x, y);
+    }
+}
+
+// Whether the end of the scale is the largest value that there is.
+bool is_scaled_to_fit(SurfaceView view) {
+    return view == SurfaceView::coefficient || is_error_view(view);
+}
+
+float largest_of(const std::vector<std::vector<float>>& values) {
+    float largest = 0.0f;
+    for (const std::vector<float>& part : values) {
+        for (const float value : part) {
+            if (std::abs(value) > largest) largest = std::abs(value);
+        }
+    }
+    return largest;
+}
+
+int divided_at(double split, int width) {
+    return std::clamp(static_cast<int>(split * width), 0, width);
+}
+
+}  // namespace
+
+Presenter::Presenter(std::shared_ptr<const Asset> asset, const Bounds& reach,
+                     EnvironmentLight environment, const DecodeLimits& limits, Decoder decoder)
+    : rig_(std::move(environment)), renderer_(asset, limits, decoder) {
+    renderer_.set_environment(rig_.environment().image());
+    asset_ = std::move(asset);
+    reach_ = reach;
+    colors_ = std::make_unique<SurfaceColors>(asset_);
+    pose_bounds_.emplace(*asset_);
+    path_.emplace(*asset_);
+}
+
+void Presenter::set_asset(std::shared_ptr<const Asset> asset, const Bounds& reach,
+                          const DecodeLimits& limits) {
+    renderer_.set_asset(asset, limits);
+    colors_ = std::make_unique<SurfaceColors>(asset);
+    pose_bounds_.emplace(*asset);
+    path_.emplace(*asset);
+    decoders_.clear();
+    asset_ = std::move(asset);
+    reach_ = reach;
+    legend_.reset();
+    scale_.reset();
+}
+
+void Presenter::set_environment(EnvironmentLight environment) {
+    renderer_.set_environment(environment.image());
+    rig_.set_environment(std::move(environment));
+}
+
+ToneCurve Presenter::tone_curve(const ViewState& view) {
+    return view.surface == SurfaceView::lit ? view.tone_curve : ToneCurve{};
+}
+
+double Presenter::time(const ViewState& view) const {
+    return shown_time(view.animation, asset_->num_poses());
+}
+
+Vec3d Presenter::camera_origin(const ViewState& view) {
+    return view.camera.target == CameraTarget::pose ? path_->at(time(view)) : Vec3d::Zero();
+}
+
+Camera Presenter::camera(const ViewState& view) {
+    return view.camera.orbit.camera(camera_origin(view));
+}
+
+OrbitCamera Presenter::framed(const ViewState& view, float aspect, bool pose_alone) {
+    const auto azimuth_rad = static_cast<float>(view.camera.orbit.azimuth_rad);
+    const auto elevation_rad = static_cast<float>(view.camera.orbit.elevation_rad);
+    BodyPath* const path = view.camera.target == CameraTarget::pose ? &*path_ : nullptr;
+    Camera camera = pose_alone
+                        ? frame_pose(*asset_, time(view), azimuth_rad, elevation_rad, aspect, path)
+                        : frame_asset(*asset_, azimuth_rad, elevation_rad, aspect, path);
+    if (view.num_instances > 1 && !pose_alone && path == nullptr) {
+        FrustumFit fit(azimuth_rad, elevation_rad, aspect);
+        for (const Instance& instance :
+             make_crowd(view.num_instances, reach_, asset_->num_poses())) {
+            for (int corner = 0; corner < 8; ++corner) {
+                const Vec3f point((corner & 1 ? reach_.upper : reach_.lower).x(),
+                                  (corner & 2 ? reach_.upper : reach_.lower).y(),
+                                  (corner & 4 ? reach_.upper : reach_.lower).z());
+                fit.add(point.cast<double>() + instance.offset);
+            }
+        }
+        camera = fit.camera();
+    }
+    OrbitCamera orbit = OrbitCamera::of(camera);
+    orbit.azimuth_rad = view.camera.orbit.azimuth_rad;
+    orbit.elevation_rad = view.camera.orbit.elevation_rad;
+    return orbit;
+}
+
+void Presenter::set_light(const ViewState& view) {
+    rig_.set_orientation(view.light.orientation);
+    rig_.set_environment_strength(static_cast<float>(view.light.strength));
+    rig_.set_key_light(view.light.key_on ? std::optional(view.light.key) : std::nullopt);
+}
+
+Bounds Presenter::bounds(const ViewState& view, const std::vector<Instance>& instances) {
+    Bounds bounds = pose_bounds_->at(time(view), view.limits.geometry_components);
+    if (instances.size() > 1) bounds.extend(crowd_bounds(instances, reach_));
+    return bounds;
+}
+
+Frame Presenter::frame(const ViewState& view, const DecodeLimits& limits) {
+    set_light(view);
+    Frame frame;
+    frame.time = time(view);
+    frame.limits = limits;
+    frame.light = rig_.coefficients(static_cast<int>(renderer_.most().bands));
+    frame.edges = view.edges;
+    frame.instances = make_crowd(view.num_instances, reach_, asset_->num_poses());
+    frame.camera = camera(view);
+    frame.bounds = bounds(view, frame.instances);
+    frame.background = view.background;
+    frame.environment_from_world = rig_.environment_from_world();
+    frame.environment_strength = rig_.environment_strength();
+    legend_.reset();
+    if (view.surface == SurfaceView::lit) return frame;
+    frame.background = kNeutral;
+    frame.colors = [this, view, limits](double time) -> const PartColors& {
+        return paint(view, limits, time);
+    };
+    return frame;
+}
+
+Presenter::ScaleKey Presenter::scale_key(const ViewState& view) {
+    return {view.surface, view.coefficient, view.channel, view.limits};
+}
+
+const PartColors& Presenter::paint(const ViewState& view, const DecodeLimits& limits, double time) {
+    SurfaceQuery query{.view = view.surface,
+                       .time = time,
+                       .limits = limits,
+                       .coefficient = view.coefficient,
+                       .channel = view.channel};
+    colors_->set_light(DistantLight(rig_.coefficients(static_cast<int>(renderer_.most().bands))));
+    if (scale_ && scale_->first != scale_key(view)) scale_.reset();
+    if (scale_) query.scale = scale_->second;
+    const ColoredSurface* surface = &colors_->paint(query);
+    if (is_scaled_to_fit(view.surface)) {
+        const float largest = query.scale ? largest_of(surface->values) : surface->legend.highest;
+        if (!query.scale || largest > *query.scale) {
+            query.scale = largest;
+            surface = &colors_->paint(query);
+        }
+        scale_ = {scale_key(view), *query.scale};
+    }
+    if (!legend_) legend_ = surface->legend;  // that of the first instance
+    return surface->colors;
+}
+
+void Presenter::fix_scale(const ViewState& view) {
+    if (!is_scaled_to_fit(view.surface)) return;
+    set_light(view);
+    colors_->set_light(DistantLight(rig_.coefficients(static_cast<int>(renderer_.most().bands))));
+    scale_ = {scale_key(view), colors_->sequence_scale({.view = view.surface,
+                                                        .limits = view.limits,
+                                                        .coefficient = view.coefficient,
+                                                        .channel = view.channel})};
+}
+
+float Presenter::suitable_exposure_ev(const ViewState& view) {
+    set_light(view);
+    LimitErrors& errors = colors_->errors();
+    errors.set_light(DistantLight(rig_.coefficients(static_cast<int>(renderer_.most().bands))));
+    const Playback& playback = errors.play(time(view), view.limits);
+    std::vector<std::span<const Vec3f>> radiance;
+    for (size_t j = 0; j < playback.num_parts(); ++j) radiance.push_back(playback.radiance(j));
+    return auto_exposure_ev(radiance);
+}
+
+namespace {
+
+// Positions of a decoded pose, [3][V], in the scene.
+void to_scene(DecodedPose& pose) {
+    move_to_scene(pose.root, pose.positions, pose.num_following);
+}
+
+}  // namespace
+
+void Presenter::decode(const ViewState& view, size_t part, DecodedPose& pose) {
+    while (decoders_.size() < asset_->parts.size()) {
+        decoders_.emplace_back(asset_->parts[decoders_.size()]);
+    }
+    decoders_[part].decode(time(view), view.limits, pose);
+}
+
+std::optional<PickedVertex> Presenter::pick(const ViewState& view, float x, float y, float aspect) {
+    if (view.comparison == Comparison::side_by_side) {
+        // Each half is a picture of its own.
+        aspect *= 0.5f;
+        x = x < 0.5f ? 2.0f * x : 2.0f * x - 1.0f;
+    }
+    std::vector<DecodedPose> poses(asset_->parts.size());
+    std::vector<PickSurface> surfaces;
+    for (size_t j = 0; j < poses.size(); ++j) {
+        decode(view, j, poses[j]);
+        to_scene(poses[j]);
+        surfaces.push_back({&asset_->parts[j].topology, poses[j].positions});
+    }
+    const auto hit = player::pick(ray_through_pixel(camera(view), x, y, aspect), surfaces);
+    if (!hit) return std::nullopt;
+    return PickedVertex{hit->part, hit->vertex};
+}
+
+Vec3f Presenter::position_of(const ViewState& view, const PickedVertex& vertex) {
+    DecodedPose pose;
+    decode(view, vertex.part, pose);
+    to_scene(pose);
+    const size_t num_vertices = pose.positions.size() / 3;
+    return {pose.positions[vertex.vertex], pose.positions[num_vertices + vertex.vertex],
+            pose.positions[2 * num_vertices + vertex.vertex]};
+}
+
+std::vector<float> Presenter::transfer_of(const ViewState& view, const PickedVertex& vertex) {
+    DecodedPose pose;
+    decode(view, vertex.part, pose);
+    const std::vector<float> local =
+        vertex_transfer(pose.layout, pose.transfer, vertex.vertex, kLuminance);
+    const bool follows = vertex.vertex < pose.num_following;
+    if (!follows || !pose.root.turns()) return local;
+    // As a light, whose three channels are the same.
+    LightCoefficients function{static_cast<int>(pose.layout.in_bands), {}};
+    for (const float value : local) function.values.emplace_back(Vec3f::Constant(value));
+    function = turn(function, pose.root.rotation.toRotationMatrix());
+    std::vector<float> in_scene;
+    for (const Vec3f& value : function.values) in_scene.push_back(value.x());
+    return in_scene;
+}
+
+VertexHistory Presenter::history(const ViewState& view, SurfaceView error_view) {
+    set_light(view);
+    LimitErrors& errors = colors_->errors();
+    errors.set_light(DistantLight(rig_.coefficients(static_cast<int>(renderer_.most().bands))));
+    return {errors, error_of(error_view), view.picked->part, view.picked->vertex, view.limits};
+}
+
+void Presenter::draw(const ViewState& view, const gl::Target& target) {
+    target.bind();
+    const int width = target.width(), height = target.height();
+    const auto aspect_of = [&](int columns) {
+        return static_cast<float>(std::max(1, columns)) / static_cast<float>(height);
+    };
+    const Frame limited = frame(view, view.limits);
+    if (view.comparison == Comparison::none) return renderer_.draw(limited, aspect_of(width));
+    const Frame whole = frame(view, renderer_.most());
+    const bool wipe = view.comparison == Comparison::wipe;
+    const int middle = wipe ? divided_at(view.split, width) : width / 2;
+    glEnable(GL_SCISSOR_TEST);
+    const auto draw_columns = [&](const Frame& shown, int first, int last) {
+        if (first == last) return;
+        glScissor(first, 0, last - first, height);
+        if (!wipe) glViewport(first, 0, last - first, height);
+        renderer_.draw(shown, aspect_of(wipe ? width : last - first));
+    };
+    draw_columns(limited, 0, middle);
+    draw_columns(whole, middle, width);
+    glDisable(GL_SCISSOR_TEST);
+}
+
+Image Presenter::render(const ViewState& view, int width, int height, int samples) {
+    const Frame limited = frame(view, view.limits);
+    if (view.comparison == Comparison::none) {
+        return renderer_.render(limited, width, height, samples);
+    }
+    const Frame whole = frame(view, renderer_.most());
+    Image picture(width, height);
+    if (view.comparison == Comparison::side_by_side && width > 1) {
+        const int middle = width / 2;
+        copy_columns(renderer_.render(limited, middle, height, samples), 0, picture);
+        copy_columns(renderer_.render(whole, width - middle, height, samples), middle, picture);
+        return picture;
+    }
+    const int middle = divided_at(view.split, width);
+    picture = renderer_.render(limited, width, height, samples);
+    const Image right = renderer_.render(whole, width, height, samples);
+    copy_columns(columns(right, middle, width), middle, picture);
+    return picture;
+}
+
+}  // namespace paim::player

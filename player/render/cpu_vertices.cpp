@@ -1,0 +1,38 @@
+// Playback, and its results as attributes.
+#include "player/render/cpu_vertices.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace paim::player {
+
+namespace {
+
+DecodeLimits within(const DecodeLimits& limits, const DecodeLimits& most) {
+    return {std::min(limits.geometry_components, most.geometry_components),
+            std::min(limits.transfer_components, most.transfer_components),
+            std::min(limits.bands, most.bands),
+            std::min(limits.vertex_components, most.vertex_components)};
+}
+
+DecodeLimits all_of(const CodedMesh& mesh) {
+    return {mesh.positions.num_components, mesh.transfer->matrix.num_components,
+            mesh.layout.in_bands, mesh.transfer->num_vertex_components()};
+}
+
+}  // namespace
+
+CpuVertices::CpuVertices(std::shared_ptr<const Asset> asset, const DecodeLimits& limits)
+    : playback_(std::move(asset)), most_(within(limits, all_of(playback_.asset().moving()))) {}
+
+void CpuVertices::write(double time, const DecodeLimits& limits, const LightCoefficients* light,
+                        Changes changes, std::span<SurfaceMesh> parts) {
+    if (changes.colors) playback_.set_light(DistantLight(*light));
+    playback_.update(time, within(limits, most_));
+    for (size_t j = 0; j < parts.size(); ++j) {
+        if (changes.positions) parts[j].upload_positions(playback_.local_positions(j));
+        if (changes.colors) parts[j].upload_colors(playback_.radiance(j));
+    }
+}
+
+}  // namespace paim::player

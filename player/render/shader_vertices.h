@@ -1,0 +1,29 @@
+// Decodes and lights vertices in shaders, from textures that hold the coded meshes.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "player/render/shader_mesh.h"
+#include "player/render/vertex_source.h"
+
+namespace paim::player {
+
+class ShaderVertices : public VertexSource {
+  public:
+    // Uploads all parts. Errors: those of ShaderMesh.
+    ShaderVertices(std::shared_ptr<const Asset> asset, const DecodeLimits& limits);
+
+    DecodeLimits most() const override;
+    bool is_on_cpu() const override { return false; }
+    uint64_t texture_bytes() const override;
+
+  private:
+    void write(double time, const DecodeLimits& limits, const LightCoefficients* light,
+               Changes changes, std::span<SurfaceMesh> parts) override;
+
+    std::shared_ptr<const Asset> asset_;
+    std::vector<std::unique_ptr<ShaderMesh>> meshes_;
+};
+
+}  // namespace paim::player

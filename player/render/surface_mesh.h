@@ -1,0 +1,52 @@
+// The surface of a mesh as OpenGL draws it: a position and a colour for each vertex, and triangles.
+// Where these come from is not its concern (render/vertex_source.h).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "paim/base/vector.h"
+#include "paim/mesh/topology.h"
+#include "player/gl/handle.h"
+
+namespace paim::player {
+
+class SurfaceMesh {
+  public:
+    // Makes room for the vertices, whose positions and colours are undefined until something writes
+    // them, and uploads the triangles. Keeps a reference to the topology. Errors (unsupported): more
+    // triangles than OpenGL draws at once, or not enough memory.
+    explicit SurfaceMesh(const Topology& topology);
+
+    uint32_t num_vertices() const { return topology_.num_vertices; }
+
+    // [V][3] 32-bit floats each: local positions in scene units, and linear RGB.
+    const gl::BufferHandle& positions() const { return positions_; }
+    const gl::BufferHandle& colors() const { return colors_; }
+
+    // planes  [3][V]: all x, then all y, then all z
+    void upload_positions(std::span<const float> planes);
+    void upload_colors(std::span<const Vec3f> colors);
+
+    // Draws triangles [first, last) with attribute 0, the position, and attribute 1, the colour.
+    void draw(size_t first, size_t last) const;
+    // Draws the edges of triangles [first, last) in the same way, each edge once.
+    void draw_edges(size_t first, size_t last);
+
+    // Of both attributes and all indices.
+    uint64_t buffer_bytes() const;
+
+  private:
+    void upload_edges();
+
+    const Topology& topology_;
+    gl::BufferHandle positions_, colors_, indices_, edges_;
+    gl::VertexArrayHandle triangle_array_, edge_array_;
+    std::vector<float> scratch_;
+    // [T + 1] The first of the edges that triangle t and those after it bring; empty: edges have not
+    // been uploaded.
+    std::vector<uint32_t> first_edge_;
+};
+
+}  // namespace paim::player

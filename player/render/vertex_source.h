@@ -1,0 +1,74 @@
+// Where positions and radiance of an asset's vertices come from: shaders decode them
+// (shader_vertices.h), or the CPU does (cpu_vertices.h).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "paim/codec/asset.h"
+#include "paim/light/light.h"
+#include "player/render/surface_mesh.h"
+
+namespace paim::player {
+
+class VertexSource {
+  public:
+    virtual ~VertexSource() = default;
+
+    // Writes positions and radiance into the attributes of the parts, as far as they differ from those
+    // of the last call: nothing if all arguments are the same, colours alone if only the light is new.
+    // time   in poses, clamped to 0 … P−1; fractions lie between poses
+    // light  of the scene, bands that it does not have are dark; nullptr leaves colours as they are
+    // parts  one for each part of the asset, the same at every call
+    void update(double time, const DecodeLimits& limits, const LightCoefficients* light,
+                std::span<SurfaceMesh> parts);
+
+    // Something else has written colours into the parts.
+    void forget_colors() { lit_.reset(); }
+
+    // What can be shown at most of the part that moves.
+    virtual DecodeLimits most() const = 0;
+    virtual bool is_on_cpu() const = 0;
+    // Of all textures that it made.
+    virtual uint64_t texture_bytes() const = 0;
+
+  protected:
+    struct Changes {
+        bool positions, colors;
+    };
+    // Writes what has changed into all parts. The light is there where colours have changed.
+    virtual void write(double time, const DecodeLimits& limits, const LightCoefficients* light,
+                       Changes changes, std::span<SurfaceMesh> parts) = 0;
+
+  private:
+    struct Pose {
+        double time;
+        uint32_t num_components;
+        bool operator==(const Pose&) const = default;
+    };
+    struct LitPose {
+        double time;
+        DecodeLimits limits;
+        LightCoefficients light;
+    };
+    Changes changes(double time, const DecodeLimits& limits, const LightCoefficients* light) const;
+
+    std::optional<Pose> pose_;    // whose positions the parts have
+    std::optional<LitPose> lit_;  // whose radiance they have
+};
+
+enum class Decoder {
+    automatic,  // shaders on a GPU that can hold the asset, otherwise the CPU
+    gpu,
+    cpu,
+};
+
+// Decodes within the limits.
+// Errors (unsupported) of Decoder::gpu: the asset does not fit into this driver's textures, or this player
+// has no shader for its codec.
+std::unique_ptr<VertexSource> make_vertex_source(const std::shared_ptr<const Asset>& asset,
+                                                 const DecodeLimits& limits, Decoder decoder);
+
+}  // namespace paim::player

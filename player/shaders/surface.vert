@@ -1,0 +1,12 @@
+// A vertex of a surface: its position and its colour are attributes.
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 color;
+
+uniform mat4 clip_from_local;
+
+out vec3 vertex_color;
+
+void main() {
+    vertex_color = color;
+    gl_Position = clip_from_local * vec4(position, 1.0);
+}

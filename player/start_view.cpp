@@ -1,0 +1,64 @@
+// Options to views.
+#include "player/start_view.h"
+
+#include <algorithm>
+
+#include "player/view/view_file.h"
+
+namespace paim::player {
+
+namespace {
+
+DecodeLimits lower_of(const DecodeLimits& a, const DecodeLimits& b) {
+    return {std::min(a.geometry_components, b.geometry_components),
+            std::min(a.transfer_components, b.transfer_components), std::min(a.bands, b.bands),
+            std::min(a.vertex_components, b.vertex_components)};
+}
+
+void change(const Options& options, ViewState& view) {
+    for (const auto& change : options.view_changes) change(view);
+    if (options.target) view.camera.target = options.target->target;
+    if (!options.camera) return;
+    view.camera.orbit.azimuth_rad = options.camera->azimuth_rad;
+    view.camera.orbit.elevation_rad = options.camera->elevation_rad;
+}
+
+void frame(const Options& options, const Scene& scene, Presenter& presenter, float aspect,
+           ViewState& view) {
+    OrbitCamera& orbit = view.camera.orbit;
+    orbit = presenter.framed(view, aspect, false);
+    if (options.camera) orbit.distance *= options.camera->distance_factor;
+    if (options.target && options.target->target == CameraTarget::point) {
+        orbit.target = scene.units.to_model(options.target->point);
+    }
+}
+
+}  // namespace
+
+ViewState start_view(const Options& options, const Scene& scene, Presenter& presenter,
+                     float aspect) {
+    ViewState view;
+    change(options, view);
+    frame(options, scene, presenter, aspect, view);
+    if (options.view_path) {
+        read_view(*options.view_path, scene.units, view);
+        change(options, view);
+        if (options.camera || options.target) frame(options, scene, presenter, aspect, view);
+    }
+    view.limits = lower_of(view.limits, options.limits);
+    view.limits.bands = std::max(1u, view.limits.bands);
+    const uint32_t num_coefficients = view.limits.bands * view.limits.bands;
+    view.coefficient = std::min(view.coefficient, num_coefficients - 1);
+    view.animation.time =
+        std::min(view.animation.time, static_cast<double>(scene.asset->num_poses()) - 1.0);
+    if (options.auto_exposure) {
+        view.tone_curve.exposure_ev = presenter.suitable_exposure_ev(view);
+    }
+    return view;
+}
+
+Presenter make_presenter(const Options& options, const Scene& scene) {
+    return {scene.asset, scene.bounds, scene.environment, options.limits, options.decoder};
+}
+
+}  // namespace paim::player

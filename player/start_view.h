@@ -1,0 +1,19 @@
+// The view that a command line asks for.
+#pragma once
+
+#include "player/options.h"
+#include "player/presenter.h"
+#include "player/scene.h"
+
+namespace paim::player {
+
+// The view file, if there is one, then the options over it. The camera shows all of the animation unless
+// either says otherwise. Errors: those of read_view().
+// aspect  width / height of the picture
+ViewState start_view(const Options& options, const Scene& scene, Presenter& presenter,
+                     float aspect);
+
+// The presenter of a scene within the options.
+Presenter make_presenter(const Options& options, const Scene& scene);
+
+}  // namespace paim::player
