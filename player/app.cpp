@@ -220,12 +220,18 @@ void App::draw() {
 void App::draw_picture(int width, int height) {
     const int samples =
         samples_that_fit(width, height, options_.window_samples(), gl::max_target_size());
+    // With one sample a pixel, radiance need not be kept.
+    const gl::TargetKind kind = samples == 1 ? gl::TargetKind::display : gl::TargetKind::radiance;
     if (!target_ || target_->width() != width * samples || target_->height() != height * samples) {
-        target_.emplace(width * samples, height * samples);
+        target_.emplace(width * samples, height * samples, kind);
     }
     session_->presenter().draw(session_->view, *target_);
     window_.bind();
-    tone_mapper_.draw(*target_, samples, Presenter::tone_curve(session_->view));
+    if (kind == gl::TargetKind::display) {
+        target_->show();
+    } else {
+        tone_mapper_.draw(*target_, samples, Presenter::tone_curve(session_->view));
+    }
 }
 
 PanelInfo App::panel_info() {

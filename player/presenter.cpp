@@ -277,9 +277,13 @@ void Presenter::draw(const ViewState& view, const gl::Target& target) {
     const auto aspect_of = [&](int columns) {
         return static_cast<float>(std::max(1, columns)) / static_cast<float>(height);
     };
-    const Frame limited = frame(view, view.limits);
+    const auto displayed = [&](Frame frame) {
+        if (target.kind() == gl::TargetKind::display) frame.display = tone_curve(view);
+        return frame;
+    };
+    const Frame limited = displayed(frame(view, view.limits));
     if (view.comparison == Comparison::none) return renderer_.draw(limited, aspect_of(width));
-    const Frame whole = frame(view, renderer_.most());
+    const Frame whole = displayed(frame(view, renderer_.most()));
     const bool wipe = view.comparison == Comparison::wipe;
     const int middle = wipe ? divided_at(view.split, width) : width / 2;
     glEnable(GL_SCISSOR_TEST);

@@ -44,7 +44,8 @@ class Presenter {
     // The light as the last view has set it.
     LightRig& light() { return rig_; }
 
-    // Draws the view into the target, linear radiance; both pictures of a comparison.
+    // Draws the view into the target, as linear radiance or display values; both pictures of a
+    // comparison.
     void draw(const ViewState& view, const gl::Target& target);
     // The same picture of width × height pixels, each the mean of samples × samples.
     Image render(const ViewState& view, int width, int height, int samples);

@@ -34,13 +34,16 @@ BackgroundRenderer::BackgroundRenderer()
 void BackgroundRenderer::set_environment(const Image& environment) {
     const int max_size = gl::max_texture_size();
     const bool fits = environment.width <= max_size && environment.height <= max_size;
-    upload(sharp_, smooth_if_small(fits ? environment
-                                        : fit_latlong(environment, max_size, max_size)));
+    upload(sharp_,
+           smooth_if_small(fits ? environment : fit_latlong(environment, max_size, max_size)));
     to_blur_ = environment;
 }
 
 void BackgroundRenderer::clear(const Frame& frame) const {
-    const Vec3f& color = frame.background.color;
+    Vec3f color = frame.background.color;
+    if (frame.display) {
+        for (float& channel : color) channel = frame.display->apply(channel) / 255.0f;
+    }
     glClearColor(color[0], color[1], color[2], 1.0f);
     glClearDepthf(1.0f);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
@@ -54,14 +57,14 @@ void BackgroundRenderer::draw(const Frame& frame, float aspect) {
         to_blur_.reset();
     }
     const float half_height = std::tan(0.5f * frame.camera.vertical_fov_rad);
-    program_.use();
-    program_.set("light_axes", Eigen::Matrix3f(frame.environment_from_world * frame.camera.axes()));
-    program_.set("half_extent", Eigen::Vector2f(half_height * aspect, half_height));
+    const gl::Program& program = program_.use(frame.display);
+    program.set("light_axes", Eigen::Matrix3f(frame.environment_from_world * frame.camera.axes()));
+    program.set("half_extent", Eigen::Vector2f(half_height * aspect, half_height));
     const PictureRegion& region = frame.region;
-    program_.set("region_corner", Eigen::Vector2f(region.left, region.bottom));
-    program_.set("region_size", Eigen::Vector2f(region.width, region.height));
-    program_.set("strength", frame.environment_strength);
-    program_.set_texture("environment", 0, blurred ? blurred_ : sharp_);
+    program.set("region_corner", Eigen::Vector2f(region.left, region.bottom));
+    program.set("region_size", Eigen::Vector2f(region.width, region.height));
+    program.set("strength", frame.environment_strength);
+    program.set_texture("environment", 0, blurred ? blurred_ : sharp_);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LEQUAL);  // the triangle lies on the far plane, at the depth that was cleared to
     triangle_.draw();

@@ -6,8 +6,8 @@
 #include "paim/image/image.h"
 #include "player/gl/data_texture.h"
 #include "player/gl/fullscreen.h"
-#include "player/gl/program.h"
 #include "player/render/frame.h"
+#include "player/render/picture_program.h"
 
 namespace paim::player {
 
@@ -27,7 +27,7 @@ class BackgroundRenderer {
     void draw(const Frame& frame, float aspect);
 
   private:
-    gl::Program program_;
+    PictureProgram program_;
     gl::FullscreenTriangle triangle_;
     gl::TextureHandle sharp_, blurred_;
     std::optional<Image> to_blur_;  // the map; empty: blurred_ is up to date
