@@ -71,7 +71,7 @@ void Presenter::set_asset(std::shared_ptr<const Asset> asset, const Bounds& reac
     colors_ = std::make_unique<SurfaceColors>(asset);
     pose_bounds_.emplace(*asset);
     path_.emplace(*asset);
-    decoders_.clear();
+    decoded_.clear();
     asset_ = std::move(asset);
     reach_ = reach;
     legend_.reset();
@@ -205,20 +205,18 @@ float Presenter::suitable_exposure_ev(const ViewState& view) {
     return auto_exposure_ev(radiance);
 }
 
-namespace {
-
-// Positions of a decoded pose, [3][V], in the scene.
-void to_scene(DecodedPose& pose) {
-    move_to_scene(pose.root, pose.positions, pose.num_following);
-}
-
-}  // namespace
-
-void Presenter::decode(const ViewState& view, size_t part, DecodedPose& pose) {
-    while (decoders_.size() < asset_->parts.size()) {
-        decoders_.emplace_back(asset_->parts[decoders_.size()]);
+const DecodedPose& Presenter::decoded(const ViewState& view, size_t part) {
+    while (decoded_.size() < asset_->parts.size()) {
+        decoded_.push_back({MeshDecoder(asset_->parts[decoded_.size()]), {}, {}, {}});
     }
-    decoders_[part].decode(time(view), view.limits, pose);
+    Decoded& decoded = decoded_[part];
+    if (decoded.time == time(view) && decoded.limits == view.limits) return decoded.pose;
+    decoded.decoder.decode(time(view), view.limits, decoded.pose);
+    DecodedPose& pose = decoded.pose;
+    move_to_scene(pose.root, pose.positions, pose.num_following);
+    decoded.time = time(view);
+    decoded.limits = view.limits;
+    return pose;
 }
 
 std::optional<PickedVertex> Presenter::pick(const ViewState& view, float x, float y, float aspect) {
@@ -227,12 +225,9 @@ std::optional<PickedVertex> Presenter::pick(const ViewState& view, float x, floa
         aspect *= 0.5f;
         x = x < 0.5f ? 2.0f * x : 2.0f * x - 1.0f;
     }
-    std::vector<DecodedPose> poses(asset_->parts.size());
     std::vector<PickSurface> surfaces;
-    for (size_t j = 0; j < poses.size(); ++j) {
-        decode(view, j, poses[j]);
-        to_scene(poses[j]);
-        surfaces.push_back({&asset_->parts[j].topology, poses[j].positions});
+    for (size_t j = 0; j < asset_->parts.size(); ++j) {
+        surfaces.push_back({&asset_->parts[j].topology, decoded(view, j).positions});
     }
     const auto hit = player::pick(ray_through_pixel(camera(view), x, y, aspect), surfaces);
     if (!hit) return std::nullopt;
@@ -240,17 +235,14 @@ std::optional<PickedVertex> Presenter::pick(const ViewState& view, float x, floa
 }
 
 Vec3f Presenter::position_of(const ViewState& view, const PickedVertex& vertex) {
-    DecodedPose pose;
-    decode(view, vertex.part, pose);
-    to_scene(pose);
+    const DecodedPose& pose = decoded(view, vertex.part);
     const size_t num_vertices = pose.positions.size() / 3;
     return {pose.positions[vertex.vertex], pose.positions[num_vertices + vertex.vertex],
             pose.positions[2 * num_vertices + vertex.vertex]};
 }
 
 std::vector<float> Presenter::transfer_of(const ViewState& view, const PickedVertex& vertex) {
-    DecodedPose pose;
-    decode(view, vertex.part, pose);
+    const DecodedPose& pose = decoded(view, vertex.part);
     const std::vector<float> local =
         vertex_transfer(pose.layout, pose.transfer, vertex.vertex, kLuminance);
     const bool follows = vertex.vertex < pose.num_following;

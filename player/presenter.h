@@ -86,7 +86,9 @@ class Presenter {
 
   private:
     void set_light(const ViewState& view);
-    void decode(const ViewState& view, size_t part, DecodedPose& pose);
+    // A part within the limits of the view, positions in the scene. Valid until the next call for this
+    // part.
+    const DecodedPose& decoded(const ViewState& view, size_t part);
     Frame frame(const ViewState& view, const DecodeLimits& limits);
     Bounds bounds(const ViewState& view, const std::vector<Instance>& instances);
     const PartColors& paint(const ViewState& view, const DecodeLimits& limits, double time);
@@ -105,7 +107,14 @@ class Presenter {
     LightRig rig_;
     SceneRenderer renderer_;
     std::unique_ptr<SurfaceColors> colors_;
-    std::vector<MeshDecoder> decoders_;  // one for each part, made at first use
+    // Of each part, made at first use: what was decoded last.
+    struct Decoded {
+        MeshDecoder decoder;
+        DecodedPose pose;
+        std::optional<double> time;
+        DecodeLimits limits;
+    };
+    std::vector<Decoded> decoded_;
     std::optional<PoseBoundsCache> pose_bounds_;
     std::optional<BodyPath> path_;
     std::optional<Legend> legend_;
