@@ -28,6 +28,23 @@ TEST_F(WindowFrameTest, PictureHasTheNewSize) {
     }
 }
 
+TEST_F(WindowFrameTest, MinimisedWindowIsNotDrawn) {
+    play(make_test_asset({}));
+    step(3);
+    user().minimise(true);
+    step(3);  // what was on its way
+    for (int i = 0; i < 3; ++i) EXPECT_FALSE(app().step());
+    const double time = view().animation.time;
+    user().minimise(false);
+    EXPECT_TRUE(step_until([&] { return app().step(); }));
+    EXPECT_NE(view().animation.time, time);
+    user().press("l");
+    user().press("space");
+    user().press("Tab");
+    settle();
+    EXPECT_LE(largest_difference(screen(), picture_of(view())), kRounding);
+}
+
 TEST_F(WindowFrameTest, EscapeEndsTheProgram) {
     play(make_test_asset({}));
     step(2);
