@@ -190,7 +190,7 @@ void App::say(const std::string& message) {
 
 bool App::is_visible() const {
     const auto [width, height] = window_.framebuffer_size();
-    return width > 0 && height > 0;
+    return !window_.is_minimised() && width > 0 && height > 0;
 }
 
 float App::aspect() const {

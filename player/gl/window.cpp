@@ -170,6 +170,10 @@ void Window::set_full_screen(bool full) {
     glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
 }
 
+bool Window::is_minimised() const {
+    return glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE;
+}
+
 bool Window::should_close() const {
     return glfwWindowShouldClose(window_) == GLFW_TRUE;
 }

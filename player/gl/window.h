@@ -43,6 +43,7 @@ class Window : public Context {
     void set_full_screen(bool full);
     bool is_full_screen() const;
 
+    bool is_minimised() const;
     bool should_close() const;
     void close();
 
@@ -50,7 +51,7 @@ class Window : public Context {
     void poll(double wait_s);
     void swap();
 
-    std::pair<int, int> framebuffer_size() const;  // pixels; 0 x 0 while minimised
+    std::pair<int, int> framebuffer_size() const;  // pixels; may be 0 x 0 while minimised
     int height() const;                            // screen coordinates, at least 1
     float content_scale() const;                   // 1 on ordinary displays, 2 on dense ones
 

@@ -88,6 +88,7 @@ void draw_picture(ViewState& view, PanelRequests& requests);
 void draw_surface(const PanelInfo& info, const ViewRange& range, ViewState& view);
 void draw_camera(const PanelInfo& info, ViewState& view, PanelRequests& requests);
 void draw_timeline(const ViewRange& range, float poses_per_second, ViewState& view);
+float timeline_height();  // screen coordinates
 void draw_legend(const PanelInfo& info);
 void draw_picked(const PanelInfo& info, ViewState& view);
 void draw_markers(const PanelInfo& info);
