@@ -38,16 +38,6 @@ bool is_scaled_to_fit(SurfaceView view) {
     return view == SurfaceView::coefficient || is_error_view(view);
 }
 
-float largest_of(const std::vector<std::vector<float>>& values) {
-    float largest = 0.0f;
-    for (const std::vector<float>& part : values) {
-        for (const float value : part) {
-            if (std::abs(value) > largest) largest = std::abs(value);
-        }
-    }
-    return largest;
-}
-
 int divided_at(double split, int width) {
     return std::clamp(static_cast<int>(split * width), 0, width);
 }
@@ -137,6 +127,21 @@ Bounds Presenter::bounds(const ViewState& view, const std::vector<Instance>& ins
     return bounds;
 }
 
+// Each copy plays as the view says: over again or there and back, with or without moments between poses.
+std::vector<Instance> Presenter::crowd(const ViewState& view) const {
+    const uint32_t num_poses = asset_->num_poses();
+    std::vector<Instance> crowd = make_crowd(view.num_instances, reach_, num_poses);
+    for (Instance& copy : crowd) {
+        if (copy.time_offset == 0.0) continue;
+        Animation own = view.animation;
+        own.playing = true;
+        own.speed = 1.0;
+        advance(own, num_poses, 1.0, copy.time_offset);
+        copy.time_offset = shown_time(own, num_poses) - time(view);
+    }
+    return crowd;
+}
+
 Frame Presenter::frame(const ViewState& view, const DecodeLimits& limits) {
     set_light(view);
     Frame frame;
@@ -144,7 +149,7 @@ Frame Presenter::frame(const ViewState& view, const DecodeLimits& limits) {
     frame.limits = limits;
     frame.light = rig_.coefficients(static_cast<int>(renderer_.most().bands));
     frame.edges = view.edges;
-    frame.instances = make_crowd(view.num_instances, reach_, asset_->num_poses());
+    frame.instances = crowd(view);
     frame.camera = camera(view);
     frame.bounds = bounds(view, frame.instances);
     frame.background = view.background;
@@ -163,36 +168,70 @@ Presenter::ScaleKey Presenter::scale_key(const ViewState& view) {
     return {view.surface, view.coefficient, view.channel, view.limits};
 }
 
+void Presenter::set_color_light() {
+    colors_->set_light(DistantLight(rig_.coefficients(static_cast<int>(renderer_.most().bands))));
+}
+
 const PartColors& Presenter::paint(const ViewState& view, const DecodeLimits& limits, double time) {
+    const SurfaceQuery query{.view = view.surface,
+                             .time = time,
+                             .limits = limits,
+                             .coefficient = view.coefficient,
+                             .channel = view.channel};
+    set_color_light();
+    const ColoredSurface& surface =
+        is_scaled_to_fit(view.surface) ? paint_scaled(view, query) : colors_->paint(query);
+    if (!legend_) legend_ = surface.legend;  // that of the first copy
+    return surface.colors;
+}
+
+// The first copy of a picture may make the scale larger, the others only that of the next picture.
+const ColoredSurface& Presenter::paint_scaled(const ViewState& view, SurfaceQuery query) {
+    if (!scale_ || scale_->key != scale_key(view)) {
+        scale_ = {scale_key(view), scale_of_all(view, view.num_instances > 1), false};
+    }
+    query.scale = legend_ ? legend_->highest : scale_->highest;
+    const ColoredSurface& surface = colors_->paint(query);
+    const float largest = largest_value(surface);
+    if (scale_->is_fixed || !(largest > scale_->highest)) return surface;
+    scale_->highest = largest;
+    if (legend_) return surface;
+    query.scale = largest;
+    return colors_->paint(query);
+}
+
+// The largest magnitude, over vertices that a face has.
+float Presenter::largest_value(const ColoredSurface& surface) {
+    float largest = 0.0f;
+    for (size_t part = 0; part < surface.values.size(); ++part) {
+        for (const uint32_t v : colors_->errors().counted(part)) {
+            largest = std::max(largest, std::abs(surface.values[part][v]));
+        }
+    }
+    return largest;
+}
+
+// Of all that a picture of this view shows, or all pictures; on both sides of a comparison.
+float Presenter::scale_of_all(const ViewState& view, bool at_all_times) {
     SurfaceQuery query{.view = view.surface,
-                       .time = time,
-                       .limits = limits,
+                       .time = time(view),
+                       .limits = view.limits,
                        .coefficient = view.coefficient,
                        .channel = view.channel};
-    colors_->set_light(DistantLight(rig_.coefficients(static_cast<int>(renderer_.most().bands))));
-    if (scale_ && scale_->first != scale_key(view)) scale_.reset();
-    if (scale_) query.scale = scale_->second;
-    const ColoredSurface* surface = &colors_->paint(query);
-    if (is_scaled_to_fit(view.surface)) {
-        const float largest = query.scale ? largest_of(surface->values) : surface->legend.highest;
-        if (!query.scale || largest > *query.scale) {
-            query.scale = largest;
-            surface = &colors_->paint(query);
-        }
-        scale_ = {scale_key(view), *query.scale};
-    }
-    if (!legend_) legend_ = surface->legend;  // that of the first instance
-    return surface->colors;
+    const auto largest = [&] {
+        return at_all_times ? colors_->sequence_scale(query) : colors_->paint(query).legend.highest;
+    };
+    const float limited = largest();
+    if (view.comparison == Comparison::none) return limited;
+    query.limits = renderer_.most();
+    return std::max(limited, largest());
 }
 
 void Presenter::fix_scale(const ViewState& view) {
     if (!is_scaled_to_fit(view.surface)) return;
     set_light(view);
-    colors_->set_light(DistantLight(rig_.coefficients(static_cast<int>(renderer_.most().bands))));
-    scale_ = {scale_key(view), colors_->sequence_scale({.view = view.surface,
-                                                        .limits = view.limits,
-                                                        .coefficient = view.coefficient,
-                                                        .channel = view.channel})};
+    set_color_light();
+    scale_ = {scale_key(view), scale_of_all(view, true), true};
 }
 
 float Presenter::suitable_exposure_ev(const ViewState& view) {

@@ -56,8 +56,9 @@ class Presenter {
 
     // What the colours of the view that was drawn last mean; nothing where it was lit.
     const Legend* legend() const { return legend_ ? &*legend_ : nullptr; }
-    // The largest value that a view with a scale has at any time, to give all pictures of a clip the
-    // same scale (SurfaceColors::sequence_scale()). Until the view shows something else.
+    // Gives all pictures from now on the same scale, that of the whole sequence
+    // (SurfaceColors::sequence_scale()). Values beyond it have the colours of its ends. Until the view
+    // shows something else.
     void fix_scale(const ViewState& view);
 
     Camera camera(const ViewState& view);
@@ -90,8 +91,10 @@ class Presenter {
     // part.
     const DecodedPose& decoded(const ViewState& view, size_t part);
     Frame frame(const ViewState& view, const DecodeLimits& limits);
+    std::vector<Instance> crowd(const ViewState& view) const;
     Bounds bounds(const ViewState& view, const std::vector<Instance>& instances);
     const PartColors& paint(const ViewState& view, const DecodeLimits& limits, double time);
+    const ColoredSurface& paint_scaled(const ViewState& view, SurfaceQuery query);
 
     // What a scale of colours belongs to.
     struct ScaleKey {
@@ -101,6 +104,14 @@ class Presenter {
         bool operator==(const ScaleKey&) const = default;
     };
     static ScaleKey scale_key(const ViewState& view);
+    struct Scale {
+        ScaleKey key;
+        float highest;
+        bool is_fixed;
+    };
+    float scale_of_all(const ViewState& view, bool at_all_times);
+    float largest_value(const ColoredSurface& surface);
+    void set_color_light();
 
     std::shared_ptr<const Asset> asset_;
     Bounds reach_;
@@ -118,8 +129,9 @@ class Presenter {
     std::optional<PoseBoundsCache> pose_bounds_;
     std::optional<BodyPath> path_;
     std::optional<Legend> legend_;
-    // The scale never shrinks while the same thing is shown, so that colours do not flicker.
-    std::optional<std::pair<ScaleKey, float>> scale_;
+    // Of the next picture: one picture has one scale. It never shrinks while the same thing is shown, so
+    // that colours do not flicker.
+    std::optional<Scale> scale_;
 };
 
 }  // namespace paim::player

@@ -26,11 +26,12 @@ void change(const Options& options, ViewState& view) {
 void frame(const Options& options, const Scene& scene, Presenter& presenter, float aspect,
            ViewState& view) {
     OrbitCamera& orbit = view.camera.orbit;
+    const Vec3d place = orbit.target;
     orbit = presenter.framed(view, aspect, false);
     if (options.camera) orbit.distance *= options.camera->distance_factor;
-    if (options.target && options.target->target == CameraTarget::point) {
-        orbit.target = scene.units.to_model(options.target->point);
-    }
+    if (view.camera.target != CameraTarget::point) return;
+    // That of the option, or else that of the view file.
+    orbit.target = options.target ? scene.units.to_model(options.target->point) : place;
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ struct PictureRegion {
 
 // One copy of the asset.
 struct Instance {
-    double time_offset = 0.0;      // in poses; the animation starts over after the last pose
+    double time_offset = 0.0;      // in poses from the time of the frame, up to ±(P−1)
     Vec3d offset = Vec3d::Zero();  // from where the asset stands, scene units
 };
 

@@ -103,26 +103,33 @@ class Reader {
         refuse(name, expected, *found);
     }
 
+    bool has(const char* name) const { return json_.contains(pointer_of(name)); }
+
     // Error where the file has a field that is none.
     void refuse_others() const {
-        const auto refuse_unknown = [&](const std::string& name) {
-            if (known_.contains(name)) return;
-            throw_bad_input("{}: unknown field '{}'", file_, name);
-        };
         for (const auto& [group, fields] : json_.items()) {
-            if (!fields.is_object()) {
-                refuse_unknown(group);
+            if (!fields.is_object() || !groups_.contains(group)) {
+                // Not "light.yaw_deg": that is {"light": {"yaw_deg": …}}.
+                refuse_unless(known_.contains(group) && group.find('.') == std::string::npos,
+                              group);
                 continue;
             }
-            for (const auto& [field, value] : fields.items()) refuse_unknown(group + "." + field);
+            for (const auto& [field, value] : fields.items()) {
+                const std::string name = group + "." + field;
+                refuse_unless(known_.contains(name), name);
+            }
         }
     }
 
   private:
     const ordered_json* find(const char* name) {
-        known_.insert(name);
-        const auto pointer = pointer_of(name);
-        return json_.contains(pointer) ? &json_.at(pointer) : nullptr;
+        const std::string path = name;
+        known_.insert(path);
+        groups_.insert(path.substr(0, path.find('.')));
+        return has(name) ? &json_.at(pointer_of(path)) : nullptr;
+    }
+    void refuse_unless(bool known, const std::string& name) const {
+        if (!known) throw_bad_input("{}: unknown field '{}'", file_, name);
     }
     double number_in(const ordered_json& json, const char* name, double lowest,
                      double highest) const {
@@ -138,13 +145,15 @@ class Reader {
     static std::string shortened(const ordered_json& json) {
         constexpr size_t kMost = 60;
         std::string text = json_text(json);
-        if (text.size() > kMost) text = text.substr(0, kMost) + "…";
-        return text;
+        if (text.size() <= kMost) return text;
+        size_t end = kMost;
+        while ((text[end] & 0xc0) == 0x80) --end;  // UTF-8: whole characters
+        return text.substr(0, end) + "…";
     }
 
     const ordered_json& json_;
     std::string file_;
-    std::set<std::string> known_;
+    std::set<std::string> known_, groups_;  // names of fields, and their first parts
 };
 
 ordered_json parse(const std::filesystem::path& path) {
@@ -196,6 +205,14 @@ void read_view(const std::filesystem::path& path, const SceneUnits& units, ViewS
     visit_fields(scene, reader);
     reader.refuse_others();
     to_model(scene, units);
+    // Not converted there and back: what the camera looks at may have become another kind of place.
+    const OrbitCamera& before = view.camera.orbit;
+    OrbitCamera& orbit = scene.camera.orbit;
+    if (!reader.has("camera.place")) orbit.target = before.target;
+    if (!reader.has("camera.distance")) {
+        orbit.distance = before.distance;
+        orbit.framed_distance = before.framed_distance;
+    }
     view = scene;
 }
 
