@@ -22,8 +22,10 @@ Target::Target(int width, int height, TargetKind kind)
     glBindRenderbuffer(GL_RENDERBUFFER, depth_.id());
     glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, width, height);
     glBindTexture(GL_TEXTURE_2D, color_.id());
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    // Display values are shown at any size; floats cannot be filtered everywhere.
+    const GLint filter = kind == TargetKind::display ? GL_LINEAR : GL_NEAREST;
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color_.id(), 0);
@@ -82,6 +84,17 @@ Image Target::read() const {
     }
     check_errors("reading the picture back");
     return image;
+}
+
+void clear(const Vec3f& color) {
+    glClearColor(color[0], color[1], color[2], 1.0f);
+    // The function of floats is OpenGL ES's, which OpenGL has from 4.1 on.
+    if (epoxy_is_desktop_gl()) {
+        glClearDepth(1.0);
+    } else {
+        glClearDepthf(1.0f);
+    }
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
 }  // namespace paim::player::gl

@@ -43,4 +43,7 @@ class Target {
     FramebufferHandle framebuffer_;
 };
 
+// Fills what is drawn into, as far as no scissor keeps it, with a colour and the farthest depth.
+void clear(const Vec3f& color);
+
 }  // namespace paim::player::gl

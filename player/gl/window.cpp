@@ -79,7 +79,8 @@ void Window::install_callbacks() {
     glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int modifiers) {
         of(window).tell();
         const auto& on_key = of(window).events_.on_key;
-        if (action != GLFW_RELEASE && on_key) on_key(key, (modifiers & GLFW_MOD_SHIFT) != 0);
+        if (action == GLFW_RELEASE || !on_key) return;
+        on_key(key, (modifiers & GLFW_MOD_SHIFT) != 0, action == GLFW_REPEAT);
     });
     glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** names) {
         of(window).tell();

@@ -16,7 +16,8 @@ enum class MouseButton { left, right, middle };
 
 // What the window calls when something happens. Positions and movements in screen coordinates.
 struct WindowEvents {
-    std::function<void(int glfw_key, bool shift)> on_key;  // pressed, or repeated
+    // repeated  held for a while, rather than pressed
+    std::function<void(int glfw_key, bool shift, bool repeated)> on_key;
     // ctrl  whether a Ctrl key is held
     std::function<void(MouseButton button, bool ctrl, double dx, double dy)> on_drag;
     // The left button was pressed and released in one place. x, y  0 … 1 from the upper left corner

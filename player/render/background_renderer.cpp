@@ -5,6 +5,7 @@
 
 #include "paim/image/area_average.h"
 #include "player/gl/check.h"
+#include "player/gl/target.h"
 #include "player/light/blur_latlong.h"
 #include "player/shaders/sources.h"
 
@@ -28,14 +29,19 @@ void upload(const gl::TextureHandle& texture, const Image& image) {
 
 BackgroundRenderer::BackgroundRenderer()
     : program_("background", shaders::fullscreen_vert, shaders::background_frag) {
-    set_environment(Image(1, 1));
+    set_environment(EnvironmentLight(Image(1, 1)));
 }
 
-void BackgroundRenderer::set_environment(const Image& environment) {
+void BackgroundRenderer::set_environment(const EnvironmentLight& environment) {
+    const Image& map = environment.image();
     const int max_size = gl::max_texture_size();
-    const bool fits = environment.width <= max_size && environment.height <= max_size;
-    upload(sharp_,
-           smooth_if_small(fits ? environment : fit_latlong(environment, max_size, max_size)));
+    if (map.width > max_size || map.height > max_size) {
+        upload(sharp_, fit_latlong(map, max_size, max_size));
+    } else if (map.width < kSmoothWidth || map.height < kSmoothHeight) {
+        upload(sharp_, smooth_if_small(map));
+    } else {
+        upload(sharp_, map);
+    }
     to_blur_ = environment;
 }
 
@@ -44,16 +50,14 @@ void BackgroundRenderer::clear(const Frame& frame) const {
     if (frame.display) {
         for (float& channel : color) channel = frame.display->apply(channel) / 255.0f;
     }
-    glClearColor(color[0], color[1], color[2], 1.0f);
-    glClearDepthf(1.0f);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    gl::clear(color);
 }
 
 void BackgroundRenderer::draw(const Frame& frame, float aspect) {
     if (frame.background.kind == Background::Kind::color) return;
     const bool blurred = frame.background.kind == Background::Kind::blurred;
     if (blurred && to_blur_) {
-        upload(blurred_, blur_latlong(*to_blur_, kBlur_deg));
+        upload(blurred_, blur_latlong(to_blur_->image(), kBlur_deg));
         to_blur_.reset();
     }
     const float half_height = std::tan(0.5f * frame.camera.vertical_fov_rad);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "paim/codec/playback.h"
 #include "player/render/vertex_source.h"
@@ -18,9 +19,10 @@ class CpuVertices : public VertexSource {
 
   private:
     void write(double time, const DecodeLimits& limits, const LightCoefficients* light,
-               Changes changes, std::span<SurfaceMesh> parts) override;
+               std::span<const Changes> changes, std::span<SurfaceMesh> parts) override;
 
     Playback playback_;
+    std::vector<Vec3f> light_;  // that the playback has
     DecodeLimits most_;
 };
 

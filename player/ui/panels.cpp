@@ -20,8 +20,8 @@ bool section(const char* title, bool open) {
     return ImGui::CollapsingHeader(title, open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
 }
 
-void draw_main(const PanelInfo& info, const ViewRange& range, PanelRequests& requests,
-               ViewState& view) {
+void draw_main(const PanelInfo& info, const ViewRange& range, PanelState& state,
+               PanelRequests& requests, ViewState& view) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     const float highest = size.y - 3.0f * panel_margin() - timeline_height();
     ImGui::SetNextWindowSizeConstraints(ImVec2(0.0f, 0.0f), ImVec2(size.x, highest));
@@ -30,12 +30,13 @@ void draw_main(const PanelInfo& info, const ViewRange& range, PanelRequests& req
         ImGui::PushItemWidth(11.0f * ImGui::GetFontSize());
         if (section("Accuracy", true)) draw_accuracy(info, range, view);
         if (section("Surface", true)) draw_surface(info, range, view);
-        if (section("Light", false)) draw_light(info, view);
+        state.light_is_open = section("Light", false);
+        if (state.light_is_open) draw_light(info, view);
         if (section("Picture", false)) draw_picture(view, requests);
         if (section("Camera and files", false)) draw_camera(info, view, requests);
         ImGui::PopItemWidth();
         dim_text(info.renderer);
-        dim_text(info.decoder);
+        note_text(info.decoder);
         dim_text("H: keys, Tab: no panels");
     }
     ImGui::End();
@@ -56,7 +57,7 @@ PanelRequests draw_panels(const PanelInfo& info, const ViewRange& range, PanelSt
                           ViewState& view) {
     PanelRequests requests;
     if (state.show_panels) {
-        draw_main(info, range, requests, view);
+        draw_main(info, range, state, requests, view);
         draw_timeline(range, info.poses_per_second, view);
         draw_legend(info);
         draw_picked(info, view);

@@ -8,7 +8,7 @@ namespace paim::player {
 
 namespace {
 
-// "2.1 % of the bake", or in words why it is not known.
+// A share of the bake, or in words that it is not known.
 std::string error_text(const std::optional<double>& total) {
     return total ? percent(*total) : "not stated";
 }
@@ -40,7 +40,7 @@ void draw_errors(const Accuracy& accuracy) {
 }
 
 void draw_costs(const PanelInfo& info) {
-    const Cost& cost = info.accuracy.cost;
+    const Cost& cost = info.cost;
     if (!ImGui::BeginTable("costs", 2)) return;
     const auto row = [](const char* what, const std::string& value) {
         ImGui::TableNextColumn();
@@ -81,7 +81,12 @@ void draw_accuracy(const PanelInfo& info, const ViewRange& range, ViewState& vie
     if (view.comparison == Comparison::wipe) {
         number_slider("split", view.split, 0.0, 1.0, "%.2f");
     }
-    draw_errors(info.accuracy);
+    if (info.accuracy) {
+        draw_errors(*info.accuracy);
+        if (!info.accuracy_note.empty()) note_text(info.accuracy_note);
+    } else {
+        dim_text("errors: once the whole file is there");
+    }
     draw_costs(info);
 }
 
