@@ -168,8 +168,8 @@ void App::carry_out(WindowCommand command) {
 void App::open(const std::filesystem::path& path) {
     try {
         history_.reset();
-        clip_.reset();
         say(session_->open(path, aspect()));
+        clip_.reset();
         window_.set_title(session_->model_path().filename().string() + " - paim-play");
         panels_.recent = add_recent_file(path);
     } catch (const Error& error) {
@@ -375,6 +375,8 @@ void App::record() {
             clip_seconds(session_->view, session_->range().num_poses, poses_per_second));
         clip_.emplace(free_name("-clip"), session_->model_path().stem().string(), length,
                       session_->view, window_.framebuffer_size(), options_.file_samples());
+        say(fmt::format("recording {} pictures into {}; F9 stops", clip_->num_frames(),
+                        clip_->directory().string()));
     } catch (const Error& error) {
         say(error.what());
     }
