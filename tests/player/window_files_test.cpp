@@ -133,13 +133,11 @@ TEST_F(WindowFilesTest, SavedViewShowsTheSamePicture) {
         press(key);
     }
     const ScreenPicture shown = screen();
-    user().press("d");
-    user().press("Escape");
-    app().run();
+    press("d");
     play(asset, {"--view", "model-001-view.json", "--save-view", "last.json"});
     press("Tab");
     EXPECT_LE(largest_difference(screen(), shown), kRounding);
-    user().press("Escape");
+    app().window().close();
     app().run();
     EXPECT_EQ(read_file("last.json", 1 << 16), read_file("model-001-view.json", 1 << 16));
 }
@@ -148,7 +146,9 @@ TEST_F(WindowFilesTest, SavedViewShowsTheSamePicture) {
 TEST_F(WindowFilesTest, RecordsAClip) {
     show(make_test_asset({}), {"--supersample", "1"});
     user().press("F9");
-    EXPECT_TRUE(step_until([&] { return !app().message().empty(); }));
+    app().window().poll(0.0);
+    EXPECT_EQ(app().message(), "recording 6 pictures into model-001-clip; F9 stops");
+    EXPECT_TRUE(step_until([&] { return app().message().starts_with("saved"); }));
     EXPECT_EQ(app().message(), "saved 6 pictures in model-001-clip");
     settle();
     ASSERT_EQ(num_files("model-001-clip"), 6u);
@@ -167,6 +167,11 @@ TEST_F(WindowFilesTest, RecordsAClip) {
     EXPECT_EQ(app().message(), "stopped: 3 pictures in model-002-clip");
     settle();
     EXPECT_EQ(num_files("model-002-clip"), 3u);
+    // A file that cannot be opened does not end it.
+    user().press("F9");
+    app().step();
+    drop({directory_ / "missing.paim"});
+    EXPECT_EQ(num_files("model-003-clip"), 24u);
 }
 
 }  // namespace

@@ -106,7 +106,7 @@ void WindowTest::show(const Asset& asset, const std::vector<std::string>& argume
 }
 
 void WindowTest::settle() {
-    constexpr int kMost = 1000;
+    constexpr int kMost = 200;
     for (int i = 0; i < kMost; ++i) {
         if (!app_->step()) return;
     }

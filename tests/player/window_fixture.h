@@ -52,13 +52,13 @@ class WindowTest : public testing::Test {
     // Steps until nothing is redrawn.
     void settle();
     void step(int count);
-    // Whether the condition holds after some step.
+    // Whether the condition holds after some step. Gives up when the window has come to rest.
     template <typename Condition>
     bool step_until(const Condition& condition) {
-        constexpr int kMost = 20000;
-        for (int i = 0; i < kMost; ++i) {
+        constexpr int kMost = 20000, kMostIdle = 50;
+        for (int i = 0, num_idle = 0; i < kMost && num_idle < kMostIdle; ++i) {
             if (condition()) return true;
-            app_->step();
+            num_idle += app_->step() ? 0 : 1;
         }
         return false;
     }

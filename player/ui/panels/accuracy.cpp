@@ -32,10 +32,11 @@ void draw_errors(const Accuracy& accuracy) {
     error_row("positions", accuracy.position_total, accuracy.position_dropped);
     ImGui::EndTable();
     if (accuracy.transfer.theory_error) {
-        note_text(fmt::format(
-            "theory (E5): transfer {}, positions {}", percent(*accuracy.transfer.theory_error),
-            accuracy.geometry.theory_error ? percent(*accuracy.geometry.theory_error)
-                                           : "not known"));
+        dim_text(fmt::format("theory (E5): transfer {}\n             positions {}",
+                             percent(*accuracy.transfer.theory_error),
+                             accuracy.geometry.theory_error
+                                 ? percent(*accuracy.geometry.theory_error)
+                                 : "not known"));
     }
 }
 
