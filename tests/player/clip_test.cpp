@@ -139,6 +139,22 @@ TEST_F(ClipTest, KeepsTheScaleOfColours) {
     }
 }
 
+// The scale of one picture is one, on both sides of a comparison: another picture of the same has it, too.
+TEST_F(ClipTest, HasOneScaleInAComparison) {
+    const Options options = parse({"--surface", "coefficient", "--compare", "wipe"});
+    for (const uint32_t coefficient : {0u, 1u, 2u, 3u, 5u, 8u}) {
+        Presenter presenter = make_presenter(options, scene_);
+        ViewState view = start_view(options, scene_, presenter, kClipAspect);
+        view.coefficient = coefficient;
+        view.limits.transfer_components = 0;
+        const Image first = presenter.render(view, kClipWidth, kClipHeight, 1);
+        const float scale = presenter.legend()->highest;
+        const Image again = presenter.render(view, kClipWidth, kClipHeight, 1);
+        EXPECT_EQ(presenter.legend()->highest, scale) << coefficient;
+        EXPECT_EQ(first.pixels, again.pixels) << coefficient;
+    }
+}
+
 TEST_F(ClipTest, StartsWithAllThatMoves) {
     const ViewState view = start({});
     ViewState expected;

@@ -37,7 +37,7 @@
 namespace paim::player {
 namespace {
 
-constexpr int kPictureWidth = 120, kPictureHeight = 90;
+constexpr int kPictureWidth = 240, kPictureHeight = 180;
 constexpr int kCrowdWidth = 320, kCrowdHeight = 240;  // copies are small
 constexpr float kPictureAspect = float{kPictureWidth} / kPictureHeight;
 constexpr uint32_t kBands = 4, kNumPoses = 4;
@@ -438,27 +438,6 @@ TEST_F(PresentedPictures, ShowErrorsOfTheTransfer) {
                     what);
         EXPECT_NEAR(presenter.legend()->highest, numbers.largest, 1e-4f * numbers.largest);
     });
-}
-
-// The scale of one picture is one: of both halves of a comparison, and of all copies.
-TEST_F(PresentedPictures, HaveOneScaleOfColours) {
-    for (const Decoder decoder : kDecoders) {
-        for (const bool crowd : {false, true}) {
-            ViewState view = black_view(0.0);
-            view.surface = SurfaceView::coefficient;
-            view.coefficient = 2;
-            view.num_instances = crowd ? 4 : 1;
-            view.comparison = crowd ? Comparison::none : Comparison::wipe;
-            view.limits.transfer_components = crowd ? DecodeLimits().transfer_components : 0;
-            Presenter presenter = make(sequence(0), 0, decoder, make_sky());
-            view.camera.orbit = presenter.framed(view, kPictureAspect, false);
-            const Image first = presenter.render(view, kPictureWidth, kPictureHeight, 1);
-            const float scale = presenter.legend()->highest;
-            const Image again = presenter.render(view, kPictureWidth, kPictureHeight, 1);
-            EXPECT_EQ(presenter.legend()->highest, scale) << crowd;
-            EXPECT_EQ(first.pixels, again.pixels) << crowd;
-        }
-    }
 }
 
 // Four copies, each at its place and in its own time.
