@@ -289,7 +289,7 @@ void App::toggle_recording() {
     if (recorder_.is_recording()) {
         say(recorder_.stop());
     } else if (is_visible()) {
-        recorder_.start(*session_, window_.framebuffer_size(), options_.file_samples());
+        say(recorder_.start(*session_, window_.framebuffer_size(), options_.file_samples()));
     }
 }
 

@@ -48,12 +48,14 @@ std::optional<float> Recorder::progress() const {
     return static_cast<float>(clip_->num_written()) / static_cast<float>(clip_->num_frames());
 }
 
-void Recorder::start(Session& session, std::pair<int, int> size, int samples) {
+std::string Recorder::start(Session& session, std::pair<int, int> size, int samples) {
     const double poses_per_second = double{session.asset().frames_per_second};
     const ClipLength length = clip_length(
         poses_per_second, clip_seconds(session.view, session.range().num_poses, poses_per_second));
     clip_.emplace(free_name(session, "-clip"), session.model_path().stem().string(), length,
                   session.view, size, samples);
+    return fmt::format("recording {} pictures into {}; F9 stops", clip_->num_frames(),
+                       clip_->directory().string());
 }
 
 std::string Recorder::stop() {

@@ -28,7 +28,8 @@ class Recorder {
     // Share of the pictures that are written.
     std::optional<float> progress() const;
 
-    void start(Session& session, std::pair<int, int> size, int samples);
+    // Returns what to say.
+    std::string start(Session& session, std::pair<int, int> size, int samples);
     // Ends it; the pictures so far stay. Returns what to say.
     std::string stop();
     // Returns what to say when the last picture has been written, before that nothing.

@@ -131,8 +131,8 @@ TEST_F(ClipTest, KeepsTheScaleOfColours) {
         bool more = true;
         while (more) {
             more = writer.write_next(presenter);
-            ASSERT_NE(presenter.legend(), nullptr);
-            scales.insert(presenter.legend()->highest);
+            ASSERT_NE(presenter.painter().legend(), nullptr);
+            scales.insert(presenter.painter().legend()->highest);
         }
         EXPECT_EQ(scales.size(), 1u) << surface;
         EXPECT_GT(*scales.begin(), 0.0f) << surface;
@@ -148,9 +148,9 @@ TEST_F(ClipTest, HasOneScaleInAComparison) {
         view.coefficient = coefficient;
         view.limits.transfer_components = 0;
         const Image first = presenter.render(view, kClipWidth, kClipHeight, 1);
-        const float scale = presenter.legend()->highest;
+        const float scale = presenter.painter().legend()->highest;
         const Image again = presenter.render(view, kClipWidth, kClipHeight, 1);
-        EXPECT_EQ(presenter.legend()->highest, scale) << coefficient;
+        EXPECT_EQ(presenter.painter().legend()->highest, scale) << coefficient;
         EXPECT_EQ(first.pixels, again.pixels) << coefficient;
     }
 }

@@ -104,7 +104,7 @@ ViewState view_of(uint32_t i) {
 class LongRun : public testing::TestWithParam<Decoder> {
   protected:
     static Presenter make(const std::shared_ptr<const Asset>& asset) {
-        return {asset, sequence_bounds(*asset), EnvironmentLight(make_sky()), {}, GetParam()};
+        return {asset, sequence_bounds(*asset), EnvironmentLight(make_sky()), {}, {}, GetParam()};
     }
 
     std::unique_ptr<gl::Context> context_ = gl::make_headless_context();
@@ -119,7 +119,7 @@ TEST_P(LongRun, OpensModelsOneAfterTheOther) {
     int64_t resident = 0;
     for (uint32_t i = 0; i < kNumModels; ++i) {
         const std::shared_ptr<const Asset> asset = model(i % kCycle);
-        presenter.set_asset(asset, sequence_bounds(*asset), {});
+        presenter.set_asset(asset, sequence_bounds(*asset), {}, {});
         for (uint32_t frame = 0; frame < 3; ++frame) presenter.draw(view_of(3 * i + frame), target);
         // Nobody else keeps the model before.
         EXPECT_LE(asset.use_count(), 10);

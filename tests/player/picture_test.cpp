@@ -197,7 +197,7 @@ class PresentedPictures : public testing::Test {
     Presenter make(const Sequence& shown, size_t codec, Decoder decoder,
                    const Image& environment) const {
         const auto& asset = shown.assets[codec];
-        return {asset, sequence_bounds(*asset), EnvironmentLight(environment), {}, decoder};
+        return {asset, sequence_bounds(*asset), EnvironmentLight(environment), {}, {}, decoder};
     }
 
     static ViewState black_view(double time) {
@@ -369,8 +369,8 @@ TEST_F(PresentedPictures, ShowCoefficientsOfTheTransfer) {
                                                     {Instance{}}, colors, kBehind);
             expect_same(expected, presenter.render(view, kPictureWidth, kPictureHeight, 1), kBehind,
                         fmt::format("{} {}", what, coefficient));
-            ASSERT_NE(presenter.legend(), nullptr);
-            EXPECT_FLOAT_EQ(presenter.legend()->highest, numbers.largest);
+            ASSERT_NE(presenter.painter().legend(), nullptr);
+            EXPECT_FLOAT_EQ(presenter.painter().legend()->highest, numbers.largest);
         }
     });
 }
@@ -436,7 +436,8 @@ TEST_F(PresentedPictures, ShowErrorsOfTheTransfer) {
                                                 {Instance{}}, colors, kBehind);
         expect_same(expected, presenter.render(view, kPictureWidth, kPictureHeight, 1), kBehind,
                     what);
-        EXPECT_NEAR(presenter.legend()->highest, numbers.largest, 1e-4f * numbers.largest);
+        EXPECT_NEAR(presenter.painter().legend()->highest, numbers.largest,
+                    1e-4f * numbers.largest);
     });
 }
 

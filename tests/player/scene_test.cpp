@@ -57,8 +57,8 @@ class SceneTest : public testing::TestWithParam<Way> {
         gl::report_driver_messages();
     }
     SceneRenderer make_renderer(const Asset& asset, const EnvironmentLight& environment) const {
-        SceneRenderer renderer(std::make_shared<const Asset>(asset), {}, GetParam().decoder);
-        renderer.set_environment(environment.image());
+        SceneRenderer renderer(std::make_shared<const Asset>(asset), {}, {}, GetParam().decoder);
+        renderer.set_environment(environment);
         return renderer;
     }
     std::unique_ptr<gl::Context> context_;
@@ -264,7 +264,7 @@ TEST_P(SceneTest, LargePicturesAreDrawnInTiles) {
 TEST_P(SceneTest, EnvironmentsAreReplaced) {
     const Asset asset = make_empty_asset();
     SceneRenderer renderer = make_renderer(asset, EnvironmentLight(make_environment()));
-    renderer.set_environment(Image(1, 1, Vec3f(0.5f, 0.25f, 4.0f)));
+    renderer.set_environment(EnvironmentLight(Image(1, 1, Vec3f(0.5f, 0.25f, 4.0f))));
     const Image after = renderer.render({}, kWidth, kHeight, 1);
     for (const Vec3f& pixel : after.pixels) ASSERT_EQ(pixel, Vec3f(0.5f, 0.25f, 4.0f));
 }

@@ -207,7 +207,7 @@ std::pair<double, double> WindowTest::place_of(const PickedVertex& vertex) {
     const auto [width, height] = app().window().framebuffer_size();
     const std::optional<Vec3f> place =
         project(presenter().camera(view()), static_cast<float>(width) / static_cast<float>(height),
-                presenter().position_of(view(), vertex));
+                presenter().probe().position(presenter().time(view()), view().limits, vertex));
     if (!place) return {-1.0, -1.0};
     return {double{place->x()} * width, double{place->y()} * height};
 }

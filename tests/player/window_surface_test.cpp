@@ -154,9 +154,9 @@ TEST_P(WindowSurfaceTest, HeatMapOfAllComponentsIsZero) {
     ASSERT_EQ(view().surface, SurfaceView::transfer_error);
     const CodedMesh& mesh = presenter().asset().moving();
     EXPECT_GE(expect_colors({mesh.topology.num_vertices, heat_color(0.0f)}), 10);
-    ASSERT_NE(presenter().legend(), nullptr);
-    EXPECT_EQ(presenter().legend()->worst->value, 0.0f);
-    EXPECT_NE(presenter().legend()->note.find("every error is zero"), std::string::npos);
+    ASSERT_NE(presenter().painter().legend(), nullptr);
+    EXPECT_EQ(presenter().painter().legend()->worst->value, 0.0f);
+    EXPECT_NE(presenter().painter().legend()->note.find("every error is zero"), std::string::npos);
 }
 
 TEST_P(WindowSurfaceTest, CoefficientIsRedAndBlue) {
@@ -198,12 +198,13 @@ TEST_P(WindowSurfaceTest, LegendAndWorstVertexAreShown) {
     show(make_asset(), {"--size", "760x560"});
     for (int i = 0; i < 4; ++i) press("bracketleft");
     for (int i = 0; i < 3; ++i) press("v", true);
-    ASSERT_NE(presenter().legend(), nullptr);
-    ASSERT_TRUE(presenter().legend()->worst);
-    const PickedVertex worst{presenter().legend()->worst->part,
-                             presenter().legend()->worst->vertex};
+    ASSERT_NE(presenter().painter().legend(), nullptr);
+    ASSERT_TRUE(presenter().painter().legend()->worst);
+    const PickedVertex worst{presenter().painter().legend()->worst->part,
+                             presenter().painter().legend()->worst->vertex};
     // Between the panels.
-    view().camera.orbit.target = presenter().position_of(view(), worst).cast<double>();
+    view().camera.orbit.target =
+        presenter().probe().position(presenter().time(view()), view().limits, worst).cast<double>();
     drag({380, 280}, {420, 310}, 3);
     settle();
     const auto [x, y] = place_of(worst);
