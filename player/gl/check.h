@@ -13,7 +13,7 @@ void check_errors(std::string_view doing);
 // Prints a message on stderr.
 void print_driver_message(std::string_view message);
 
-// From now on hands the driver's error messages on, with the call's place on the stack, where the
+// From now on hands the driver's error messages on, where the
 // context has KHR_debug. What a debug build or a test wants; otherwise costs nothing.
 void report_driver_messages(
     std::function<void(std::string_view message)> report = print_driver_message);

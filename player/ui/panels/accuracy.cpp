@@ -73,7 +73,7 @@ void draw_accuracy(const PanelInfo& info, const ViewRange& range, ViewState& vie
     count_slider("geometry components", view.limits.geometry_components, 0,
                  most.geometry_components);
     count_slider("bands", view.limits.bands, 1, most.bands);
-    const char* const kComparisons[] = {"not compared", "wipe", "side by side"};
+    const char* const kComparisons[] = {"not shown", "wipe", "side by side"};
     auto comparison = static_cast<size_t>(view.comparison);
     if (choice("whole file", comparison, std::size(kComparisons),
                [&](size_t i) { return kComparisons[i]; })) {

@@ -1,4 +1,4 @@
-// Files to open: those of a folder, and those of late.
+// Files to open: those of a folder, and those opened last.
 #include <algorithm>
 #include <system_error>
 
