@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "player/light/auto_exposure.h"
 #include "player/render/codec_words.h"
 
 namespace paim::player {
@@ -51,7 +52,8 @@ void change_gamma(ViewState& view, const ViewRange&) {
 template <int kSteps>
 void change_exposure(ViewState& view, const ViewRange&) {
     float& exposure_ev = view.tone_curve.exposure_ev;
-    exposure_ev = std::clamp(exposure_ev + kSteps * kExposureStep, -30.0f, 30.0f);
+    exposure_ev =
+        std::clamp(exposure_ev + kSteps * kExposureStep, -kLargestExposure_ev, kLargestExposure_ev);
 }
 
 void next_tone_operator(ViewState& view, const ViewRange&) {

@@ -1,6 +1,7 @@
 // The table of view_fields.h, written and read.
 #include "player/view/view_file.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -41,7 +42,9 @@ struct Writer {
     void number(const char* name, const Number& value, double, double) {
         json[pointer_of(name)] = value;
     }
-    void count(const char* name, uint32_t value, uint32_t) { json[pointer_of(name)] = value; }
+    void count(const char* name, uint32_t value, uint32_t, uint32_t) {
+        json[pointer_of(name)] = value;
+    }
     void flag(const char* name, bool value) { json[pointer_of(name)] = value; }
     template <typename Vector>
     void vector(const char* name, const Vector& value, double, double) {
@@ -63,11 +66,12 @@ class Reader {
         if (found == nullptr) return;
         value = static_cast<Number>(number_in(*found, name, lowest, highest));
     }
-    void count(const char* name, uint32_t& value, uint32_t highest) {
+    void count(const char* name, uint32_t& value, uint32_t lowest, uint32_t highest) {
         const ordered_json* const found = find(name);
         if (found == nullptr) return;
-        if (!found->is_number_unsigned() || found->get<uint64_t>() > highest) {
-            refuse(name, "a whole number from 0 to " + std::to_string(highest), *found);
+        const bool is_count = found->is_number_unsigned();
+        if (!is_count || found->get<uint64_t>() < lowest || found->get<uint64_t>() > highest) {
+            refuse(name, fmt::format("a whole number from {} to {}", lowest, highest), *found);
         }
         value = found->get<uint32_t>();
     }
@@ -204,6 +208,10 @@ void read_view(const std::filesystem::path& path, const SceneUnits& units, ViewS
     Reader reader(json, path.string());
     visit_fields(scene, reader);
     reader.refuse_others();
+    if (scene.tone_curve.gamma != 0.0f && scene.tone_curve.gamma < kLowestGamma) {
+        throw_bad_input("{}: display.gamma: expected 0 or a number from {} to {}, got {}",
+                        path.string(), kLowestGamma, kHighestGamma, scene.tone_curve.gamma);
+    }
     to_model(scene, units);
     // Not converted there and back: what the camera looks at may have become another kind of place.
     const OrbitCamera& before = view.camera.orbit;

@@ -122,9 +122,10 @@ struct WrongValues {
         fields.push_back({name, kinds({"true", R"("1")", "[1]"})});
         beyond(lowest, highest, "{}");
     }
-    void count(const char* name, uint32_t, uint32_t highest) {
+    void count(const char* name, uint32_t, uint32_t lowest, uint32_t highest) {
         fields.push_back({name, kinds({"true", R"("1")", "[1]", "-1", "0.5", "1e300"})});
         fields.back().wrong.push_back(std::to_string(uint64_t{highest} + 1));
+        if (lowest > 0) fields.back().wrong.push_back(std::to_string(lowest - 1));
     }
     void flag(const char* name, bool) {
         fields.push_back({name, kinds({"0", "1", R"("true")", "[true]"})});
@@ -344,6 +345,16 @@ TEST_P(ViewUnits, LeaveAPlaceThatTheFileDoesNotHave) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, ViewUnits, testing::Values(1e-6, 1.0, 1e6));
+
+// As the option.
+TEST_F(ViewFile, RefusesGammaBetweenTheSrgbCurveAndTheLowestPower) {
+    for (const char* gamma : {"0.05", "1e-30"}) {
+        write(std::string(R"({"display": {"gamma": )") + gamma + "}}");
+        ViewState view;
+        EXPECT_THROW(read_view(path_, kSame, view), Error) << gamma;
+        EXPECT_EQ(view, ViewState());
+    }
+}
 
 }  // namespace
 }  // namespace paim::player
