@@ -24,15 +24,18 @@ void change(const Options& options, ViewState& view) {
     view.camera.orbit.elevation_rad = options.camera->elevation_rad;
 }
 
-// Cameras are of floats.
-void require_usable(const OrbitCamera& orbit) {
+// Cameras are of floats: one that is far away stands on what it looks at.
+void require_usable(const OrbitCamera& orbit, const Options& options) {
     const Camera camera = orbit.camera();
     const bool usable = camera.eye.allFinite() && camera.target.allFinite() &&
                         (camera.eye - camera.target).norm() > 0.0f;
     if (usable) return;
+    if (!options.target && options.view_path) {
+        throw_bad_input("{}: camera.place and camera.distance: not within numbers of 32 bits",
+                        options.view_path->string());
+    }
     throw_usage(
-        "--camera-target or --view: the camera is too far from the model or too near what it looks "
-        "at for numbers of single precision");
+        "--camera-target: expected a point near the model, got one beyond numbers of 32 bits");
 }
 
 }  // namespace
@@ -65,7 +68,7 @@ ViewState start_view(const Options& options, const Scene& scene, Presenter& pres
     view.coefficient = std::min(view.coefficient, num_coefficients - 1);
     view.animation.time =
         std::min(view.animation.time, static_cast<double>(scene.asset->num_poses()) - 1.0);
-    require_usable(view.camera.orbit);
+    require_usable(view.camera.orbit, options);
     if (options.auto_exposure) {
         view.tone_curve.exposure_ev = presenter.suitable_exposure_ev(view);
     }

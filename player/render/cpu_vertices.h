@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "paim/codec/playback.h"
@@ -22,7 +23,7 @@ class CpuVertices : public VertexSource {
                std::span<const Changes> changes, std::span<SurfaceMesh> parts) override;
 
     Playback playback_;
-    std::vector<Vec3f> light_;  // that the playback has
+    std::optional<std::vector<Vec3f>> light_;  // that the playback has
     DecodeLimits most_;
 };
 

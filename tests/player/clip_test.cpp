@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "paim/base/error.h"
 #include "paim/base/file.h"
 #include "paim/codec/sequence_bounds.h"
 #include "paim/image/png.h"
@@ -249,23 +250,18 @@ TEST_F(ClipTest, LowersWhatTheModelDoesNotHave) {
     EXPECT_EQ(view.animation.time, 39.0);
     EXPECT_EQ(view.limits, options.limits);
     EXPECT_EQ(view.coefficient, 8u);
-    saved.limits = {};
-    saved.limits.bands = 0;
-    write_view(file, saved, scene_.units);
-    EXPECT_EQ(start_view(options, scene_, presenter, kClipAspect).limits.bands, 1u);
 }
 
 // Whatever a view file may hold can be drawn.
 TEST_F(ClipTest, DrawsViewsAtTheEndsOfTheirRanges) {
     const std::string file = (directory_ / "view.json").string();
     for (const char* const text :
-         {R"({"camera": {"place": [1e38, -1e38, 1e38]}})", R"({"camera": {"distance": 1e38}})",
-          R"({"camera": {"distance": 1e-38}})", R"({"camera": {"elevation_rad": 1.56}})",
-          R"({"camera": {"place": [1e38, 0, 0], "target": "pose", "distance": 1e38}})",
+         {R"({"camera": {"place": [1e5, -1e5, 1e5]}})", R"({"camera": {"distance": 1e30}})",
+          R"({"camera": {"elevation_rad": 1.56}})",
           R"({"light": {"strength": 1e6}, "key_light": {"on": true, "strength": 1e6,
               "color": [1e6, 1e6, 1e6], "angular_diameter_deg": 0.5}})",
-          R"({"display": {"gamma": 1e-30, "exposure_ev": 30}})", R"({"instances": 0})",
-          R"({"detail": {"bands": 0, "geometry_components": 0, "transfer_components": 0}})",
+          R"({"display": {"gamma": 0.1, "exposure_ev": 30}})", R"({"instances": 10000})",
+          R"({"detail": {"bands": 1, "geometry_components": 0, "transfer_components": 0}})",
           R"({"comparison": {"kind": "wipe", "split": 1}, "surface": {"edges": true}})",
           R"({"comparison": {"kind": "wipe", "split": 0}, "background": {"kind": "blurred"}})",
           R"({"surface": {"view": "coefficient", "coefficient": 4095, "channel": 3}})"}) {
@@ -280,6 +276,28 @@ TEST_F(ClipTest, DrawsViewsAtTheEndsOfTheirRanges) {
         }
         presenter.pick(view, 0.5f, 0.5f, 1.0f);
     }
+}
+
+// Cameras are of floats: one that stands on what it looks at sees nothing.
+TEST_F(ClipTest, RefusesCamerasThatFloatsDoNotHold) {
+    const std::string file = (directory_ / "view.json").string();
+    for (const char* const text :
+         {R"({"camera": {"place": [1e38, -1e38, 1e38]}})", R"({"camera": {"distance": 1e-38}})",
+          R"({"camera": {"place": [1e38, 1e38, 1e38], "target": "pose"}})"}) {
+        write_file(file, text);
+        const Options options = parse({"--view", file});
+        Presenter presenter = make_presenter(options, scene_);
+        try {
+            start_view(options, scene_, presenter, kClipAspect);
+            FAIL() << text;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ExitCode::bad_input);
+            EXPECT_NE(std::string(error.what()).find(file), std::string::npos) << error.what();
+        }
+    }
+    const Options options = parse({"--camera-target", "1e30,1e30,1e30"});
+    Presenter presenter = make_presenter(options, scene_);
+    EXPECT_THROW(start_view(options, scene_, presenter, kClipAspect), Error);
 }
 
 }  // namespace

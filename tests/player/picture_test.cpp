@@ -146,7 +146,9 @@ Image render_reference(const Asset& asset, const Camera& camera, double time,
     for (const Instance& copy : copies) {
         const double own_time =
             std::fmod(time + copy.time_offset, static_cast<double>(asset.num_poses()));
-        for (size_t j = 0; j < asset.parts.size(); ++j) {
+        // What stands still is there once.
+        const size_t num_parts = &copy == &copies.front() ? asset.parts.size() : 1;
+        for (size_t j = 0; j < num_parts; ++j) {
             const CodedMesh& mesh = asset.parts[j];
             DecodedPose pose;
             MeshDecoder(mesh).decode(own_time, limits, pose);

@@ -264,7 +264,8 @@ TEST_P(SceneTest, LargePicturesAreDrawnInTiles) {
 TEST_P(SceneTest, EnvironmentsAreReplaced) {
     const Asset asset = make_empty_asset();
     SceneRenderer renderer = make_renderer(asset, EnvironmentLight(make_environment()));
-    renderer.set_environment(EnvironmentLight(Image(1, 1, Vec3f(0.5f, 0.25f, 4.0f))));
+    // Large enough not to be smoothed.
+    renderer.set_environment(EnvironmentLight(Image(64, 32, Vec3f(0.5f, 0.25f, 4.0f))));
     const Image after = renderer.render({}, kWidth, kHeight, 1);
     for (const Vec3f& pixel : after.pixels) ASSERT_EQ(pixel, Vec3f(0.5f, 0.25f, 4.0f));
 }
