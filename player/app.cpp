@@ -19,15 +19,19 @@ constexpr double kMessageSeconds = 6.0;
 constexpr double kIdleWaitSeconds = 0.1;  // at most, between looks at what has happened
 constexpr int kSettlingFrames = 3;
 
+std::string title_of(const std::filesystem::path& model) {
+    return model.filename().string() + " - paim-play";
+}
+
 }  // namespace
 
 App::App(const Options& options, Scene scene, std::unique_ptr<PrefixLoader> loader)
-    : options_(options), window_(options.size.first, options.size.second, "paim-play") {
+    : options_(options),
+      window_(options.size.first, options.size.second, title_of(options.model_path)) {
     session_ = std::make_unique<Session>(options, std::move(scene), std::move(loader), aspect());
     listen();
     imgui_.emplace(window_);
     panels_.recent = read_recent_files();
-    window_.set_title(session_->model_path().filename().string() + " - paim-play");
 }
 
 void App::run() {
@@ -187,7 +191,7 @@ void App::open(const std::filesystem::path& path) {
         if (recorder_.is_recording() && session_->presenter().shared_asset() != before) {
             say(message_ + "\n" + recorder_.stop());
         }
-        window_.set_title(session_->model_path().filename().string() + " - paim-play");
+        window_.set_title(title_of(session_->model_path()));
         panels_.recent = add_recent_file(path);
     } catch (const Error& error) {
         say(error.what());

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "player/ui/widgets.h"
 
 namespace paim::player {
@@ -46,7 +48,11 @@ void draw_message(const std::string& message) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     if (begin_panel("message", ImVec2(0.5f * size.x, 0.85f * size.y), ImVec2(0.5f, 1.0f),
                     ImGuiWindowFlags_NoInputs)) {
+        // Long paths go on in the next line.
+        const ImVec2 whole = ImGui::CalcTextSize(message.c_str());
+        ImGui::PushTextWrapPos(std::min(whole.x + 1.0f, 0.85f * size.x));
         text(message);
+        ImGui::PopTextWrapPos();
     }
     ImGui::End();
 }

@@ -8,7 +8,9 @@
 #include <chrono>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <thread>
 
 #include "paim/base/error.h"
 #include "player/gl/headless_context.h"
@@ -45,6 +47,8 @@ class SessionTest : public testing::Test {
             session_->read_on();
             session_->take_more(kAspect, message);
             said += message;
+            // Lets the loader have the lock.
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }
         return said;
     }
@@ -112,6 +116,7 @@ TEST_F(SessionTest, AVertexOfAnotherModelIsNotPickedAnyMore) {
     options.num_rings = 3;  // fewer vertices
     options.bands = 3;
     options.num_poses = 2;
+    options.geometry_components = options.transfer_components = 2;
     std::filesystem::remove(path_);
     PrefixFile smaller(path_, make_test_asset(options));
     smaller.write_up_to(smaller.bytes.size());

@@ -84,9 +84,9 @@ void draw_legend(const PanelInfo& info) {
         if (legend.kind != ScaleKind::none) draw_scale(legend);
         if (legend.mean_error) text(fmt::format("mean {:.3g}", *legend.mean_error));
         if (legend.worst) {
-            text_in_lines(fmt::format("worst {:.3g}, vertex {} of part {} (circled)",
-                                      legend.worst->value, legend.worst->vertex,
-                                      legend.worst->part));
+            text_in_lines(fmt::format("worst {:.3g}, vertex {} of part {}{}", legend.worst->value,
+                                      legend.worst->vertex, legend.worst->part,
+                                      info.worst ? " (circled)" : ""));
         }
         if (!legend.note.empty()) note_text(legend.note);
     }
