@@ -4,15 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "paim/base/error.h"
-#include "paim/image/exr.h"
-#include "paim/image/png.h"
 #include "player/gl/check.h"
 #include "player/ui/recent_files.h"
-#include "player/view/framing.h"
 #include "player/view/view_file.h"
 
 namespace paim::player {
@@ -23,15 +19,19 @@ constexpr double kMessageSeconds = 6.0;
 constexpr double kIdleWaitSeconds = 0.1;  // at most, between looks at what has happened
 constexpr int kSettlingFrames = 3;
 
+std::string title_of(const std::filesystem::path& model) {
+    return model.filename().string() + " - paim-play";
+}
+
 }  // namespace
 
 App::App(const Options& options, Scene scene, std::unique_ptr<PrefixLoader> loader)
-    : options_(options), window_(options.size.first, options.size.second, "paim-play") {
+    : options_(options),
+      window_(options.size.first, options.size.second, title_of(options.model_path)) {
     session_ = std::make_unique<Session>(options, std::move(scene), std::move(loader), aspect());
     listen();
     imgui_.emplace(window_);
     panels_.recent = read_recent_files();
-    window_.set_title(session_->model_path().filename().string() + " - paim-play");
 }
 
 void App::run() {
@@ -53,17 +53,18 @@ bool App::step() {
     std::string message;
     if (session_->take_more(aspect(), message)) redraws_ = kSettlingFrames;
     if (!message.empty()) say(message);
-    if (clip_) {
+    if (recorder_.is_recording()) {
         record_next();
     } else {
         advance(session_->view, session_->range().num_poses,
                 double{session_->asset().frames_per_second}, elapsed_s);
     }
-    follow_history();
+    const bool measured = inspector_.advance(*session_) || session_->is_measuring();
     const bool message_ends = !message_.empty() && now >= message_end_;
     if (message_ends) message_.clear();
-    const bool draws = is_visible() && (redraws_ > 0 || message_ends || drawn_ != session_->view ||
-                                        options_.window_frames || !session_->loading().empty());
+    const bool draws =
+        is_visible() && (redraws_ > 0 || message_ends || measured || options_.window_frames ||
+                         drawn_ != session_->view || session_->loading() != loading_);
     if (draws) draw();
     session_->read_on();
     return draws;
@@ -73,17 +74,18 @@ bool App::is_moving() const {
     const ViewState& view = session_->view;
     const bool plays =
         view.animation.playing && view.animation.speed != 0.0 && session_->range().num_poses > 1;
-    return plays || (view.light.turning && view.light.turn_speed_deg != 0.0) ||
-           view.camera.turn_speed_deg != 0.0 || clip_ || (history_ && !history_->values.done());
+    const bool turns = (view.light.turning && view.light.turn_speed_deg != 0.0) ||
+                       view.camera.turn_speed_deg != 0.0;
+    return plays || turns || recorder_.is_recording() || inspector_.is_measuring();
 }
 
 void App::listen() {
     gl::WindowEvents& events = window_.events();
     events.on_any = [this] { redraws_ = kSettlingFrames; };
-    events.on_key = [this](int key, bool shift) {
+    events.on_key = [this](int key, bool shift, bool repeated) {
         if (imgui_->wants_text()) return;
         const KeyBinding* const binding = find_key(key, shift);
-        if (binding == nullptr) return;
+        if (binding == nullptr || (repeated && !binding->repeats)) return;
         if (binding->change != nullptr) binding->change(session_->view, session_->range());
         carry_out(binding->command);
     };
@@ -109,7 +111,9 @@ void App::listen() {
         session_->view.camera.orbit.zoom(steps);
     };
     events.on_click = [this](double x, double y) {
-        if (!imgui_->wants_mouse()) pick(x, y);
+        if (imgui_->wants_mouse()) return;
+        session_->view.picked = session_->presenter().pick(session_->view, static_cast<float>(x),
+                                                           static_cast<float>(y), aspect());
     };
     events.on_drop = [this](const auto& paths) {
         for (const auto& path : paths) open(path);
@@ -117,60 +121,77 @@ void App::listen() {
 }
 
 void App::carry_out(WindowCommand command) {
-    switch (command) {
-        case WindowCommand::none:
-            break;
-        case WindowCommand::frame_all:
-            session_->frame(aspect(), false);
-            break;
-        case WindowCommand::frame_pose:
-            session_->camera_moved();
-            session_->frame(aspect(), true);
-            break;
-        case WindowCommand::follow_body:
-            session_->follow_body(session_->view.camera.target != CameraTarget::pose);
-            break;
-        case WindowCommand::auto_exposure:
-            session_->view.tone_curve.exposure_ev =
-                session_->presenter().suitable_exposure_ev(session_->view);
-            break;
-        case WindowCommand::snapshot_png:
-            save_picture(".png");
-            break;
-        case WindowCommand::snapshot_exr:
-            save_picture(".exr");
-            break;
-        case WindowCommand::save_view:
-            save_view();
-            break;
-        case WindowCommand::open_file:
-            panels_.show_open = !panels_.show_open;
-            panels_.folder.clear();
-            break;
-        case WindowCommand::record:
-            record();
-            break;
-        case WindowCommand::full_screen:
-            window_.set_full_screen(!window_.is_full_screen());
-            break;
-        case WindowCommand::toggle_panels:
-            panels_.show_panels = !panels_.show_panels;
-            break;
-        case WindowCommand::toggle_help:
-            panels_.show_help = !panels_.show_help;
-            break;
-        case WindowCommand::quit:
-            window_.close();
-            break;
+    Session& session = *session_;
+    const std::pair<int, int> size = window_.framebuffer_size();
+    try {
+        switch (command) {
+            case WindowCommand::none:
+                break;
+            case WindowCommand::frame_all:
+                session.frame(aspect(), false);
+                break;
+            case WindowCommand::frame_pose:
+                session.camera_moved();
+                session.frame(aspect(), true);
+                break;
+            case WindowCommand::follow_body:
+                session.follow_body(session.view.camera.target != CameraTarget::pose);
+                break;
+            case WindowCommand::auto_exposure:
+                session.view.tone_curve.exposure_ev =
+                    session.presenter().suitable_exposure_ev(session.view);
+                break;
+            case WindowCommand::snapshot_png:
+                if (is_visible()) say(save_picture(session, size, options_.file_samples(), ".png"));
+                break;
+            case WindowCommand::snapshot_exr:
+                if (is_visible()) say(save_picture(session, size, options_.file_samples(), ".exr"));
+                break;
+            case WindowCommand::save_view:
+                say(save_view(session));
+                break;
+            case WindowCommand::open_file:
+                panels_.show_open = !panels_.show_open;
+                panels_.folder.clear();
+                break;
+            case WindowCommand::record:
+                toggle_recording();
+                break;
+            case WindowCommand::full_screen:
+                window_.set_full_screen(!window_.is_full_screen());
+                break;
+            case WindowCommand::toggle_panels:
+                panels_.show_panels = !panels_.show_panels;
+                break;
+            case WindowCommand::toggle_help:
+                panels_.show_help = !panels_.show_help;
+                break;
+            case WindowCommand::quit:
+                close_or_quit();
+                break;
+        }
+    } catch (const Error& error) {
+        say(error.what());
+    }
+}
+
+// What lies over the picture first.
+void App::close_or_quit() {
+    if (panels_.show_help || panels_.show_open) {
+        panels_.show_help = panels_.show_open = false;
+    } else {
+        window_.close();
     }
 }
 
 void App::open(const std::filesystem::path& path) {
     try {
-        history_.reset();
-        clip_.reset();
+        const std::shared_ptr<const Asset> before = session_->presenter().shared_asset();
         say(session_->open(path, aspect()));
-        window_.set_title(session_->model_path().filename().string() + " - paim-play");
+        if (recorder_.is_recording() && session_->presenter().shared_asset() != before) {
+            say(message_ + "\n" + recorder_.stop());
+        }
+        window_.set_title(title_of(session_->model_path()));
         panels_.recent = add_recent_file(path);
     } catch (const Error& error) {
         say(error.what());
@@ -190,7 +211,7 @@ void App::say(const std::string& message) {
 
 bool App::is_visible() const {
     const auto [width, height] = window_.framebuffer_size();
-    return width > 0 && height > 0;
+    return !window_.is_minimised() && width > 0 && height > 0;
 }
 
 float App::aspect() const {
@@ -205,6 +226,7 @@ void App::draw() {
     draw_picture(width, height);
     const PanelInfo info = panel_info();
     drawn_ = session_->view;
+    loading_ = info.loading;
     imgui_->begin_frame();
     const PanelRequests requests = draw_panels(info, session_->range(), panels_, session_->view);
     window_.bind();
@@ -220,12 +242,19 @@ void App::draw() {
 void App::draw_picture(int width, int height) {
     const int samples =
         samples_that_fit(width, height, options_.window_samples(), gl::max_target_size());
-    if (!target_ || target_->width() != width * samples || target_->height() != height * samples) {
-        target_.emplace(width * samples, height * samples);
+    // With one sample a pixel, radiance need not be kept.
+    const gl::TargetKind kind = samples == 1 ? gl::TargetKind::display : gl::TargetKind::radiance;
+    if (!target_ || target_->kind() != kind || target_->width() != width * samples ||
+        target_->height() != height * samples) {
+        target_.emplace(width * samples, height * samples, kind);
     }
     session_->presenter().draw(session_->view, *target_);
     window_.bind();
-    tone_mapper_.draw(*target_, samples, Presenter::tone_curve(session_->view));
+    if (kind == gl::TargetKind::display) {
+        target_->show();
+    } else {
+        tone_mapper_.draw(*target_, samples, Presenter::tone_curve(session_->view));
+    }
 }
 
 PanelInfo App::panel_info() {
@@ -237,6 +266,7 @@ PanelInfo App::panel_info() {
     info.renderer = renderer_name_;
     info.decoder = renderer.decodes_on_cpu() ? "vertices are decoded by the CPU"
                                              : "vertices are decoded in shaders";
+    if (!renderer.decoder_note().empty()) info.decoder += ": " + renderer.decoder_note();
     info.message = message_;
     info.loading = session_->loading();
     info.file_bytes = session_->file_bytes();
@@ -248,156 +278,33 @@ PanelInfo App::panel_info() {
     info.poses_per_second = session_->asset().frames_per_second;
     const auto* words = words_of_codec(mesh.transfer->codec_name());
     if (words != nullptr) info.vertex_components = words->components;
-    if (clip_) {
-        info.recorded =
-            static_cast<float>(clip_->num_written()) / static_cast<float>(clip_->num_frames());
+    info.recorded = recorder_.progress();
+    if (!panels_.show_panels) return info;
+    info.cost = frame_cost(mesh, session_->view.limits);
+    if (const AccuracyMeter* const meter = session_->accuracy_meter()) {
+        info.accuracy = meter->at(session_->view.limits);
+        info.accuracy_note = meter->note();
     }
-    if (panels_.show_panels) describe_view(info);
+    inspector_.describe(*session_, panels_, aspect(), info);
     return info;
 }
 
-void App::describe_view(PanelInfo& info) {
-    Presenter& presenter = session_->presenter();
-    const ViewState& view = session_->view;
-    info.accuracy = session_->accuracy();
-    if (session_->accuracy_meter().stated()) info.stated = &*session_->accuracy_meter().stated();
-    const Camera camera = presenter.camera(view);
-    globe_.update(presenter.light(), camera.axes(), static_cast<int>(view.limits.bands),
-                  view.tone_curve);
-    info.globe_light = &globe_.light();
-    info.globe_reconstruction = &globe_.reconstruction();
-    info.negative_share = globe_.negative_share();
-    info.legend = presenter.legend();
-    if (info.legend != nullptr && info.legend->worst && info.legend->worst->value > 0.0f) {
-        info.worst = place_of(info.legend->worst->part, info.legend->worst->vertex);
-    }
-    const int bands = static_cast<int>(session_->range().limits.bands);
-    if (view.surface == SurfaceView::coefficient) {
-        if (!coefficient_lobe_ || coefficient_lobe_->bands() != bands) {
-            coefficient_lobe_.emplace(bands);
-        }
-        std::vector<float> coefficients(view.coefficient + 1, 0.0f);
-        coefficients.back() = 1.0f;
-        coefficient_lobe_->update(coefficients, camera);
-        info.coefficient_lobe = &coefficient_lobe_->texture();
-    }
-    if (view.picked) describe_picked(info);
-}
-
-void App::describe_picked(PanelInfo& info) {
-    Presenter& presenter = session_->presenter();
-    const ViewState& view = session_->view;
-    const int bands = static_cast<int>(session_->range().limits.bands);
-    if (!picked_lobe_ || picked_lobe_->bands() != bands) picked_lobe_.emplace(bands);
-    picked_lobe_->update(presenter.transfer_of(view, *view.picked), presenter.camera(view));
-    info.picked = PickedInfo{*view.picked, &picked_lobe_->texture(), {}, {}, 0};
-    info.picked_place = place_of(view.picked->part, view.picked->vertex);
-    if (!history_) return;
-    info.picked->history_title = std::string(row_of(history_->surface).words);
-    info.picked->history = history_->values.values();
-    info.picked->num_poses = history_->values.times().size();
-}
-
-std::optional<PicturePlace> App::place_of(uint32_t part, uint32_t vertex) {
-    Presenter& presenter = session_->presenter();
-    const ViewState& view = session_->view;
-    if (view.comparison == Comparison::side_by_side) return std::nullopt;
-    const std::optional<Vec3f> place =
-        project(presenter.camera(view), aspect(), presenter.position_of(view, {part, vertex}));
-    if (!place) return std::nullopt;
-    return PicturePlace{place->x(), place->y()};
-}
-
-void App::pick(double x, double y) {
-    session_->view.picked = session_->presenter().pick(session_->view, static_cast<float>(x),
-                                                       static_cast<float>(y), aspect());
-}
-
-// Some poses of the history of the picked vertex at every step, so that the window stays alive.
-void App::follow_history() {
-    constexpr std::chrono::milliseconds kShare(8);
-    const ViewState& view = session_->view;
-    if (!view.picked) {
-        history_.reset();
-        return;
-    }
-    const SurfaceView surface =
-        is_error_view(view.surface) ? view.surface : SurfaceView::transfer_error;
-    if (!history_ || history_->vertex != *view.picked || history_->surface != surface ||
-        history_->limits != view.limits) {
-        history_.emplace(History{*view.picked, surface, view.limits,
-                                 session_->presenter().history(view, surface)});
-    }
-    if (history_->values.done()) return;
-    history_->values.advance(kShare);
-    redraws_ = std::max(redraws_, 1);
-}
-
-void App::save_picture(const char* extension) {
-    try {
-        if (!is_visible()) return;
-        const auto [width, height] = window_.framebuffer_size();
-        const int samples = options_.file_samples();
-        const Image image = session_->presenter().render(session_->view, width, height, samples);
-        const std::filesystem::path path = free_name(extension);
-        if (path.extension() == ".exr") {
-            write_exr(path, image);
-        } else {
-            write_png(path, image, Presenter::tone_curve(session_->view));
-        }
-        say("saved " + path.string());
-    } catch (const Error& error) {
-        say(error.what());
-    }
-}
-
-void App::save_view() {
-    try {
-        const std::filesystem::path path = free_name("-view.json");
-        write_view(path, session_->view, session_->units());
-        say("saved " + path.string() + "; --view starts from it");
-    } catch (const Error& error) {
-        say(error.what());
-    }
-}
-
-void App::record() {
-    if (clip_) {
-        say(fmt::format("stopped: {} pictures in {}", clip_->num_written(),
-                        clip_->directory().string()));
-        clip_.reset();
-        return;
-    }
-    try {
-        const double poses_per_second = double{session_->asset().frames_per_second};
-        const ClipLength length = clip_length(
-            poses_per_second,
-            clip_seconds(session_->view, session_->range().num_poses, poses_per_second));
-        clip_.emplace(free_name("-clip"), session_->model_path().stem().string(), length,
-                      session_->view, window_.framebuffer_size(), options_.file_samples());
-    } catch (const Error& error) {
-        say(error.what());
+void App::toggle_recording() {
+    if (recorder_.is_recording()) {
+        say(recorder_.stop());
+    } else if (is_visible()) {
+        say(recorder_.start(*session_, window_.framebuffer_size(), options_.file_samples()));
     }
 }
 
 void App::record_next() {
+    redraws_ = kSettlingFrames;
     try {
-        redraws_ = kSettlingFrames;
-        if (clip_->write_next(session_->presenter())) return;
-        say(fmt::format("saved {} pictures in {}", clip_->num_written(),
-                        clip_->directory().string()));
+        const std::string words = recorder_.write_next(*session_);
+        if (!words.empty()) say(words);
     } catch (const Error& error) {
-        say(error.what());
-    }
-    clip_.reset();
-}
-
-std::filesystem::path App::free_name(const std::string& ending) const {
-    for (int i = 1;; ++i) {
-        const auto name =
-            fmt::format("{}-{:03}{}", session_->model_path().stem().string(), i, ending);
-        std::error_code ignored;
-        if (!std::filesystem::exists(name, ignored)) return name;
+        const std::string stopped = recorder_.stop();
+        say(std::string(error.what()) + "\n" + stopped);
     }
 }
 

@@ -7,17 +7,15 @@
 #include <string>
 #include <vector>
 
-#include "player/clip.h"
+#include "player/file_output.h"
 #include "player/gl/target.h"
 #include "player/gl/window.h"
-#include "player/inspect/vertex_history.h"
 #include "player/options.h"
 #include "player/render/tone_mapper.h"
 #include "player/scene.h"
 #include "player/session.h"
-#include "player/ui/globe_view.h"
 #include "player/ui/imgui_layer.h"
-#include "player/ui/lobe_view.h"
+#include "player/ui/inspector.h"
 #include "player/ui/panels.h"
 
 namespace paim::player {
@@ -56,18 +54,9 @@ class App {
     void draw();
     void draw_picture(int width, int height);
     PanelInfo panel_info();
-    void describe_view(PanelInfo& info);
-    void describe_picked(PanelInfo& info);
-    std::optional<PicturePlace> place_of(uint32_t part, uint32_t vertex);
-    void pick(double x, double y);
-    void follow_history();
-
-    void save_picture(const char* extension);
-    void save_view();
-    void record();
     void record_next();
-    // NAME-001.png in the current folder, or the first number that is not taken.
-    std::filesystem::path free_name(const std::string& ending) const;
+    void toggle_recording();
+    void close_or_quit();
 
     const Options& options_;
     gl::Window window_;
@@ -76,23 +65,14 @@ class App {
     ToneMapper tone_mapper_;
     std::optional<gl::Target> target_;
     std::optional<ImGuiLayer> imgui_;
-    GlobeView globe_;
-    std::optional<LobeView> coefficient_lobe_, picked_lobe_;
+    Inspector inspector_;
     PanelState panels_;
-
-    // The error of the picked vertex over time.
-    struct History {
-        PickedVertex vertex;
-        SurfaceView surface;
-        DecodeLimits limits;
-        VertexHistory values;
-    };
-    std::optional<History> history_;
-    std::optional<ClipWriter> clip_;
+    Recorder recorder_;
 
     std::optional<ViewState> drawn_;  // the view that is on the screen
     int redraws_ = 0;                 // frames to draw in any case: panels take a few to settle
     Clock::time_point last_step_ = Clock::now();
+    std::string loading_;  // that is on the screen
     std::string message_;
     Clock::time_point message_end_{};
     double frame_ms_ = 0.0;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "paim/base/error.h"
 #include "paim/base/file.h"
 #include "paim/base/json_text.h"
 #include "paim/cli/progress.h"
@@ -72,6 +73,11 @@ void write_clip(const Options& options, const Scene& scene) {
         clip_length(options.clip->frames_per_second.value_or(poses_per_second),
                     options.clip->seconds.value_or(
                         clip_seconds(view, scene.asset->num_poses(), poses_per_second)));
+    const double asked = length.frames_per_second * options.clip->seconds.value_or(0.0);
+    if (std::round(asked) > kMaxClipFrames) {
+        throw_usage("--fps and --seconds: expected at most {} pictures, got {}", kMaxClipFrames,
+                    std::round(asked));
+    }
     ClipWriter writer(options.clip->directory, options.model_path.stem().string(), length, view,
                       options.size, samples);
     cli::Progress progress("drawing", "pictures", length.num_frames, options.json);

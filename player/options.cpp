@@ -2,8 +2,10 @@
 #include "player/options.h"
 
 #include <cmath>
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -73,8 +75,10 @@ void describe_files(CLI::App& app, RawOptions& raw, Options& options) {
               "needs neither a display nor a GPU");
     group.add("--fps", raw.fps, "N",
               "Pictures of the clip for each second, 0.01 to 1000 (default: the rate of the file)");
-    group.add("--seconds", raw.seconds, "S",
-              "Length of the clip, 0.001 to 100000 seconds (default: once through the animation)");
+    group.add(
+        "--seconds", raw.seconds, "S",
+        "Length of the clip, 0.001 to 100000 seconds and at most 99999 pictures (default: once "
+        "through the animation)");
     group.add("--view", raw.view, "FILE.json",
               "Start from a view that was saved before; other options change it");
     group.add(
@@ -175,6 +179,30 @@ void convert_picture(const RawOptions& raw, Options& options) {
     options.supersample = integer_in_range("--supersample", raw.supersample, 1, 8);
 }
 
+// Outputs replace no input and not each other.
+void require_different_files(const Options& options) {
+    const auto refuse_same = [](const char* option, const std::filesystem::path& output,
+                                const std::optional<std::filesystem::path>& other,
+                                const char* what) {
+        if (!other) return;
+        std::error_code ignored;
+        const bool same = output.lexically_normal() == other->lexically_normal() ||
+                          std::filesystem::equivalent(output, *other, ignored);
+        if (same) throw_usage("{} {}: that is {}", option, output.string(), what);
+    };
+    const auto check = [&](const char* option, const std::optional<std::filesystem::path>& output) {
+        if (!output) return;
+        refuse_same(option, *output, options.model_path, "the model");
+        refuse_same(option, *output, options.environment_path, "the light");
+    };
+    check("--snapshot", options.snapshot_path);
+    check("--save-view", options.save_view_path);
+    if (options.save_view_path) {
+        refuse_same("--save-view", *options.save_view_path, options.snapshot_path,
+                    "the file of --snapshot");
+    }
+}
+
 void convert_clip(const RawOptions& raw, Options& options) {
     if (!raw.frames_out) {
         if (raw.fps || raw.seconds) throw_usage("--fps and --seconds need --frames-out");
@@ -259,6 +287,7 @@ int parse_options(int argc, const char* const* argv, Options& options) {
     options.bench_frames = integer_in_range("--bench", raw.bench, 1, 100000);
     options.window_frames = integer_in_range("--frames", raw.frames, 1, kMaxCount);
     require_one_mode(options);
+    require_different_files(options);
     return -1;
 }
 

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "player/inspect/lobe.h"
-#include "player/inspect/pick.h"
+#include "paim/codec/playback.h"
+#include "player/gl/scissor.h"
 #include "player/light/auto_exposure.h"
 #include "player/view/crowd.h"
 #include "player/view/framing.h"
@@ -33,21 +33,6 @@ void copy_columns(const Image& from, int first, Image& to) {
     }
 }
 
-// Whether the end of the scale is the largest value that there is.
-bool is_scaled_to_fit(SurfaceView view) {
-    return view == SurfaceView::coefficient || is_error_view(view);
-}
-
-float largest_of(const std::vector<std::vector<float>>& values) {
-    float largest = 0.0f;
-    for (const std::vector<float>& part : values) {
-        for (const float value : part) {
-            if (std::abs(value) > largest) largest = std::abs(value);
-        }
-    }
-    return largest;
-}
-
 int divided_at(double split, int width) {
     return std::clamp(static_cast<int>(split * width), 0, width);
 }
@@ -55,31 +40,32 @@ int divided_at(double split, int width) {
 }  // namespace
 
 Presenter::Presenter(std::shared_ptr<const Asset> asset, const Bounds& reach,
-                     EnvironmentLight environment, const DecodeLimits& limits, Decoder decoder)
-    : rig_(std::move(environment)), renderer_(asset, limits, decoder) {
-    renderer_.set_environment(rig_.environment().image());
-    asset_ = std::move(asset);
-    reach_ = reach;
-    colors_ = std::make_unique<SurfaceColors>(asset_);
-    pose_bounds_.emplace(*asset_);
-    path_.emplace(*asset_);
+                     EnvironmentLight environment, const DecodeLimits& limits,
+                     const DecodeLimits& fewer, Decoder decoder)
+    : rig_(std::move(environment)), renderer_(asset, limits, fewer, decoder) {
+    renderer_.set_environment(rig_.environment());
+    show(std::move(asset), reach);
 }
 
 void Presenter::set_asset(std::shared_ptr<const Asset> asset, const Bounds& reach,
-                          const DecodeLimits& limits) {
-    renderer_.set_asset(asset, limits);
-    colors_ = std::make_unique<SurfaceColors>(asset);
-    pose_bounds_.emplace(*asset);
+                          const DecodeLimits& limits, const DecodeLimits& fewer) {
+    renderer_.set_asset(asset, limits, fewer);
+    show(std::move(asset), reach);
+}
+
+// What refers to the asset before goes first.
+void Presenter::show(std::shared_ptr<const Asset> asset, const Bounds& reach) {
+    limited_bounds_.emplace(*asset);
+    whole_bounds_.emplace(*asset);
     path_.emplace(*asset);
-    decoders_.clear();
+    painter_ = std::make_unique<ColorPainter>(asset);
+    probe_ = std::make_unique<VertexProbe>(asset);
     asset_ = std::move(asset);
     reach_ = reach;
-    legend_.reset();
-    scale_.reset();
 }
 
 void Presenter::set_environment(EnvironmentLight environment) {
-    renderer_.set_environment(environment.image());
+    renderer_.set_environment(environment);
     rig_.set_environment(std::move(environment));
 }
 
@@ -125,100 +111,61 @@ OrbitCamera Presenter::framed(const ViewState& view, float aspect, bool pose_alo
     return orbit;
 }
 
-void Presenter::set_light(const ViewState& view) {
+const LightCoefficients& Presenter::light_of(const ViewState& view) {
     rig_.set_orientation(view.light.orientation);
     rig_.set_environment_strength(static_cast<float>(view.light.strength));
     rig_.set_key_light(view.light.key_on ? std::optional(view.light.key) : std::nullopt);
+    return rig_.coefficients(static_cast<int>(renderer_.most().bands));
 }
 
-Bounds Presenter::bounds(const ViewState& view, const std::vector<Instance>& instances) {
-    Bounds bounds = pose_bounds_->at(time(view), view.limits.geometry_components);
-    if (instances.size() > 1) bounds.extend(crowd_bounds(instances, reach_));
-    return bounds;
+// Each copy plays as the view says: over again or there and back, with or without moments between poses.
+std::vector<Instance> Presenter::crowd(const ViewState& view) const {
+    const uint32_t num_poses = asset_->num_poses();
+    std::vector<Instance> crowd = make_crowd(view.num_instances, reach_, num_poses);
+    for (Instance& copy : crowd) {
+        if (copy.time_offset == 0.0) continue;
+        Animation own = view.animation;
+        own.playing = true;
+        own.speed = 1.0;
+        advance(own, num_poses, 1.0, copy.time_offset);
+        copy.time_offset = shown_time(own, num_poses) - time(view);
+    }
+    return crowd;
 }
 
 Frame Presenter::frame(const ViewState& view, const DecodeLimits& limits) {
-    set_light(view);
     Frame frame;
     frame.time = time(view);
     frame.limits = limits;
-    frame.light = rig_.coefficients(static_cast<int>(renderer_.most().bands));
+    frame.light = light_of(view);
     frame.edges = view.edges;
-    frame.instances = make_crowd(view.num_instances, reach_, asset_->num_poses());
+    frame.instances = crowd(view);
     frame.camera = camera(view);
-    frame.bounds = bounds(view, frame.instances);
+    PoseBoundsCache& bounds = limits == view.limits ? *limited_bounds_ : *whole_bounds_;
+    frame.bounds = bounds.at(frame.time, limits.geometry_components);
+    if (frame.instances.size() > 1) frame.bounds.extend(crowd_bounds(frame.instances, reach_));
     frame.background = view.background;
     frame.environment_from_world = rig_.environment_from_world();
     frame.environment_strength = rig_.environment_strength();
-    legend_.reset();
-    if (view.surface == SurfaceView::lit) return frame;
+    if (!is_painted(view)) return frame;
     frame.background = kNeutral;
-    frame.colors = [this, view, limits](double time) -> const PartColors& {
-        return paint(view, limits, time);
+    frame.colors = [this, limits](double time) -> const PartColors& {
+        return painter_->paint(time, limits);
     };
     return frame;
 }
 
-Presenter::ScaleKey Presenter::scale_key(const ViewState& view) {
-    return {view.surface, view.coefficient, view.channel, view.limits};
-}
-
-const PartColors& Presenter::paint(const ViewState& view, const DecodeLimits& limits, double time) {
-    SurfaceQuery query{.view = view.surface,
-                       .time = time,
-                       .limits = limits,
-                       .coefficient = view.coefficient,
-                       .channel = view.channel};
-    colors_->set_light(DistantLight(rig_.coefficients(static_cast<int>(renderer_.most().bands))));
-    if (scale_ && scale_->first != scale_key(view)) scale_.reset();
-    if (scale_) query.scale = scale_->second;
-    const ColoredSurface* surface = &colors_->paint(query);
-    if (is_scaled_to_fit(view.surface)) {
-        const float largest = query.scale ? largest_of(surface->values) : surface->legend.highest;
-        if (!query.scale || largest > *query.scale) {
-            query.scale = largest;
-            surface = &colors_->paint(query);
-        }
-        scale_ = {scale_key(view), *query.scale};
-    }
-    if (!legend_) legend_ = surface->legend;  // that of the first instance
-    return surface->colors;
-}
-
 void Presenter::fix_scale(const ViewState& view) {
-    if (!is_scaled_to_fit(view.surface)) return;
-    set_light(view);
-    colors_->set_light(DistantLight(rig_.coefficients(static_cast<int>(renderer_.most().bands))));
-    scale_ = {scale_key(view), colors_->sequence_scale({.view = view.surface,
-                                                        .limits = view.limits,
-                                                        .coefficient = view.coefficient,
-                                                        .channel = view.channel})};
+    painter_->fix_scale(view, light_of(view), renderer_.most());
 }
 
 float Presenter::suitable_exposure_ev(const ViewState& view) {
-    set_light(view);
-    LimitErrors& errors = colors_->errors();
-    errors.set_light(DistantLight(rig_.coefficients(static_cast<int>(renderer_.most().bands))));
-    const Playback& playback = errors.play(time(view), view.limits);
+    Playback playback(asset_);
+    playback.set_light(DistantLight(light_of(view)));
+    playback.update(time(view), view.limits);
     std::vector<std::span<const Vec3f>> radiance;
     for (size_t j = 0; j < playback.num_parts(); ++j) radiance.push_back(playback.radiance(j));
     return auto_exposure_ev(radiance);
-}
-
-namespace {
-
-// Positions of a decoded pose, [3][V], in the scene.
-void to_scene(DecodedPose& pose) {
-    move_to_scene(pose.root, pose.positions, pose.num_following);
-}
-
-}  // namespace
-
-void Presenter::decode(const ViewState& view, size_t part, DecodedPose& pose) {
-    while (decoders_.size() < asset_->parts.size()) {
-        decoders_.emplace_back(asset_->parts[decoders_.size()]);
-    }
-    decoders_[part].decode(time(view), view.limits, pose);
 }
 
 std::optional<PickedVertex> Presenter::pick(const ViewState& view, float x, float y, float aspect) {
@@ -227,48 +174,15 @@ std::optional<PickedVertex> Presenter::pick(const ViewState& view, float x, floa
         aspect *= 0.5f;
         x = x < 0.5f ? 2.0f * x : 2.0f * x - 1.0f;
     }
-    std::vector<DecodedPose> poses(asset_->parts.size());
-    std::vector<PickSurface> surfaces;
-    for (size_t j = 0; j < poses.size(); ++j) {
-        decode(view, j, poses[j]);
-        to_scene(poses[j]);
-        surfaces.push_back({&asset_->parts[j].topology, poses[j].positions});
-    }
-    const auto hit = player::pick(ray_through_pixel(camera(view), x, y, aspect), surfaces);
-    if (!hit) return std::nullopt;
-    return PickedVertex{hit->part, hit->vertex};
+    return probe_->pick(time(view), view.limits, camera(view), x, y, aspect);
 }
 
-Vec3f Presenter::position_of(const ViewState& view, const PickedVertex& vertex) {
-    DecodedPose pose;
-    decode(view, vertex.part, pose);
-    to_scene(pose);
-    const size_t num_vertices = pose.positions.size() / 3;
-    return {pose.positions[vertex.vertex], pose.positions[num_vertices + vertex.vertex],
-            pose.positions[2 * num_vertices + vertex.vertex]};
-}
-
-std::vector<float> Presenter::transfer_of(const ViewState& view, const PickedVertex& vertex) {
-    DecodedPose pose;
-    decode(view, vertex.part, pose);
-    const std::vector<float> local =
-        vertex_transfer(pose.layout, pose.transfer, vertex.vertex, kLuminance);
-    const bool follows = vertex.vertex < pose.num_following;
-    if (!follows || !pose.root.turns()) return local;
-    // As a light, whose three channels are the same.
-    LightCoefficients function{static_cast<int>(pose.layout.in_bands), {}};
-    for (const float value : local) function.values.emplace_back(Vec3f::Constant(value));
-    function = turn(function, pose.root.rotation.toRotationMatrix());
-    std::vector<float> in_scene;
-    for (const Vec3f& value : function.values) in_scene.push_back(value.x());
-    return in_scene;
-}
-
-VertexHistory Presenter::history(const ViewState& view, SurfaceView error_view) {
-    set_light(view);
-    LimitErrors& errors = colors_->errors();
-    errors.set_light(DistantLight(rig_.coefficients(static_cast<int>(renderer_.most().bands))));
-    return {errors, error_of(error_view), view.picked->part, view.picked->vertex, view.limits};
+// Both sides of a comparison, or the one that is shown.
+std::vector<Frame> Presenter::frames(const ViewState& view) {
+    if (is_painted(view)) painter_->begin(view, time(view), light_of(view), renderer_.most());
+    std::vector<Frame> frames{frame(view, view.limits)};
+    if (view.comparison != Comparison::none) frames.push_back(frame(view, renderer_.most()));
+    return frames;
 }
 
 void Presenter::draw(const ViewState& view, const gl::Target& target) {
@@ -277,29 +191,28 @@ void Presenter::draw(const ViewState& view, const gl::Target& target) {
     const auto aspect_of = [&](int columns) {
         return static_cast<float>(std::max(1, columns)) / static_cast<float>(height);
     };
-    const Frame limited = frame(view, view.limits);
-    if (view.comparison == Comparison::none) return renderer_.draw(limited, aspect_of(width));
-    const Frame whole = frame(view, renderer_.most());
+    std::vector<Frame> sides = frames(view);
+    if (target.kind() == gl::TargetKind::display) {
+        for (Frame& side : sides) side.display = tone_curve(view);
+    }
+    if (sides.size() == 1) return renderer_.draw(sides.front(), aspect_of(width));
     const bool wipe = view.comparison == Comparison::wipe;
     const int middle = wipe ? divided_at(view.split, width) : width / 2;
-    glEnable(GL_SCISSOR_TEST);
+    const gl::Scissor scissor;
     const auto draw_columns = [&](const Frame& shown, int first, int last) {
         if (first == last) return;
         glScissor(first, 0, last - first, height);
         if (!wipe) glViewport(first, 0, last - first, height);
         renderer_.draw(shown, aspect_of(wipe ? width : last - first));
     };
-    draw_columns(limited, 0, middle);
-    draw_columns(whole, middle, width);
-    glDisable(GL_SCISSOR_TEST);
+    draw_columns(sides[0], 0, middle);
+    draw_columns(sides[1], middle, width);
 }
 
 Image Presenter::render(const ViewState& view, int width, int height, int samples) {
-    const Frame limited = frame(view, view.limits);
-    if (view.comparison == Comparison::none) {
-        return renderer_.render(limited, width, height, samples);
-    }
-    const Frame whole = frame(view, renderer_.most());
+    const std::vector<Frame> sides = frames(view);
+    if (sides.size() == 1) return renderer_.render(sides.front(), width, height, samples);
+    const Frame &limited = sides[0], &whole = sides[1];
     Image picture(width, height);
     if (view.comparison == Comparison::side_by_side && width > 1) {
         const int middle = width / 2;

@@ -7,13 +7,12 @@
 #include <vector>
 
 #include "paim/codec/asset.h"
-#include "paim/codec/mesh_decoder.h"
 #include "paim/image/image.h"
+#include "player/color_painter.h"
 #include "player/gl/target.h"
-#include "player/inspect/surface_colors.h"
-#include "player/inspect/vertex_history.h"
 #include "player/light/light_rig.h"
 #include "player/render/scene_renderer.h"
+#include "player/vertex_probe.h"
 #include "player/view/body_path.h"
 #include "player/view/pose_bounds_cache.h"
 #include "player/view/view_state.h"
@@ -22,15 +21,15 @@ namespace paim::player {
 
 class Presenter {
   public:
-    // limits  what is uploaded; views cannot show more
-    // reach   bounds of all poses of the asset
+    // limits, fewer  what is uploaded (SceneRenderer); views cannot show more
+    // reach          bounds of all poses of the asset
     // Errors: those of SceneRenderer.
     Presenter(std::shared_ptr<const Asset> asset, const Bounds& reach, EnvironmentLight environment,
-              const DecodeLimits& limits, Decoder decoder);
+              const DecodeLimits& limits, const DecodeLimits& fewer, Decoder decoder);
 
     // Shows this asset from now on, under the same light. On an error the old one stays.
     void set_asset(std::shared_ptr<const Asset> asset, const Bounds& reach,
-                   const DecodeLimits& limits);
+                   const DecodeLimits& limits, const DecodeLimits& fewer);
     void set_environment(EnvironmentLight environment);
 
     const Asset& asset() const { return *asset_; }
@@ -40,11 +39,12 @@ class Presenter {
     SceneRenderer& renderer() { return renderer_; }
     const SceneRenderer& renderer() const { return renderer_; }
     // What renderer() draws of the view within its limits.
-    Frame frame(const ViewState& view) { return frame(view, view.limits); }
+    Frame frame(const ViewState& view) { return frames(view).front(); }
     // The light as the last view has set it.
     LightRig& light() { return rig_; }
 
-    // Draws the view into the target, linear radiance; both pictures of a comparison.
+    // Draws the view into the target, as linear radiance or display values; both pictures of a
+    // comparison.
     void draw(const ViewState& view, const gl::Target& target);
     // The same picture of width × height pixels, each the mean of samples × samples.
     Image render(const ViewState& view, int width, int height, int samples);
@@ -53,10 +53,9 @@ class Presenter {
     // are shown as they are.
     static ToneCurve tone_curve(const ViewState& view);
 
-    // What the colours of the view that was drawn last mean; nothing where it was lit.
-    const Legend* legend() const { return legend_ ? &*legend_ : nullptr; }
-    // The largest value that a view with a scale has at any time, to give all pictures of a clip the
-    // same scale (SurfaceColors::sequence_scale()). Until the view shows something else.
+    // The colours of views other than the lit one.
+    const ColorPainter& painter() const { return *painter_; }
+    // Gives all pictures from now on the same scale of colours (ColorPainter::fix_scale()).
     void fix_scale(const ViewState& view);
 
     Camera camera(const ViewState& view);
@@ -70,46 +69,28 @@ class Presenter {
     // The exposure that suits the surface as it is lit now.
     float suitable_exposure_ev(const ViewState& view);
 
-    // The nearest vertex of what is seen in this place of the picture, of the first copy; nothing if there
-    // is none.
+    // The vertex of the first copy that is seen in this place of the picture; nothing if there is none.
     // x, y  0 … 1 from the upper left corner
     std::optional<PickedVertex> pick(const ViewState& view, float x, float y, float aspect);
-    // Where a vertex is in the scene.
-    Vec3f position_of(const ViewState& view, const PickedVertex& vertex);
-    // Its transfer, luminance, by coefficient, in the axes of the scene; bands beyond the view's are
-    // zero.
-    std::vector<float> transfer_of(const ViewState& view, const PickedVertex& vertex);
-    // Its error at every pose, of the kind that this view of the surface shows. Refers to this object
-    // until set_asset().
-    VertexHistory history(const ViewState& view, SurfaceView error_view);
+    VertexProbe& probe() { return *probe_; }
+
+    // Incident light of the view, in all bands that the model has.
+    const LightCoefficients& light_of(const ViewState& view);
 
   private:
-    void set_light(const ViewState& view);
-    void decode(const ViewState& view, size_t part, DecodedPose& pose);
+    void show(std::shared_ptr<const Asset> asset, const Bounds& reach);
+    std::vector<Frame> frames(const ViewState& view);
     Frame frame(const ViewState& view, const DecodeLimits& limits);
-    Bounds bounds(const ViewState& view, const std::vector<Instance>& instances);
-    const PartColors& paint(const ViewState& view, const DecodeLimits& limits, double time);
-
-    // What a scale of colours belongs to.
-    struct ScaleKey {
-        SurfaceView surface;
-        uint32_t coefficient, channel;
-        DecodeLimits limits;
-        bool operator==(const ScaleKey&) const = default;
-    };
-    static ScaleKey scale_key(const ViewState& view);
+    std::vector<Instance> crowd(const ViewState& view) const;
 
     std::shared_ptr<const Asset> asset_;
     Bounds reach_;
     LightRig rig_;
     SceneRenderer renderer_;
-    std::unique_ptr<SurfaceColors> colors_;
-    std::vector<MeshDecoder> decoders_;  // one for each part, made at first use
-    std::optional<PoseBoundsCache> pose_bounds_;
+    std::unique_ptr<ColorPainter> painter_;
+    std::unique_ptr<VertexProbe> probe_;
+    std::optional<PoseBoundsCache> limited_bounds_, whole_bounds_;
     std::optional<BodyPath> path_;
-    std::optional<Legend> legend_;
-    // The scale never shrinks while the same thing is shown, so that colours do not flicker.
-    std::optional<std::pair<ScaleKey, float>> scale_;
 };
 
 }  // namespace paim::player

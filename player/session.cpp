@@ -2,6 +2,7 @@
 #include "player/session.h"
 
 #include <algorithm>
+#include <chrono>
 #include <system_error>
 #include <utility>
 
@@ -16,17 +17,6 @@
 namespace paim::player {
 
 namespace {
-
-// Uploads all of the model, so that limits can be raised again, or, where that is more than this
-// driver takes, what the options ask for.
-template <typename Upload>
-auto upload_within(const DecodeLimits& wanted, Upload upload) {
-    try {
-        return upload(DecodeLimits());
-    } catch (const Error&) {
-        return upload(wanted);
-    }
-}
 
 LoadedAsset read_whole(const std::filesystem::path& path) {
     LoadedAsset loaded;
@@ -62,10 +52,10 @@ Session::Session(const Options& options, Scene scene, std::unique_ptr<PrefixLoad
       units_(scene.units),
       file_bytes_(scene.size_bytes),
       loader_(std::move(loader)) {
-    presenter_ = upload_within(options.wanted.limits(), [&](const DecodeLimits& limits) {
-        return std::make_unique<Presenter>(scene.asset, scene.bounds, scene.environment, limits,
-                                           options.decoder);
-    });
+    // All of the model, so that limits can be raised again.
+    presenter_ =
+        std::make_unique<Presenter>(scene.asset, scene.bounds, scene.environment, DecodeLimits(),
+                                    options.wanted.limits(), options.decoder);
     view = start_view(options, scene, *presenter_, aspect);
     camera_moved_ = options.view_path.has_value();
 }
@@ -88,16 +78,11 @@ std::string Session::open_model(const std::filesystem::path& path, float aspect)
     } else {
         loaded = read_whole(path);
     }
-    const ViewRange before = range();
     show(std::move(loaded));
     loader_ = std::move(loader);
     model_path_ = path;
-    follow(view, before, range(), {});
-    view.limits = range().limits;
-    view.animation.time = 0.0;
-    view.picked.reset();
-    camera_moved_ = false;
-    frame(aspect, false);
+    is_first_model_ = false;
+    start_anew(aspect);
     return "model: " + path.filename().string();
 }
 
@@ -111,17 +96,33 @@ std::string Session::open_light(const std::filesystem::path& path) {
 }
 
 void Session::show(LoadedAsset loaded) {
-    upload_within(options_.wanted.limits(), [&](const DecodeLimits& limits) {
-        presenter_->set_asset(loaded.asset, loaded.bounds, limits);
-    });
+    presenter_->set_asset(loaded.asset, loaded.bounds, {}, options_.wanted.limits());
     units_ = loaded.units;
     file_bytes_ = loaded.progress.size_bytes;
     accuracy_.reset();
 }
 
+// The view of another model: all of its detail, from its first pose.
+void Session::start_anew(float aspect) {
+    view.limits = range().limits;
+    view.coefficient = std::min(view.coefficient, view.limits.bands * view.limits.bands - 1);
+    view.animation.time = 0.0;
+    view.picked.reset();
+    camera_moved_ = false;
+    frame(aspect, false);
+}
+
 bool Session::take_more(float aspect, std::string& message) {
     if (loader_ == nullptr) return false;
-    loader_->check();
+    try {
+        loader_->check();
+    } catch (const Error& error) {
+        if (is_first_model_) throw;
+        // A file that somebody opened in the window: what was read of it stays.
+        message = error.what();
+        loader_.reset();
+        return true;
+    }
     message = loader_->take_error();
     std::optional<LoadedAsset> loaded = loader_->take();
     if (!loaded) return !message.empty();
@@ -134,9 +135,10 @@ bool Session::take_more(float aspect, std::string& message) {
         return true;
     }
     follow(view, before, range(), options_.wanted.limits());
+    if (replaced) view.picked.reset();
     // Coarse poses have other bounds. A camera that somebody has moved stays.
     const bool sharpens = !options_.play_prefix && !camera_moved_;
-    if (replaced || sharpens) frame(aspect, false);
+    if (replaced || sharpens) frame_as_asked(options_, units_, *presenter_, aspect, view);
     return true;
 }
 
@@ -145,10 +147,8 @@ void Session::read_on() {
 }
 
 void Session::frame(float aspect, bool pose_alone) {
+    if (view.camera.target == CameraTarget::point) view.camera.target = CameraTarget::all;
     view.camera.orbit = presenter_->framed(view, aspect, pose_alone);
-    if (options_.camera && !pose_alone) {
-        view.camera.orbit.distance *= options_.camera->distance_factor;
-    }
 }
 
 void Session::follow_body(bool follows) {
@@ -157,15 +157,20 @@ void Session::follow_body(bool follows) {
     view.camera.orbit.target += before - presenter_->camera_origin(view);
 }
 
-const AccuracyMeter& Session::accuracy_meter() {
-    if (accuracy_ == nullptr) {
-        accuracy_ = std::make_unique<AccuracyMeter>(presenter_->shared_asset());
+const AccuracyMeter* Session::accuracy_meter() {
+    if (accuracy_ != nullptr || !asset().complete) return accuracy_.get();
+    if (!measuring_.valid()) {
+        measured_ = presenter_->shared_asset();
+        measuring_ = std::async(std::launch::async, [asset = measured_] {
+            return std::make_unique<AccuracyMeter>(asset);
+        });
     }
-    return *accuracy_;
-}
-
-Accuracy Session::accuracy() {
-    return accuracy_meter().at(view.limits);
+    if (measuring_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return nullptr;
+    auto meter = measuring_.get();
+    // Another model may be shown by now.
+    if (measured_ == presenter_->shared_asset()) accuracy_ = std::move(meter);
+    measured_.reset();
+    return accuracy_.get();
 }
 
 }  // namespace paim::player

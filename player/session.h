@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -40,7 +41,7 @@ class Session {
     std::string open(const std::filesystem::path& path, float aspect);
 
     // Takes what the loader has read since the last call. Returns whether that is anything; sets `message`
-    // if something is to be said. Throws the error of a file that should be whole and is not.
+    // if something is to be said. Throws the error of the command line's file if that should be whole and is not.
     bool take_more(float aspect, std::string& message);
     // Lets the loader read on, once what it read last is on the screen.
     void read_on();
@@ -52,14 +53,16 @@ class Session {
     // A camera that somebody has moved stays when more of the file arrives.
     void camera_moved() { camera_moved_ = true; }
 
-    // Errors stated, and those of the limits; computed when first asked for.
-    Accuracy accuracy();
-    const AccuracyMeter& accuracy_meter();
+    // Errors stated, and those of limits. It is made on a thread of its own, once the whole file is there;
+    // nullptr until then.
+    const AccuracyMeter* accuracy_meter();
+    bool is_measuring() const { return measuring_.valid(); }
 
   private:
     std::string open_model(const std::filesystem::path& path, float aspect);
     std::string open_light(const std::filesystem::path& path);
     void show(LoadedAsset loaded);
+    void start_anew(float aspect);
 
     const Options& options_;
     std::filesystem::path model_path_;
@@ -69,6 +72,9 @@ class Session {
     std::unique_ptr<PrefixLoader> loader_;
     std::unique_ptr<Presenter> presenter_;
     std::unique_ptr<AccuracyMeter> accuracy_;
+    std::future<std::unique_ptr<AccuracyMeter>> measuring_;
+    std::shared_ptr<const Asset> measured_;  // of which that is
+    bool is_first_model_ = true;             // that of the command line
     bool camera_moved_ = false;
 };
 

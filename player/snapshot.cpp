@@ -76,7 +76,8 @@ void take_snapshot(const Options& options, const Scene& scene) {
     json["exposure_ev"] = view.tone_curve.exposure_ev;
     json["gamma"] = view.tone_curve.gamma;
     json["tone_map"] = tone_operator_name(view.tone_curve.tone_operator);
-    if (const Legend* const legend = presenter.legend()) describe_legend(*legend, json);
+    const Legend* const legend = presenter.painter().legend();
+    if (legend != nullptr) describe_legend(*legend, json);
     fmt::print("{}\n", json_text(json, 2));
 }
 

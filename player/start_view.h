@@ -13,6 +13,10 @@ namespace paim::player {
 ViewState start_view(const Options& options, const Scene& scene, Presenter& presenter,
                      float aspect);
 
+// Frames all of the animation, as far as the options and the camera's target do not say otherwise.
+void frame_as_asked(const Options& options, const SceneUnits& units, Presenter& presenter,
+                    float aspect, ViewState& view);
+
 // The presenter of a scene within the options.
 Presenter make_presenter(const Options& options, const Scene& scene);
 

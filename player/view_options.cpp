@@ -7,6 +7,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "player/light/auto_exposure.h"
 #include "player/option_group.h"
 #include "player/view/view_fields.h"
 
@@ -42,7 +43,7 @@ KeyLight parse_key_light(const std::string& text) {
     require_range("--key-light elevation", values[1], -90.0, 90.0);
     require_range("--key-light diameter", values[2], KeyLight::kMinDiameter_deg,
                   KeyLight::kMaxDiameter_deg);
-    require_range("--key-light strength", values[3], 0.0, 1e6);
+    require_range("--key-light strength", values[3], 0.0, kMaxStrength);
     key.azimuth_deg = values[0];
     key.elevation_deg = values[1];
     key.angular_diameter_deg = values[2];
@@ -67,7 +68,7 @@ float parse_exposure(const std::string& text) {
     if (failure != std::errc() || rest != end) {
         throw_usage("--exposure: expected a number or auto, got '{}'", text);
     }
-    require_range("--exposure", value, -30.0, 30.0);
+    require_range("--exposure", value, -double{kLargestExposure_ev}, double{kLargestExposure_ev});
     return static_cast<float>(value);
 }
 
@@ -172,13 +173,13 @@ ViewChanges ViewOptions::changes() const {
            [](View& v, double x) { v.animation.speed = x; });
     flag(raw.ping_pong, [](View& v) { v.animation.ping_pong = true; });
     flag(raw.whole_poses, [](View& v) { v.animation.in_betweens = false; });
-    number("--env-rotation", raw.env_rotation, -36000.0, 36000.0,
+    number("--env-rotation", raw.env_rotation, -kMaxAngle_deg, kMaxAngle_deg,
            [](View& v, double x) { v.light.orientation.yaw_deg = x; });
-    number("--env-pitch", raw.env_pitch, -36000.0, 36000.0,
+    number("--env-pitch", raw.env_pitch, -kMaxAngle_deg, kMaxAngle_deg,
            [](View& v, double x) { v.light.orientation.pitch_deg = x; });
-    number("--env-roll", raw.env_roll, -36000.0, 36000.0,
+    number("--env-roll", raw.env_roll, -kMaxAngle_deg, kMaxAngle_deg,
            [](View& v, double x) { v.light.orientation.roll_deg = x; });
-    number("--env-strength", raw.env_strength, 0.0, 1e6,
+    number("--env-strength", raw.env_strength, 0.0, kMaxStrength,
            [](View& v, double x) { v.light.strength = x; });
     number("--turn-light", raw.turn_light, -kMaxTurnSpeed_deg, kMaxTurnSpeed_deg,
            [](View& v, double x) {
@@ -188,8 +189,9 @@ ViewChanges ViewOptions::changes() const {
     number("--turn-camera", raw.turn_camera, -kMaxTurnSpeed_deg, kMaxTurnSpeed_deg,
            [](View& v, double x) { v.camera.turn_speed_deg = x; });
     number("--split", raw.split, 0.0, 1.0, [](View& v, double x) { v.split = x; });
-    if (raw.gamma && *raw.gamma != 0.0) require_range("--gamma (or 0)", *raw.gamma, 0.1, 10.0);
-    number("--gamma", raw.gamma, 0.0, 10.0,
+    if (raw.gamma && *raw.gamma != 0.0)
+        require_range("--gamma (or 0)", *raw.gamma, 0.1, double{kHighestGamma});
+    number("--gamma", raw.gamma, 0.0, double{kHighestGamma},
            [](View& v, double x) { v.tone_curve.gamma = static_cast<float>(x); });
     value(raw.background, parse_background,
           [](View& v, const Background& background) { v.background = background; });
@@ -211,7 +213,8 @@ ViewChanges ViewOptions::changes() const {
         value(raw.exposure, parse_exposure,
               [](View& v, float exposure_ev) { v.tone_curve.exposure_ev = exposure_ev; });
     }
-    if (const auto i = integer_in_range("--coefficient", raw.coefficient, 0, 4095)) {
+    if (const auto i = integer_in_range("--coefficient", raw.coefficient, 0,
+                                        static_cast<int>(kMaxCoefficient))) {
         changes.emplace_back([i](View& v) { v.coefficient = static_cast<uint32_t>(*i); });
     }
     if (const auto n =

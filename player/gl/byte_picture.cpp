@@ -14,8 +14,6 @@ BytePicture::BytePicture(int width, int height) : width_(width), height_(height)
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
-    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture_.id(), 0);
     check_errors("making a picture of a panel");
 }
 
@@ -31,11 +29,6 @@ void BytePicture::upload(std::span<const uint8_t> rgb) const {
     glBindTexture(GL_TEXTURE_2D, texture_.id());
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE,
                     rgba.data());
-}
-
-void BytePicture::bind() const {
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
-    glViewport(0, 0, width_, height_);
 }
 
 }  // namespace paim::player::gl

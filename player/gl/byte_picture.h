@@ -16,16 +16,12 @@ class BytePicture {
     int height() const { return height_; }
     const TextureHandle& texture() const { return texture_; }
 
-    // rgb  [height][width][3], row 0 on top; shown upside down by OpenGL's own convention
+    // rgb  [height][width][3], row 0 on top
     void upload(std::span<const uint8_t> rgb) const;
-
-    // Draws go here from now on, over all of it.
-    void bind() const;
 
   private:
     int width_, height_;
     TextureHandle texture_;
-    FramebufferHandle framebuffer_;
 };
 
 }  // namespace paim::player::gl

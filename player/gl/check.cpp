@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <string>
+#include <utility>
 
 #include "paim/base/error.h"
 
@@ -31,9 +32,12 @@ std::string error_name(GLenum error) {
     }
 }
 
+// What report_driver_messages() was given last.
+std::function<void(std::string_view)> report_message;
+
 void on_driver_message(GLenum, GLenum type, GLuint, GLenum, GLsizei, const GLchar* message,
                        const void*) {
-    if (type == GL_DEBUG_TYPE_ERROR) fmt::print(stderr, "OpenGL: {}\n", message);
+    if (type == GL_DEBUG_TYPE_ERROR) report_message(message);
 }
 
 int integer(GLenum name) {
@@ -53,7 +57,12 @@ void check_errors(std::string_view doing) {
     throw_unsupported("OpenGL: {} while {}", error_name(error), doing);
 }
 
-void report_driver_messages() {
+void print_driver_message(std::string_view message) {
+    fmt::print(stderr, "OpenGL: {}\n", message);
+}
+
+void report_driver_messages(std::function<void(std::string_view message)> report) {
+    report_message = std::move(report);
     const bool desktop = epoxy_is_desktop_gl();
     if (!epoxy_has_gl_extension("GL_KHR_debug")) return;
     glEnable(GL_DEBUG_OUTPUT);

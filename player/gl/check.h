@@ -1,6 +1,7 @@
 // OpenGL's own complaints as errors.
 #pragma once
 
+#include <functional>
 #include <string_view>
 
 namespace paim::player::gl {
@@ -9,9 +10,13 @@ namespace paim::player::gl {
 // (a mistake of ours) a call it refused, with what `doing` names, e.g. "uploading the model".
 void check_errors(std::string_view doing);
 
-// Prints the driver's error messages on stderr, with the call's place on the stack, where the
+// Prints a message on stderr.
+void print_driver_message(std::string_view message);
+
+// From now on hands the driver's error messages on, where the
 // context has KHR_debug. What a debug build or a test wants; otherwise costs nothing.
-void report_driver_messages();
+void report_driver_messages(
+    std::function<void(std::string_view message)> report = print_driver_message);
 
 // The largest width and height of a texture, and of what can be drawn into.
 int max_texture_size();

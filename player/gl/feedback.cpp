@@ -3,11 +3,11 @@
 
 namespace paim::player::gl {
 
-void capture_vertices(const BufferHandle& buffer, int num_floats, uint32_t first, uint32_t count) {
+void VertexCapture::run(const BufferHandle& buffer, int num_floats, uint32_t first,
+                        uint32_t count) const {
     if (count == 0) return;
-    // Without attributes: shaders find their data by gl_VertexID.
-    const VertexArrayHandle no_attributes;
-    glBindVertexArray(no_attributes.id());
+    glBindVertexArray(no_attributes_.id());
+    glBindBuffer(GL_ARRAY_BUFFER, 0);  // WebGL allows a buffer one use at a time
     const auto stride = static_cast<GLsizeiptr>(static_cast<size_t>(num_floats) * sizeof(GLfloat));
     glBindBufferRange(GL_TRANSFORM_FEEDBACK_BUFFER, 0, buffer.id(),
                       static_cast<GLintptr>(first) * stride,

@@ -8,9 +8,15 @@
 
 namespace paim::player::gl {
 
-// Runs the program's vertex shader once for each vertex first … first + count − 1 (gl_VertexID) and
-// writes the output that the program captures, num_floats 32-bit floats a vertex, to its place in the
-// buffer: vertex v at v · num_floats. The program is in use, and captures one output.
-void capture_vertices(const BufferHandle& buffer, int num_floats, uint32_t first, uint32_t count);
+class VertexCapture {
+  public:
+    // Runs the program's vertex shader once for each vertex first … first + count − 1 (gl_VertexID) and
+    // writes the output that the program captures, num_floats 32-bit floats a vertex, to its place in
+    // the buffer: vertex v at v · num_floats. The program is in use, and captures one output.
+    void run(const BufferHandle& buffer, int num_floats, uint32_t first, uint32_t count) const;
+
+  private:
+    VertexArrayHandle no_attributes_;  // shaders find their data by gl_VertexID
+};
 
 }  // namespace paim::player::gl

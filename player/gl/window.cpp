@@ -79,7 +79,8 @@ void Window::install_callbacks() {
     glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int modifiers) {
         of(window).tell();
         const auto& on_key = of(window).events_.on_key;
-        if (action != GLFW_RELEASE && on_key) on_key(key, (modifiers & GLFW_MOD_SHIFT) != 0);
+        if (action == GLFW_RELEASE || !on_key) return;
+        on_key(key, (modifiers & GLFW_MOD_SHIFT) != 0, action == GLFW_REPEAT);
     });
     glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** names) {
         of(window).tell();
@@ -168,6 +169,10 @@ void Window::set_full_screen(bool full) {
     glfwGetWindowPos(window_, &window_x_, &window_y_);
     glfwGetWindowSize(window_, &window_width_, &window_height_);
     glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+}
+
+bool Window::is_minimised() const {
+    return glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE;
 }
 
 bool Window::should_close() const {

@@ -16,7 +16,8 @@ enum class MouseButton { left, right, middle };
 
 // What the window calls when something happens. Positions and movements in screen coordinates.
 struct WindowEvents {
-    std::function<void(int glfw_key, bool shift)> on_key;  // pressed, or repeated
+    // repeated  held for a while, rather than pressed
+    std::function<void(int glfw_key, bool shift, bool repeated)> on_key;
     // ctrl  whether a Ctrl key is held
     std::function<void(MouseButton button, bool ctrl, double dx, double dy)> on_drag;
     // The left button was pressed and released in one place. x, y  0 … 1 from the upper left corner
@@ -43,6 +44,7 @@ class Window : public Context {
     void set_full_screen(bool full);
     bool is_full_screen() const;
 
+    bool is_minimised() const;
     bool should_close() const;
     void close();
 
@@ -50,7 +52,7 @@ class Window : public Context {
     void poll(double wait_s);
     void swap();
 
-    std::pair<int, int> framebuffer_size() const;  // pixels; 0 x 0 while minimised
+    std::pair<int, int> framebuffer_size() const;  // pixels; may be 0 x 0 while minimised
     int height() const;                            // screen coordinates, at least 1
     float content_scale() const;                   // 1 on ordinary displays, 2 on dense ones
 

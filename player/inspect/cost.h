@@ -1,4 +1,4 @@
-// Bytes and arithmetic that a frame needs, for the overlay and --json.
+// Bytes and arithmetic that a frame needs, for panels and --json.
 #pragma once
 
 #include <cstdint>

@@ -52,7 +52,7 @@ SurfaceView parse_surface_view(std::string_view name) {
         names += names.empty() ? "" : ", ";
         names += row.name;
     }
-    throw_usage("expected a view of the surface ({}), got '{}'", names, name);
+    throw_usage("--surface: expected one of {}, got '{}'", names, name);
 }
 
 }  // namespace paim::player

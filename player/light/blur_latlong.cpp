@@ -146,7 +146,7 @@ Image blur_latlong(const Image& map, double sigma_deg) {
 }
 
 Image smooth_if_small(const Image& map) {
-    if (map.width >= 64 && map.height >= 32) return map;
+    if (map.width >= kSmoothWidth && map.height >= kSmoothHeight) return map;
     const double pixel_deg = std::max(180.0 / map.height, 360.0 / map.width);
     return blur_latlong(map, std::min(0.4 * pixel_deg, 90.0));
 }

@@ -21,6 +21,9 @@ constexpr int kBlurredHeight = 128;
 // cost       1024 × 512 pixels: 3 to 40 ms on two cores, most at 5.6 degrees
 Image blur_latlong(const Image& map, double sigma_deg);
 
+// Maps of fewer pixels show them as blocks.
+constexpr int kSmoothWidth = 64, kSmoothHeight = 32;
+
 // A map of less than 64 × 32 pixels, made smooth so that no pixel shows as a block; larger ones as they
 // are. It is blurred by 0.4 of the larger side of its pixels.
 Image smooth_if_small(const Image& map);

@@ -5,6 +5,7 @@
 
 #include "paim/image/area_average.h"
 #include "player/gl/check.h"
+#include "player/gl/target.h"
 #include "player/light/blur_latlong.h"
 #include "player/shaders/sources.h"
 
@@ -28,40 +29,46 @@ void upload(const gl::TextureHandle& texture, const Image& image) {
 
 BackgroundRenderer::BackgroundRenderer()
     : program_("background", shaders::fullscreen_vert, shaders::background_frag) {
-    set_environment(Image(1, 1));
+    set_environment(EnvironmentLight(Image(1, 1)));
 }
 
-void BackgroundRenderer::set_environment(const Image& environment) {
+void BackgroundRenderer::set_environment(const EnvironmentLight& environment) {
+    const Image& map = environment.image();
     const int max_size = gl::max_texture_size();
-    const bool fits = environment.width <= max_size && environment.height <= max_size;
-    upload(sharp_, smooth_if_small(fits ? environment
-                                        : fit_latlong(environment, max_size, max_size)));
+    if (map.width > max_size || map.height > max_size) {
+        upload(sharp_, fit_latlong(map, max_size, max_size));
+    } else if (map.width < kSmoothWidth || map.height < kSmoothHeight) {
+        upload(sharp_, smooth_if_small(map));
+    } else {
+        upload(sharp_, map);
+    }
     to_blur_ = environment;
 }
 
 void BackgroundRenderer::clear(const Frame& frame) const {
-    const Vec3f& color = frame.background.color;
-    glClearColor(color[0], color[1], color[2], 1.0f);
-    glClearDepthf(1.0f);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    Vec3f color = frame.background.color;
+    if (frame.display) {
+        for (float& channel : color) channel = frame.display->apply(channel) / 255.0f;
+    }
+    gl::clear(color);
 }
 
 void BackgroundRenderer::draw(const Frame& frame, float aspect) {
     if (frame.background.kind == Background::Kind::color) return;
     const bool blurred = frame.background.kind == Background::Kind::blurred;
     if (blurred && to_blur_) {
-        upload(blurred_, blur_latlong(*to_blur_, kBlur_deg));
+        upload(blurred_, blur_latlong(to_blur_->image(), kBlur_deg));
         to_blur_.reset();
     }
     const float half_height = std::tan(0.5f * frame.camera.vertical_fov_rad);
-    program_.use();
-    program_.set("light_axes", Eigen::Matrix3f(frame.environment_from_world * frame.camera.axes()));
-    program_.set("half_extent", Eigen::Vector2f(half_height * aspect, half_height));
+    const gl::Program& program = program_.use(frame.display);
+    program.set("light_axes", Eigen::Matrix3f(frame.environment_from_world * frame.camera.axes()));
+    program.set("half_extent", Eigen::Vector2f(half_height * aspect, half_height));
     const PictureRegion& region = frame.region;
-    program_.set("region_corner", Eigen::Vector2f(region.left, region.bottom));
-    program_.set("region_size", Eigen::Vector2f(region.width, region.height));
-    program_.set("strength", frame.environment_strength);
-    program_.set_texture("environment", 0, blurred ? blurred_ : sharp_);
+    program.set("region_corner", Eigen::Vector2f(region.left, region.bottom));
+    program.set("region_size", Eigen::Vector2f(region.width, region.height));
+    program.set("strength", frame.environment_strength);
+    program.set_texture("environment", 0, blurred ? blurred_ : sharp_);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LEQUAL);  // the triangle lies on the far plane, at the depth that was cleared to
     triangle_.draw();

@@ -3,11 +3,11 @@
 
 #include <optional>
 
-#include "paim/image/image.h"
+#include "paim/light/environment.h"
 #include "player/gl/data_texture.h"
 #include "player/gl/fullscreen.h"
-#include "player/gl/program.h"
 #include "player/render/frame.h"
+#include "player/render/picture_program.h"
 
 namespace paim::player {
 
@@ -17,7 +17,7 @@ class BackgroundRenderer {
 
     // The lat-long map to show from now on. Maps of few pixels are made smooth
     // (smooth_if_small()). One larger than this driver's textures is averaged down until it fits.
-    void set_environment(const Image& environment);
+    void set_environment(const EnvironmentLight& environment);
 
     // Clears colour and depth of the current target; before the mesh is drawn.
     void clear(const Frame& frame) const;
@@ -27,10 +27,10 @@ class BackgroundRenderer {
     void draw(const Frame& frame, float aspect);
 
   private:
-    gl::Program program_;
+    PictureProgram program_;
     gl::FullscreenTriangle triangle_;
     gl::TextureHandle sharp_, blurred_;
-    std::optional<Image> to_blur_;  // the map; empty: blurred_ is up to date
+    std::optional<EnvironmentLight> to_blur_;  // empty: blurred_ is up to date
 };
 
 }  // namespace paim::player

@@ -23,15 +23,22 @@ DecodeLimits all_of(const CodedMesh& mesh) {
 }  // namespace
 
 CpuVertices::CpuVertices(std::shared_ptr<const Asset> asset, const DecodeLimits& limits)
-    : playback_(std::move(asset)), most_(within(limits, all_of(playback_.asset().moving()))) {}
+    : VertexSource(*asset),
+      playback_(std::move(asset)),
+      most_(within(limits, all_of(playback_.asset().moving()))) {}
 
 void CpuVertices::write(double time, const DecodeLimits& limits, const LightCoefficients* light,
-                        Changes changes, std::span<SurfaceMesh> parts) {
-    if (changes.colors) playback_.set_light(DistantLight(*light));
+                        std::span<const Changes> changes, std::span<SurfaceMesh> parts) {
+    const auto has_colors = [](const Changes& of) { return of.colors; };
+    const bool is_lit = std::any_of(changes.begin(), changes.end(), has_colors);
+    if (is_lit && light->values != light_) {
+        playback_.set_light(DistantLight(*light));
+        light_ = light->values;
+    }
     playback_.update(time, within(limits, most_));
     for (size_t j = 0; j < parts.size(); ++j) {
-        if (changes.positions) parts[j].upload_positions(playback_.local_positions(j));
-        if (changes.colors) parts[j].upload_colors(playback_.radiance(j));
+        if (changes[j].positions) parts[j].upload_positions(playback_.local_positions(j));
+        if (changes[j].colors) parts[j].upload_colors(playback_.radiance(j));
     }
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "paim/codec/playback.h"
 #include "player/render/vertex_source.h"
@@ -18,9 +20,10 @@ class CpuVertices : public VertexSource {
 
   private:
     void write(double time, const DecodeLimits& limits, const LightCoefficients* light,
-               Changes changes, std::span<SurfaceMesh> parts) override;
+               std::span<const Changes> changes, std::span<SurfaceMesh> parts) override;
 
     Playback playback_;
+    std::optional<std::vector<Vec3f>> light_;  // that the playback has
     DecodeLimits most_;
 };
 

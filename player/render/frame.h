@@ -2,10 +2,12 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "paim/base/vector.h"
 #include "paim/codec/decode_limits.h"
+#include "paim/image/tone.h"
 #include "paim/light/light.h"
 #include "paim/mesh/bounds.h"
 #include "paim/shade/camera.h"
@@ -36,7 +38,7 @@ struct PictureRegion {
 
 // One copy of the asset.
 struct Instance {
-    double time_offset = 0.0;      // in poses; the animation starts over after the last pose
+    double time_offset = 0.0;      // in poses from the time of the frame, up to ±(P−1)
     Vec3d offset = Vec3d::Zero();  // from where the asset stands, scene units
 };
 
@@ -59,6 +61,8 @@ struct Frame {
     // From directions of the world to those of the environment's map.
     Eigen::Matrix3f environment_from_world = Eigen::Matrix3f::Identity();
     float environment_strength = 1.0f;  // factor of the map's radiance
+    // Through which curve the picture is drawn; nothing: linear radiance.
+    std::optional<ToneCurve> display;
     PictureRegion region;  // what the target shows; the camera is that of the whole picture
 };
 

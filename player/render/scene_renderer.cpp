@@ -9,13 +9,15 @@
 namespace paim::player {
 
 SceneRenderer::SceneRenderer(std::shared_ptr<const Asset> asset, const DecodeLimits& limits,
-                             Decoder decoder)
+                             const DecodeLimits& fewer, Decoder decoder)
     : decoder_(decoder) {
-    set_asset(std::move(asset), limits);
+    set_asset(std::move(asset), limits, fewer);
 }
 
-void SceneRenderer::set_asset(std::shared_ptr<const Asset> asset, const DecodeLimits& limits) {
-    auto vertices = make_vertex_source(asset, limits, decoder_);
+void SceneRenderer::set_asset(std::shared_ptr<const Asset> asset, const DecodeLimits& limits,
+                              const DecodeLimits& fewer) {
+    std::string note;
+    auto vertices = make_vertex_source(asset, limits, fewer, decoder_, note);
     std::vector<SurfaceMesh> surfaces;
     std::vector<size_t> num_following;
     for (const CodedMesh& mesh : asset->parts) {
@@ -26,6 +28,7 @@ void SceneRenderer::set_asset(std::shared_ptr<const Asset> asset, const DecodeLi
     surfaces_ = std::move(surfaces);
     num_following_ = std::move(num_following);
     asset_ = std::move(asset);
+    decoder_note_ = std::move(note);
 }
 
 uint64_t SceneRenderer::buffer_bytes() const {
@@ -50,11 +53,14 @@ void SceneRenderer::draw_instance(const Frame& frame, const Instance& instance, 
     vertices_->update(time, frame.limits, frame.colors ? nullptr : &frame.light, surfaces_);
     if (frame.colors) {
         const PartColors& colors = frame.colors(time);
-        for (size_t j = 0; j < surfaces_.size(); ++j) surfaces_[j].upload_colors(colors[j]);
         vertices_->forget_colors();
+        for (size_t j = 0; j < surfaces_.size(); ++j) surfaces_[j].upload_colors(colors[j]);
     }
     for (size_t j = 0; j < surfaces_.size(); ++j) {
         const CodedMesh& mesh = asset_->parts[j];
+        // What stands still around the animation is there once.
+        const bool is_copy = &instance != &frame.instances.front();
+        if (is_copy && j > 0) continue;
         const SurfacePlace place{num_following_[j], root_at(mesh.root_motion, time),
                                  instance.offset};
         surface_renderer_.draw(surfaces_[j], mesh.topology.triangles.size(), place, frame, aspect);

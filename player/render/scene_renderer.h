@@ -3,10 +3,12 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "paim/codec/asset.h"
 #include "paim/image/image.h"
+#include "paim/light/environment.h"
 #include "player/gl/target.h"
 #include "player/render/background_renderer.h"
 #include "player/render/frame.h"
@@ -19,14 +21,19 @@ namespace paim::player {
 
 class SceneRenderer {
   public:
-    // Nothing beyond the limits is uploaded. Errors: those of make_vertex_source().
-    SceneRenderer(std::shared_ptr<const Asset> asset, const DecodeLimits& limits, Decoder decoder);
+    // Nothing beyond the limits is uploaded, or beyond `fewer` if that is too much for this driver.
+    // Errors: those of make_vertex_source().
+    SceneRenderer(std::shared_ptr<const Asset> asset, const DecodeLimits& limits,
+                  const DecodeLimits& fewer, Decoder decoder);
 
     // Shows this asset from now on. On an error the old one stays.
-    void set_asset(std::shared_ptr<const Asset> asset, const DecodeLimits& limits);
+    void set_asset(std::shared_ptr<const Asset> asset, const DecodeLimits& limits,
+                   const DecodeLimits& fewer);
 
     // The map behind the meshes, at first black (BackgroundRenderer::set_environment()).
-    void set_environment(const Image& map) { background_renderer_.set_environment(map); }
+    void set_environment(const EnvironmentLight& environment) {
+        background_renderer_.set_environment(environment);
+    }
 
     // What can be shown at most of the part that moves.
     DecodeLimits most() const { return vertices_->most(); }
@@ -34,6 +41,8 @@ class SceneRenderer {
     uint64_t texture_bytes() const { return vertices_->texture_bytes(); }
     uint64_t buffer_bytes() const;
     bool decodes_on_cpu() const { return vertices_->is_on_cpu(); }
+    // Why the CPU decodes although shaders were to; empty if they do, or were not to.
+    const std::string& decoder_note() const { return decoder_note_; }
 
     // Draws the whole picture into the target.
     void draw(const Frame& frame, const gl::Target& target);
@@ -56,6 +65,7 @@ class SceneRenderer {
     void draw_instance(const Frame& frame, const Instance& instance, float aspect);
 
     Decoder decoder_;
+    std::string decoder_note_;
     std::shared_ptr<const Asset> asset_;
     std::unique_ptr<VertexSource> vertices_;
     std::vector<SurfaceMesh> surfaces_;  // one for each part

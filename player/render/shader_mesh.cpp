@@ -59,7 +59,7 @@ void ShaderMesh::decode(double time, const DecodeLimits& limits,
     program.set("num_vertices", static_cast<int>(mesh_.topology.num_vertices));
     const LowRank& geometry = mesh_.positions;
     program.set("geometry_step", Vec3f(geometry.step(0), geometry.step(1), geometry.step(2)));
-    gl::capture_vertices(positions, 3, 0, mesh_.topology.num_vertices);
+    capture_.run(positions, 3, 0, mesh_.topology.num_vertices);
 }
 
 void ShaderMesh::light(double time, const DecodeLimits& limits, const LightCoefficients& light,
@@ -83,7 +83,7 @@ void ShaderMesh::light_vertices(uint32_t first, uint32_t count, double time,
     program.set("width_log2", plan_.width_log2);
     program.set("num_vertices", static_cast<int>(mesh_.topology.num_vertices));
     program.set("albedo_stride", mesh_.albedo.values.size() == 1 ? 0 : 1);
-    gl::capture_vertices(colors, 3, first, count);
+    capture_.run(colors, 3, first, count);
 }
 
 }  // namespace paim::player

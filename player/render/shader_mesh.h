@@ -6,6 +6,7 @@
 #include "paim/codec/asset.h"
 #include "paim/light/light.h"
 #include "player/gl/data_texture.h"
+#include "player/gl/feedback.h"
 #include "player/gl/program.h"
 #include "player/render/low_rank_textures.h"
 #include "player/render/transfer_textures.h"
@@ -47,6 +48,7 @@ class ShaderMesh {
     gl::Program position_program_;
     gl::Program radiance_program_;
     gl::DataTexture albedo_;
+    gl::VertexCapture capture_;
 };
 
 }  // namespace paim::player

@@ -6,7 +6,7 @@
 namespace paim::player {
 
 ShaderVertices::ShaderVertices(std::shared_ptr<const Asset> asset, const DecodeLimits& limits)
-    : asset_(std::move(asset)) {
+    : VertexSource(*asset), asset_(std::move(asset)) {
     for (const CodedMesh& mesh : asset_->parts) {
         meshes_.push_back(std::make_unique<ShaderMesh>(mesh, limits));
     }
@@ -25,10 +25,10 @@ uint64_t ShaderVertices::texture_bytes() const {
 }
 
 void ShaderVertices::write(double time, const DecodeLimits& limits, const LightCoefficients* light,
-                           Changes changes, std::span<SurfaceMesh> parts) {
+                           std::span<const Changes> changes, std::span<SurfaceMesh> parts) {
     for (size_t j = 0; j < parts.size(); ++j) {
-        if (changes.positions) meshes_[j]->decode(time, limits, parts[j].positions());
-        if (changes.colors) meshes_[j]->light(time, limits, *light, parts[j].colors());
+        if (changes[j].positions) meshes_[j]->decode(time, limits, parts[j].positions());
+        if (changes[j].colors) meshes_[j]->light(time, limits, *light, parts[j].colors());
     }
 }
 

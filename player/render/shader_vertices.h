@@ -20,7 +20,7 @@ class ShaderVertices : public VertexSource {
 
   private:
     void write(double time, const DecodeLimits& limits, const LightCoefficients* light,
-               Changes changes, std::span<SurfaceMesh> parts) override;
+               std::span<const Changes> changes, std::span<SurfaceMesh> parts) override;
 
     std::shared_ptr<const Asset> asset_;
     std::vector<std::unique_ptr<ShaderMesh>> meshes_;

@@ -31,10 +31,10 @@ void SurfaceRenderer::draw_triangles(SurfaceMesh& surface, size_t first, size_t 
                                      float aspect) const {
     if (first == last) return;
     const DepthRange depth = depth_range(frame.camera, frame.bounds);
-    program_.use();
-    program_.set("clip_from_local",
-                 clip_from_local(frame.camera, aspect, depth, frame.region, root));
-    program_.set("edge_color", kNoEdges);
+    const gl::Program& program = program_.use(frame.display);
+    program.set("clip_from_local",
+                clip_from_local(frame.camera, aspect, depth, frame.region, root));
+    program.set("edge_color", kNoEdges);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
     glDisable(GL_CULL_FACE);
@@ -44,7 +44,7 @@ void SurfaceRenderer::draw_triangles(SurfaceMesh& surface, size_t first, size_t 
     glPolygonOffset(1.0f, 1.0f);
     surface.draw(first, last);
     glDisable(GL_POLYGON_OFFSET_FILL);
-    program_.set("edge_color", kEdges);
+    program.set("edge_color", kEdges);
     surface.draw_edges(first, last);
 }
 

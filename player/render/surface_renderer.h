@@ -2,8 +2,8 @@
 #pragma once
 
 #include "paim/mesh/root_motion.h"
-#include "player/gl/program.h"
 #include "player/render/frame.h"
+#include "player/render/picture_program.h"
 #include "player/render/surface_mesh.h"
 
 namespace paim::player {
@@ -29,7 +29,7 @@ class SurfaceRenderer {
     void draw_triangles(SurfaceMesh& surface, size_t first, size_t last, const RigidTransform& root,
                         const Frame& frame, float aspect) const;
 
-    gl::Program program_;
+    PictureProgram program_;
 };
 
 }  // namespace paim::player

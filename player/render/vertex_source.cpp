@@ -1,6 +1,8 @@
 // What has changed since the last frame, and who decodes.
 #include "player/render/vertex_source.h"
 
+#include <algorithm>
+
 #include "paim/base/error.h"
 #include "player/gl/context.h"
 #include "player/render/cpu_vertices.h"
@@ -8,37 +10,58 @@
 
 namespace paim::player {
 
-void VertexSource::update(double time, const DecodeLimits& limits, const LightCoefficients* light,
-                          std::span<SurfaceMesh> parts) {
-    const Changes changed = changes(time, limits, light);
-    if (!changed.positions && !changed.colors) return;
-    // Where writing fails, all is written the next time.
-    pose_.reset();
-    if (changed.colors) lit_.reset();
-    write(time, limits, light, changed, parts);
-    pose_ = {time, limits.geometry_components};
-    if (changed.colors) lit_ = {time, limits, *light};
+VertexSource::VertexSource(const Asset& asset) : written_(asset.parts.size()) {
+    for (const CodedMesh& mesh : asset.parts) stands_still_.push_back(mesh.num_poses() == 1);
 }
 
-VertexSource::Changes VertexSource::changes(double time, const DecodeLimits& limits,
-                                            const LightCoefficients* light) const {
-    const bool same_pose = pose_ == Pose{time, limits.geometry_components};
-    const bool same_light = lit_ && light != nullptr && lit_->time == time &&
-                            lit_->limits == limits && lit_->light.values == light->values;
-    return {!same_pose, light != nullptr && !same_light};
+void VertexSource::forget_colors() {
+    for (Written& written : written_) written.lit.reset();
+}
+
+void VertexSource::update(double time, const DecodeLimits& limits, const LightCoefficients* light,
+                          std::span<SurfaceMesh> parts) {
+    std::vector<Written> wanted(written_.size());
+    std::vector<Changes> changes;
+    for (size_t j = 0; j < written_.size(); ++j) {
+        const double own_time = stands_still_[j] ? 0.0 : time;
+        wanted[j].pose = {own_time, limits.geometry_components};
+        if (light != nullptr) wanted[j].lit = {own_time, limits, light->values};
+        changes.push_back({written_[j].pose != wanted[j].pose,
+                           light != nullptr && written_[j].lit != wanted[j].lit});
+        // Where writing fails, it is done again the next time.
+        if (changes[j].positions) written_[j].pose.reset();
+        if (changes[j].colors) written_[j].lit.reset();
+    }
+    const auto is_change = [](const Changes& of) { return of.positions || of.colors; };
+    if (std::none_of(changes.begin(), changes.end(), is_change)) return;
+    write(time, limits, light, changes, parts);
+    for (size_t j = 0; j < written_.size(); ++j) {
+        written_[j].pose = wanted[j].pose;
+        if (light != nullptr) written_[j].lit = std::move(wanted[j].lit);
+    }
 }
 
 std::unique_ptr<VertexSource> make_vertex_source(const std::shared_ptr<const Asset>& asset,
-                                                 const DecodeLimits& limits, Decoder decoder) {
-    const auto on_cpu = [&] { return std::make_unique<CpuVertices>(asset, limits); };
-    if (decoder == Decoder::cpu) return on_cpu();
-    if (decoder == Decoder::gpu) return std::make_unique<ShaderVertices>(asset, limits);
-    if (gl::draws_in_software()) return on_cpu();
+                                                 const DecodeLimits& limits,
+                                                 const DecodeLimits& fewer, Decoder decoder,
+                                                 std::string& note) {
+    note.clear();
+    const auto in_shaders = [&]() -> std::unique_ptr<VertexSource> {
+        try {
+            return std::make_unique<ShaderVertices>(asset, limits);
+        } catch (const Error&) {
+            if (fewer == limits) throw;
+            return std::make_unique<ShaderVertices>(asset, fewer);
+        }
+    };
+    const bool in_software = decoder == Decoder::automatic && gl::draws_in_software();
+    if (decoder == Decoder::cpu || in_software) return std::make_unique<CpuVertices>(asset, limits);
+    if (decoder == Decoder::gpu) return in_shaders();
     try {
-        return std::make_unique<ShaderVertices>(asset, limits);
-    } catch (
-        const Error&) {  // of a driver whose textures are too small, or of a codec without shader
-        return on_cpu();
+        return in_shaders();
+    } catch (const Error& error) {
+        note = error.what();
+        return std::make_unique<CpuVertices>(asset, limits);
     }
 }
 

@@ -6,6 +6,8 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "paim/codec/asset.h"
 #include "paim/light/light.h"
@@ -18,7 +20,8 @@ class VertexSource {
     virtual ~VertexSource() = default;
 
     // Writes positions and radiance into the attributes of the parts, as far as they differ from those
-    // of the last call: nothing if all arguments are the same, colours alone if only the light is new.
+    // of the last call: nothing if all arguments are the same, colours alone if only the light is new, and
+    // of parts that stand still nothing that only the time has changed.
     // time   in poses, clamped to 0 … P−1; fractions lie between poses
     // light  of the scene, bands that it does not have are dark; nullptr leaves colours as they are
     // parts  one for each part of the asset, the same at every call
@@ -26,7 +29,7 @@ class VertexSource {
                 std::span<SurfaceMesh> parts);
 
     // Something else has written colours into the parts.
-    void forget_colors() { lit_.reset(); }
+    void forget_colors();
 
     // What can be shown at most of the part that moves.
     virtual DecodeLimits most() const = 0;
@@ -35,14 +38,20 @@ class VertexSource {
     virtual uint64_t texture_bytes() const = 0;
 
   protected:
+    explicit VertexSource(const Asset& asset);
+
+    // What has changed of a part.
     struct Changes {
         bool positions, colors;
     };
-    // Writes what has changed into all parts. The light is there where colours have changed.
+    // changes  of each part
+    // light    there where colours of a part have changed
     virtual void write(double time, const DecodeLimits& limits, const LightCoefficients* light,
-                       Changes changes, std::span<SurfaceMesh> parts) = 0;
+                       std::span<const Changes> changes, std::span<SurfaceMesh> parts) = 0;
 
   private:
+    std::vector<bool> stands_still_;  // [parts]
+    // What the attributes of a part are of.
     struct Pose {
         double time;
         uint32_t num_components;
@@ -51,12 +60,14 @@ class VertexSource {
     struct LitPose {
         double time;
         DecodeLimits limits;
-        LightCoefficients light;
+        std::vector<Vec3f> light;
+        bool operator==(const LitPose&) const = default;
     };
-    Changes changes(double time, const DecodeLimits& limits, const LightCoefficients* light) const;
-
-    std::optional<Pose> pose_;    // whose positions the parts have
-    std::optional<LitPose> lit_;  // whose radiance they have
+    struct Written {
+        std::optional<Pose> pose;
+        std::optional<LitPose> lit;
+    };
+    std::vector<Written> written_;  // [parts]
 };
 
 enum class Decoder {
@@ -65,10 +76,13 @@ enum class Decoder {
     cpu,
 };
 
-// Decodes within the limits.
+// Decodes within the limits, or, if shaders of this driver can hold only so much, within `fewer`.
+// note  set to why the CPU decodes although shaders were to be tried first
 // Errors (unsupported) of Decoder::gpu: the asset does not fit into this driver's textures, or this player
 // has no shader for its codec.
 std::unique_ptr<VertexSource> make_vertex_source(const std::shared_ptr<const Asset>& asset,
-                                                 const DecodeLimits& limits, Decoder decoder);
+                                                 const DecodeLimits& limits,
+                                                 const DecodeLimits& fewer, Decoder decoder,
+                                                 std::string& note);
 
 }  // namespace paim::player

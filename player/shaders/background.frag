@@ -1,6 +1,6 @@
 // The environment seen through each pixel: bilinear and wrapping in longitude, by hand, because
 // hardware filters with eight bits of fraction, too few next to a sun, and takes derivatives across
-// the seam at longitude pi.
+// the seam at longitude pi. shown() is that of player/render/picture_program.h.
 uniform sampler2D environment;  // lat-long, row 0 on top, as in OpenEXR
 uniform mat3 light_axes;        // right, up, backward of the camera, in the light's own frame
 uniform vec2 half_extent;       // of the picture at distance 1: tan(fov / 2) * (aspect, 1)
@@ -9,7 +9,7 @@ uniform vec2 region_corner;     // of the part of the picture that is drawn, low
 uniform vec2 region_size;       // of that part; 1 is the picture
 
 in vec2 image_position;
-out vec4 radiance;
+out vec4 color;
 
 const float kPi = 3.14159265358979;
 
@@ -33,5 +33,5 @@ void main() {
     ivec2 at = ivec2(corner);
     vec3 upper = mix(texel(at, size), texel(at + ivec2(1, 0), size), weight.x);
     vec3 lower = mix(texel(at + ivec2(0, 1), size), texel(at + ivec2(1, 1), size), weight.x);
-    radiance = vec4(strength * mix(upper, lower, weight.y), 1.0);
+    color = vec4(shown(strength * mix(upper, lower, weight.y)), 1.0);
 }

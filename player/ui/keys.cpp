@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "player/light/auto_exposure.h"
 #include "player/render/codec_words.h"
 
 namespace paim::player {
@@ -51,7 +52,8 @@ void change_gamma(ViewState& view, const ViewRange&) {
 template <int kSteps>
 void change_exposure(ViewState& view, const ViewRange&) {
     float& exposure_ev = view.tone_curve.exposure_ev;
-    exposure_ev = std::clamp(exposure_ev + kSteps * kExposureStep, -30.0f, 30.0f);
+    exposure_ev =
+        std::clamp(exposure_ev + kSteps * kExposureStep, -kLargestExposure_ev, kLargestExposure_ev);
 }
 
 void next_tone_operator(ViewState& view, const ViewRange&) {
@@ -114,12 +116,15 @@ void next_crowd(ViewState& view, const ViewRange&) {
     view.num_instances = next == std::end(kCrowds) ? 1 : *next;
 }
 
-// Half as fast again, or twice: 1/4, 1/2, 1, 2, 4 in the same direction.
+// Half or twice as fast, from 1/4 to 4 times, in the same direction.
 template <int kStep>
 void change_speed(ViewState& view, const ViewRange&) {
+    constexpr double kSlowest = 0.25;
     double& speed = view.animation.speed;
-    const double faster = std::abs(speed) * (kStep > 0 ? 2.0 : 0.5);
-    speed = std::copysign(std::clamp(faster, 0.25, kMaxSpeed), speed);
+    const double now = std::abs(speed);
+    const double next = kStep > 0 ? std::clamp(2.0 * now, kSlowest, kMaxSpeed)
+                                  : std::max(0.5 * now, std::min(now, kSlowest));
+    speed = std::copysign(next, speed);
 }
 
 using Limits = DecodeLimits;
@@ -133,7 +138,7 @@ KeyGroup animation_keys() {
                     view.animation.playing = !view.animation.playing;
                 }}}},
              {"Left, Right",
-              "one pose back, forth",
+              "one pose back, forward",
               {{GLFW_KEY_LEFT, false,
                 [](ViewState& view, const ViewRange& range) {
                     step_pose(view.animation, range.num_poses, -1);
@@ -260,8 +265,19 @@ KeyGroup window_keys() {
 }  // namespace
 
 std::span<const KeyGroup> key_groups() {
-    static const std::vector<KeyGroup> groups = {animation_keys(), accuracy_keys(), picture_keys(),
-                                                 window_keys()};
+    static const std::vector<KeyGroup> groups = [] {
+        std::vector<KeyGroup> all = {animation_keys(), accuracy_keys(), picture_keys(),
+                                     window_keys()};
+        // Two keys of a row step down and up.
+        for (KeyGroup& group : all) {
+            for (KeyRow& row : group.rows) {
+                for (KeyBinding& binding : row.bindings) {
+                    binding.repeats = row.bindings.size() == 2 && binding.change != nullptr;
+                }
+            }
+        }
+        return all;
+    }();
     return groups;
 }
 

@@ -33,6 +33,7 @@ struct KeyBinding {
     // One of the two.
     void (*change)(ViewState& view, const ViewRange& range) = nullptr;
     WindowCommand command = WindowCommand::none;
+    bool repeats = false;  // again and again while the key is held
 };
 
 // One line of the help with the bindings of its keys.

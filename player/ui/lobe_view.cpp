@@ -7,7 +7,7 @@ namespace paim::player {
 
 namespace {
 
-const Vec3f kBehindLobes = Vec3f::Constant(0.02f);
+const Vec3f kBehindLobes = Vec3f::Constant(0.1f);  // display values
 
 }  // namespace
 
@@ -33,14 +33,11 @@ void LobeView::draw(const Camera& camera) {
     frame.camera.up = camera.up;
     frame.camera.target = Vec3f::Zero();
     frame.camera.eye = 3.6f * direction_;
+    frame.display = ToneCurve();
     target_.bind();
-    glClearColor(kBehindLobes[0], kBehindLobes[1], kBehindLobes[2], 1.0f);
-    glClearDepthf(1.0f);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    gl::clear(kBehindLobes);
     renderer_.draw(surface_, topology_.triangles.size(),
                    SurfacePlace{.num_following = topology_.triangles.size()}, frame, 1.0f);
-    picture_.bind();
-    tone_mapper_.draw(target_, kSamples, {});
 }
 
 }  // namespace paim::player

@@ -5,12 +5,10 @@
 #include <optional>
 #include <vector>
 
-#include "player/gl/byte_picture.h"
 #include "player/gl/target.h"
 #include "player/inspect/lobe.h"
 #include "player/render/surface_mesh.h"
 #include "player/render/surface_renderer.h"
-#include "player/render/tone_mapper.h"
 
 namespace paim::player {
 
@@ -25,10 +23,10 @@ class LobeView {
     // The axes of the function are those of the scene.
     void update(const std::vector<float>& coefficients, const Camera& camera);
 
-    const gl::TextureHandle& texture() const { return picture_.texture(); }
+    const gl::TextureHandle& texture() const { return target_.color(); }
 
   private:
-    static constexpr int kSize = 192, kSamples = 2;  // pixels, and samples along each side of one
+    static constexpr int kSize = 256;  // pixels, about two for each that is shown
 
     void draw(const Camera& camera);
 
@@ -36,9 +34,7 @@ class LobeView {
     Topology topology_;
     SurfaceMesh surface_;
     SurfaceRenderer renderer_;
-    ToneMapper tone_mapper_;
-    gl::Target target_{kSize * kSamples, kSize* kSamples};
-    gl::BytePicture picture_{kSize, kSize};
+    gl::Target target_{kSize, kSize, gl::TargetKind::display};
     Lobe lobe_;
     std::vector<float> coefficients_;
     Vec3f direction_ = Vec3f::Zero();  // of the camera; zero: nothing was drawn

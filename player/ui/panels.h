@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "paim/metrics/asset_error.h"
 #include "player/gl/handle.h"
 #include "player/inspect/accuracy.h"
 #include "player/inspect/legend.h"
@@ -44,9 +43,10 @@ struct PanelInfo {
     double frame_ms = 0.0;
     float poses_per_second = 24.0f;
 
-    Accuracy accuracy;
-    const ErrorStatement* stated = nullptr;
-    std::string vertex_components;  // what the codec calls them, if there are any
+    Cost cost{};
+    std::optional<Accuracy> accuracy;  // once it is known
+    std::string accuracy_note;         // why the file states no error, or empty
+    std::string vertex_components;     // what the codec calls them, if there are any
 
     const gl::TextureHandle* globe_light = nullptr;
     const gl::TextureHandle* globe_reconstruction = nullptr;
@@ -66,6 +66,7 @@ struct PanelState {
     bool show_panels = true;
     bool show_help = false;
     bool show_open = false;
+    bool light_is_open = false;    // the section of the light
     std::filesystem::path folder;  // that the open panel lists; empty: not listed yet
     std::vector<std::filesystem::path> folders, files;
     std::vector<std::filesystem::path> recent;
@@ -88,6 +89,7 @@ void draw_picture(ViewState& view, PanelRequests& requests);
 void draw_surface(const PanelInfo& info, const ViewRange& range, ViewState& view);
 void draw_camera(const PanelInfo& info, ViewState& view, PanelRequests& requests);
 void draw_timeline(const ViewRange& range, float poses_per_second, ViewState& view);
+float timeline_height();  // screen coordinates
 void draw_legend(const PanelInfo& info);
 void draw_picked(const PanelInfo& info, ViewState& view);
 void draw_markers(const PanelInfo& info);

@@ -30,16 +30,22 @@ void dim_text(const std::string& line) {
     ImGui::PopStyleColor();
 }
 
-void note_text(const std::string& line) {
+void text_in_lines(const std::string& line) {
     ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + 20.0f * ImGui::GetFontSize());
-    dim_text(line);
+    text(line);
     ImGui::PopTextWrapPos();
 }
 
+void note_text(const std::string& line) {
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    text_in_lines(line);
+    ImGui::PopStyleColor();
+}
+
 bool begin_panel(const char* name, const ImVec2& place, const ImVec2& corner,
-                 ImGuiWindowFlags flags) {
+                 ImGuiWindowFlags flags, float opacity) {
     ImGui::SetNextWindowPos(place, ImGuiCond_Always, corner);
-    ImGui::SetNextWindowBgAlpha(kPanelOpacity);
+    ImGui::SetNextWindowBgAlpha(opacity);
     return ImGui::Begin(name, nullptr, kPanelFlags | flags);
 }
 
@@ -48,6 +54,8 @@ std::string megabytes(uint64_t bytes) {
 }
 
 std::string percent(double fraction) {
+    constexpr double kLeast = 1e-7;  // less is rounding
+    if (fraction > 0.0 && fraction < kLeast) return "below 0.00001 %";
     return fmt::format("{:.3g} %", 100.0 * fraction);
 }
 

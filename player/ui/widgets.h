@@ -17,17 +17,18 @@ float panel_margin();
 
 void text(const std::string& line);
 void dim_text(const std::string& line);
-// Wraps at the panel's edge.
+// Wrapped after some 40 letters.
+void text_in_lines(const std::string& line);
 void note_text(const std::string& line);
 
 // Opens a panel with its given corner (0 or 1 in x and y) at that place, screen coordinates. Ends with
 // ImGui::End(), whatever this returns.
 bool begin_panel(const char* name, const ImVec2& place, const ImVec2& corner,
-                 ImGuiWindowFlags flags = 0);
+                 ImGuiWindowFlags flags = 0, float opacity = kPanelOpacity);
 
 // "1.25 MB"
 std::string megabytes(uint64_t bytes);
-// "0.52 %", with three digits that count
+// "0.52 %", with three digits that count; what is below 0.00001 % says so
 std::string percent(double fraction);
 
 // Sliders of doubles, which ImGui has for floats alone. Return whether the value has changed.

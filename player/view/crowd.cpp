@@ -8,14 +8,17 @@ namespace paim::player {
 
 namespace {
 
-constexpr double kGap = 0.1;  // between two copies, as a share of their size
+constexpr double kGap = 0.1;        // between two copies, as a share of their size
+constexpr double kLeastGap = 0.02;  // as a share of their largest extent: of what is flat
 constexpr double kGoldenSection = 0.6180339887498949;
 
 }  // namespace
 
 std::vector<Instance> make_crowd(uint32_t count, const Bounds& reach, uint32_t num_poses) {
     if (count <= 1 || reach.empty()) return {Instance{}};
-    const Vec3d size = (reach.upper - reach.lower).cast<double>() * (1.0 + kGap);
+    const Vec3d extent = (reach.upper - reach.lower).cast<double>();
+    const double largest = extent.maxCoeff() > 0.0 ? extent.maxCoeff() : 1.0;
+    const Vec3d size = extent + (kGap * extent).cwiseMax(Vec3d::Constant(kLeastGap * largest));
     const auto columns = static_cast<uint32_t>(std::ceil(std::sqrt(static_cast<double>(count))));
     // Cells in order of their distance from the middle one; of equal ones the front row first.
     std::vector<std::pair<int, int>> cells;

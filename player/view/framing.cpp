@@ -14,6 +14,9 @@ namespace paim::player {
 
 namespace {
 
+// How far the camera stays from the nearest point, as a share of the depth of all points.
+constexpr double kNearest = 1e-3;
+
 constexpr uint64_t kMaxMultiplyAdds = uint64_t{1} << 29;  // about a tenth of a second on one core
 
 // Adds the body at moments of the animation.
@@ -83,8 +86,11 @@ Camera FrustumFit::camera() const {
     if (highest_ == kNone) return from_origin_;
     const Vec3d middle = 0.5 * (highest_ - lowest_);  // of x and y: where the camera is; of z
     const Vec3d depth = 0.5 * (highest_ + lowest_).cwiseQuotient(slope_);
-    double z = std::max(depth.x(), depth.y());
-    if (!(z - middle.z() > 0.0)) z = middle.z() + 1.0;  // a single point
+    const double extent = highest_.z() + lowest_.z();
+    double z = std::max({depth.x(), depth.y(), highest_.z() + kNearest * extent});
+    // Of a single point nothing but rounding is left.
+    constexpr double kRounding = 1e-6;
+    if (!(z - middle.z() > kRounding * middle.cwiseAbs().maxCoeff())) z = middle.z() + 1.0;
     Camera camera = from_origin_;
     const Eigen::Matrix3d to_scene = to_camera_.transpose();
     camera.target = (to_scene * middle).cast<float>();

@@ -17,7 +17,7 @@ struct OrbitCamera {
 
     bool operator==(const OrbitCamera&) const = default;
 
-    // Looks at the same as this camera, as which it does not roll.
+    // Stands where this camera stands and looks at the same. It does not roll.
     static OrbitCamera of(const Camera& camera);
 
     // Mouse movements as fractions of the window's height, right and down positive.

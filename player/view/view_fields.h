@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "player/light/auto_exposure.h"
 #include "player/view/view_state.h"
 
 namespace paim::player {
@@ -22,7 +23,7 @@ Names<SurfaceView> surface_view_names();
 
 // Calls a function of the visitor for each field of the view. Names are paths: "light.yaw_deg".
 //   numbers   visit.number(name, value, lowest, highest): double or float
-//   counts    visit.count(name, value, highest): uint32_t, from 0
+//   counts    visit.count(name, value, lowest, highest): uint32_t
 //   switches  visit.flag(name, value)
 //   vectors   visit.vector(name, value, lowest, highest): three numbers
 //   words     visit.word(name, value, names)
@@ -35,24 +36,25 @@ void visit_fields(View& view, Visitor&& visit) {
     visit.flag("animation.playing", view.animation.playing);
     visit.flag("animation.ping_pong", view.animation.ping_pong);
     visit.flag("animation.in_betweens", view.animation.in_betweens);
-    visit.count("detail.geometry_components", view.limits.geometry_components, kMost);
-    visit.count("detail.transfer_components", view.limits.transfer_components, kMost);
-    visit.count("detail.vertex_components", view.limits.vertex_components, kMost);
-    visit.count("detail.bands", view.limits.bands, kMost);
-    visit.number("light.yaw_deg", view.light.orientation.yaw_deg, -36000.0, 36000.0);
-    visit.number("light.pitch_deg", view.light.orientation.pitch_deg, -36000.0, 36000.0);
-    visit.number("light.roll_deg", view.light.orientation.roll_deg, -36000.0, 36000.0);
+    visit.count("detail.geometry_components", view.limits.geometry_components, 0, kMost);
+    visit.count("detail.transfer_components", view.limits.transfer_components, 0, kMost);
+    visit.count("detail.vertex_components", view.limits.vertex_components, 0, kMost);
+    visit.count("detail.bands", view.limits.bands, 1, kMost);
+    visit.number("light.yaw_deg", view.light.orientation.yaw_deg, -kMaxAngle_deg, kMaxAngle_deg);
+    visit.number("light.pitch_deg", view.light.orientation.pitch_deg, -kMaxAngle_deg,
+                 kMaxAngle_deg);
+    visit.number("light.roll_deg", view.light.orientation.roll_deg, -kMaxAngle_deg, kMaxAngle_deg);
     visit.flag("light.turning", view.light.turning);
     visit.number("light.turn_speed_deg", view.light.turn_speed_deg, -kMaxTurnSpeed_deg,
                  kMaxTurnSpeed_deg);
-    visit.number("light.strength", view.light.strength, 0.0, 1e6);
+    visit.number("light.strength", view.light.strength, 0.0, kMaxStrength);
     visit.flag("key_light.on", view.light.key_on);
     visit.number("key_light.azimuth_deg", view.light.key.azimuth_deg, -360.0, 360.0);
     visit.number("key_light.elevation_deg", view.light.key.elevation_deg, -90.0, 90.0);
     visit.number("key_light.angular_diameter_deg", view.light.key.angular_diameter_deg,
                  KeyLight::kMinDiameter_deg, KeyLight::kMaxDiameter_deg);
-    visit.number("key_light.strength", view.light.key.strength, 0.0, 1e6);
-    visit.vector("key_light.color", view.light.key.color, 0.0, 1e6);
+    visit.number("key_light.strength", view.light.key.strength, 0.0, kMaxStrength);
+    visit.vector("key_light.color", view.light.key.color, 0.0, kMaxStrength);
     visit.word("camera.target", view.camera.target, camera_target_names());
     visit.vector("camera.place", view.camera.orbit.target, -kFar, kFar);
     visit.number("camera.distance", view.camera.orbit.distance, 1e-38, kFar);
@@ -60,18 +62,19 @@ void visit_fields(View& view, Visitor&& visit) {
     visit.number("camera.elevation_rad", view.camera.orbit.elevation_rad, -1.56, 1.56);
     visit.number("camera.turn_speed_deg", view.camera.turn_speed_deg, -kMaxTurnSpeed_deg,
                  kMaxTurnSpeed_deg);
-    visit.number("display.exposure_ev", view.tone_curve.exposure_ev, -30.0, 30.0);
-    visit.number("display.gamma", view.tone_curve.gamma, 0.0, 10.0);
+    visit.number("display.exposure_ev", view.tone_curve.exposure_ev, -double{kLargestExposure_ev},
+                 double{kLargestExposure_ev});
+    visit.number("display.gamma", view.tone_curve.gamma, 0.0, double{kHighestGamma});
     visit.word("display.tone_map", view.tone_curve.tone_operator, tone_operator_names());
     visit.word("background.kind", view.background.kind, background_names());
     visit.vector("background.color", view.background.color, 0.0, 1.0);
     visit.word("surface.view", view.surface, surface_view_names());
-    visit.count("surface.coefficient", view.coefficient, 4095);
-    visit.count("surface.channel", view.channel, kLuminance);
+    visit.count("surface.coefficient", view.coefficient, 0, kMaxCoefficient);
+    visit.count("surface.channel", view.channel, 0, kLuminance);
     visit.flag("surface.edges", view.edges);
     visit.word("comparison.kind", view.comparison, comparison_names());
     visit.number("comparison.split", view.split, 0.0, 1.0);
-    visit.count("instances", view.num_instances, kMostInstances);
+    visit.count("instances", view.num_instances, 1, kMostInstances);
 }
 
 }  // namespace paim::player

@@ -1,6 +1,7 @@
 // The table of view_fields.h, written and read.
 #include "player/view/view_file.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -41,7 +42,9 @@ struct Writer {
     void number(const char* name, const Number& value, double, double) {
         json[pointer_of(name)] = value;
     }
-    void count(const char* name, uint32_t value, uint32_t) { json[pointer_of(name)] = value; }
+    void count(const char* name, uint32_t value, uint32_t, uint32_t) {
+        json[pointer_of(name)] = value;
+    }
     void flag(const char* name, bool value) { json[pointer_of(name)] = value; }
     template <typename Vector>
     void vector(const char* name, const Vector& value, double, double) {
@@ -63,11 +66,12 @@ class Reader {
         if (found == nullptr) return;
         value = static_cast<Number>(number_in(*found, name, lowest, highest));
     }
-    void count(const char* name, uint32_t& value, uint32_t highest) {
+    void count(const char* name, uint32_t& value, uint32_t lowest, uint32_t highest) {
         const ordered_json* const found = find(name);
         if (found == nullptr) return;
-        if (!found->is_number_unsigned() || found->get<uint64_t>() > highest) {
-            refuse(name, "a whole number from 0 to " + std::to_string(highest), *found);
+        const bool is_count = found->is_number_unsigned();
+        if (!is_count || found->get<uint64_t>() < lowest || found->get<uint64_t>() > highest) {
+            refuse(name, fmt::format("a whole number from {} to {}", lowest, highest), *found);
         }
         value = found->get<uint32_t>();
     }
@@ -103,26 +107,33 @@ class Reader {
         refuse(name, expected, *found);
     }
 
+    bool has(const char* name) const { return json_.contains(pointer_of(name)); }
+
     // Error where the file has a field that is none.
     void refuse_others() const {
-        const auto refuse_unknown = [&](const std::string& name) {
-            if (known_.contains(name)) return;
-            throw_bad_input("{}: unknown field '{}'", file_, name);
-        };
         for (const auto& [group, fields] : json_.items()) {
-            if (!fields.is_object()) {
-                refuse_unknown(group);
+            if (!fields.is_object() || !groups_.contains(group)) {
+                // Not "light.yaw_deg": that is {"light": {"yaw_deg": …}}.
+                refuse_unless(known_.contains(group) && group.find('.') == std::string::npos,
+                              group);
                 continue;
             }
-            for (const auto& [field, value] : fields.items()) refuse_unknown(group + "." + field);
+            for (const auto& [field, value] : fields.items()) {
+                const std::string name = group + "." + field;
+                refuse_unless(known_.contains(name), name);
+            }
         }
     }
 
   private:
     const ordered_json* find(const char* name) {
-        known_.insert(name);
-        const auto pointer = pointer_of(name);
-        return json_.contains(pointer) ? &json_.at(pointer) : nullptr;
+        const std::string path = name;
+        known_.insert(path);
+        groups_.insert(path.substr(0, path.find('.')));
+        return has(name) ? &json_.at(pointer_of(path)) : nullptr;
+    }
+    void refuse_unless(bool known, const std::string& name) const {
+        if (!known) throw_bad_input("{}: unknown field '{}'", file_, name);
     }
     double number_in(const ordered_json& json, const char* name, double lowest,
                      double highest) const {
@@ -138,13 +149,15 @@ class Reader {
     static std::string shortened(const ordered_json& json) {
         constexpr size_t kMost = 60;
         std::string text = json_text(json);
-        if (text.size() > kMost) text = text.substr(0, kMost) + "…";
-        return text;
+        if (text.size() <= kMost) return text;
+        size_t end = kMost;
+        while ((text[end] & 0xc0) == 0x80) --end;  // UTF-8: whole characters
+        return text.substr(0, end) + "…";
     }
 
     const ordered_json& json_;
     std::string file_;
-    std::set<std::string> known_;
+    std::set<std::string> known_, groups_;  // names of fields, and their first parts
 };
 
 ordered_json parse(const std::filesystem::path& path) {
@@ -195,7 +208,19 @@ void read_view(const std::filesystem::path& path, const SceneUnits& units, ViewS
     Reader reader(json, path.string());
     visit_fields(scene, reader);
     reader.refuse_others();
+    if (scene.tone_curve.gamma != 0.0f && scene.tone_curve.gamma < kLowestGamma) {
+        throw_bad_input("{}: display.gamma: expected 0 or a number from {} to {}, got {}",
+                        path.string(), kLowestGamma, kHighestGamma, scene.tone_curve.gamma);
+    }
     to_model(scene, units);
+    // Not converted there and back: what the camera looks at may have become another kind of place.
+    const OrbitCamera& before = view.camera.orbit;
+    OrbitCamera& orbit = scene.camera.orbit;
+    if (!reader.has("camera.place")) orbit.target = before.target;
+    if (!reader.has("camera.distance")) {
+        orbit.distance = before.distance;
+        orbit.framed_distance = before.framed_distance;
+    }
     view = scene;
 }
 

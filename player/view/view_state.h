@@ -27,7 +27,12 @@ enum class CameraTarget {
 // Two pictures in one: the view within its limits, and the whole file.
 enum class Comparison { none, wipe, side_by_side };
 
+// Ranges of options, files and sliders.
 constexpr double kMaxTurnSpeed_deg = 360.0;  // a second
+constexpr double kMaxAngle_deg = 36000.0;    // of the light
+constexpr double kMaxStrength = 1e6;
+constexpr float kLowestGamma = 0.1f, kHighestGamma = 10.0f;  // or 0: the sRGB curve
+constexpr uint32_t kMaxCoefficient = 4095;                   // of 64 bands
 constexpr uint32_t kMostInstances = 10000;
 
 struct LightView {

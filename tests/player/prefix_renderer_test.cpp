@@ -32,13 +32,13 @@ TEST(PrefixRenderer, DrawsAnotherAssetAsIfItWereTheFirst) {
     options.num_poses = 4;
     const auto other = std::make_shared<const Asset>(make_test_asset(options));
     for (const Decoder decoder : {Decoder::gpu, Decoder::cpu}) {
-        SceneRenderer renderer(other, {}, decoder);
+        SceneRenderer renderer(other, {}, {}, decoder);
         Image last = draw(renderer, *other);
         for (const auto& asset : {coarse, whole, other, coarse}) {
-            renderer.set_asset(asset, {});
+            renderer.set_asset(asset, {}, {});
             const Image image = draw(renderer, *asset);
             EXPECT_NE(image.pixels, last.pixels);
-            SceneRenderer fresh(asset, {}, decoder);
+            SceneRenderer fresh(asset, {}, {}, decoder);
             EXPECT_EQ(image.pixels, draw(fresh, *asset).pixels);
             EXPECT_EQ(renderer.texture_bytes(), fresh.texture_bytes());
             last = image;

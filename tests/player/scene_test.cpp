@@ -57,8 +57,8 @@ class SceneTest : public testing::TestWithParam<Way> {
         gl::report_driver_messages();
     }
     SceneRenderer make_renderer(const Asset& asset, const EnvironmentLight& environment) const {
-        SceneRenderer renderer(std::make_shared<const Asset>(asset), {}, GetParam().decoder);
-        renderer.set_environment(environment.image());
+        SceneRenderer renderer(std::make_shared<const Asset>(asset), {}, {}, GetParam().decoder);
+        renderer.set_environment(environment);
         return renderer;
     }
     std::unique_ptr<gl::Context> context_;
@@ -264,7 +264,8 @@ TEST_P(SceneTest, LargePicturesAreDrawnInTiles) {
 TEST_P(SceneTest, EnvironmentsAreReplaced) {
     const Asset asset = make_empty_asset();
     SceneRenderer renderer = make_renderer(asset, EnvironmentLight(make_environment()));
-    renderer.set_environment(Image(1, 1, Vec3f(0.5f, 0.25f, 4.0f)));
+    // Large enough not to be smoothed.
+    renderer.set_environment(EnvironmentLight(Image(64, 32, Vec3f(0.5f, 0.25f, 4.0f))));
     const Image after = renderer.render({}, kWidth, kHeight, 1);
     for (const Vec3f& pixel : after.pixels) ASSERT_EQ(pixel, Vec3f(0.5f, 0.25f, 4.0f));
 }
@@ -341,6 +342,44 @@ TEST_P(SceneTest, ToneMapperAgreesWithToneCurve) {
                     ASSERT_NEAR(pixels[static_cast<size_t>((kHeight - 1 - y) * kWidth + x)]
                                       [static_cast<size_t>(channel)],
                                 curve.apply(image.at(x, y)[channel]), 1);
+                }
+            }
+        }
+    }
+}
+
+// Mesh, edges, environment and coloured background, drawn through the curve at once.
+TEST_P(SceneTest, DisplayTargetsShowWhatTheToneCurveMakesOfRadiance) {
+    const Asset asset = make_test_asset({});
+    SceneRenderer renderer = make_renderer(asset, EnvironmentLight(make_environment()));
+    Frame frame;
+    light_frame(frame, EnvironmentLight(make_environment()), 5, 0.3);
+    frame.bounds = pose_bounds(asset, 0.0, frame.limits.geometry_components);
+    frame.camera = frame_bounds(frame.bounds, kAspect);
+    const gl::Target radiance(kWidth, kHeight);
+    const gl::Target display(kWidth, kHeight, gl::TargetKind::display);
+    for (const bool plain : {false, true}) {
+        frame.edges = plain;
+        frame.background.kind = plain ? Background::Kind::color : Background::Kind::environment;
+        frame.background.color = Vec3f(0.2f, 0.7f, 4.0f);
+        for (const ToneCurve& curve : {ToneCurve{-0.5f, 0.0f, ToneOperator::aces},
+                                       ToneCurve{0.5f, 2.2f, ToneOperator::reinhard}}) {
+            frame.display.reset();
+            renderer.draw(frame, radiance);
+            const Image image = radiance.read();
+            frame.display = curve;
+            renderer.draw(frame, display);
+            std::vector<std::array<uint8_t, 4>> shown(static_cast<size_t>(kWidth * kHeight));
+            glReadPixels(0, 0, kWidth, kHeight, GL_RGBA, GL_UNSIGNED_BYTE, shown.data());
+            gl::check_errors("testing");
+            for (int y = 0; y < kHeight; ++y) {
+                for (int x = 0; x < kWidth; ++x) {
+                    const auto& pixel = shown[static_cast<size_t>((kHeight - 1 - y) * kWidth + x)];
+                    for (int channel = 0; channel < 3; ++channel) {
+                        ASSERT_NEAR(pixel[static_cast<size_t>(channel)],
+                                    curve.apply(image.at(x, y)[channel]), 1)
+                            << x << ", " << y;
+                    }
                 }
             }
         }

@@ -25,7 +25,7 @@ class XServer {
         if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw std::runtime_error("pipe2 failed");
         // Xvfb writes the number of its display into descriptor 3.
         const std::array<std::string, 9> arguments = {program,     "-displayfd", "3",
-                                                      "-screen",   "0",          "800x600x24",
+                                                      "-screen",   "0",          "1280x1024x24",
                                                       "-nolisten", "tcp",        "-noreset"};
         std::array<char*, 10> argv{};
         for (size_t i = 0; i < arguments.size(); ++i) {

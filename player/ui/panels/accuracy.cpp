@@ -8,7 +8,7 @@ namespace paim::player {
 
 namespace {
 
-// "2.1 % of the bake", or in words why it is not known.
+// A share of the bake, or in words that it is not known.
 std::string error_text(const std::optional<double>& total) {
     return total ? percent(*total) : "not stated";
 }
@@ -32,15 +32,16 @@ void draw_errors(const Accuracy& accuracy) {
     error_row("positions", accuracy.position_total, accuracy.position_dropped);
     ImGui::EndTable();
     if (accuracy.transfer.theory_error) {
-        dim_text(fmt::format(
-            "theory (E5): transfer {}, positions {}", percent(*accuracy.transfer.theory_error),
-            accuracy.geometry.theory_error ? percent(*accuracy.geometry.theory_error)
-                                           : "not known"));
+        dim_text(fmt::format("theory (E5): transfer {}\n             positions {}",
+                             percent(*accuracy.transfer.theory_error),
+                             accuracy.geometry.theory_error
+                                 ? percent(*accuracy.geometry.theory_error)
+                                 : "not known"));
     }
 }
 
 void draw_costs(const PanelInfo& info) {
-    const Cost& cost = info.accuracy.cost;
+    const Cost& cost = info.cost;
     if (!ImGui::BeginTable("costs", 2)) return;
     const auto row = [](const char* what, const std::string& value) {
         ImGui::TableNextColumn();
@@ -72,7 +73,7 @@ void draw_accuracy(const PanelInfo& info, const ViewRange& range, ViewState& vie
     count_slider("geometry components", view.limits.geometry_components, 0,
                  most.geometry_components);
     count_slider("bands", view.limits.bands, 1, most.bands);
-    const char* const kComparisons[] = {"not compared", "wipe", "side by side"};
+    const char* const kComparisons[] = {"not shown", "wipe", "side by side"};
     auto comparison = static_cast<size_t>(view.comparison);
     if (choice("whole file", comparison, std::size(kComparisons),
                [&](size_t i) { return kComparisons[i]; })) {
@@ -81,7 +82,12 @@ void draw_accuracy(const PanelInfo& info, const ViewRange& range, ViewState& vie
     if (view.comparison == Comparison::wipe) {
         number_slider("split", view.split, 0.0, 1.0, "%.2f");
     }
-    draw_errors(info.accuracy);
+    if (info.accuracy) {
+        draw_errors(*info.accuracy);
+        if (!info.accuracy_note.empty()) note_text(info.accuracy_note);
+    } else {
+        dim_text("errors: once the whole file is there");
+    }
     draw_costs(info);
 }
 

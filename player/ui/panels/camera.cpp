@@ -19,13 +19,13 @@ void draw_camera(const PanelInfo& info, ViewState& view, PanelRequests& requests
     }
     number_slider("turntable", view.camera.turn_speed_deg, -90.0, 90.0, "%.0f deg/s");
     count_slider("copies", view.num_instances, 1, 100);
-    button("PNG", WindowCommand::snapshot_png);
+    button("save PNG", WindowCommand::snapshot_png);
     ImGui::SameLine();
-    button("OpenEXR", WindowCommand::snapshot_exr);
+    button("save EXR", WindowCommand::snapshot_exr);
     ImGui::SameLine();
-    button("view", WindowCommand::save_view);
+    button("save view", WindowCommand::save_view);
     ImGui::SameLine();
-    button(info.recorded ? "stop" : "clip", WindowCommand::record);
+    button(info.recorded ? "stop" : "record", WindowCommand::record);
     if (info.recorded) {
         ImGui::ProgressBar(*info.recorded, ImVec2(18.0f * ImGui::GetFontSize(), 0.0f));
     }

@@ -1,6 +1,8 @@
 // The environment, its globe, and the key light.
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "player/ui/panels.h"
 #include "player/ui/widgets.h"
 
@@ -35,7 +37,11 @@ void draw_key_light(LightView& light) {
                   KeyLight::kMaxDiameter_deg, "%.1f deg");
     number_slider("irradiance", key.strength, 0.0, 20.0, "%.2f");
     ImGui::ColorEdit3("colour", key.color.data(), ImGuiColorEditFlags_Float);
-    key.color = key.color.cwiseMax(0.0f);
+    // Any number can be typed; max() of no number is the other.
+    const auto within = [](float x) {
+        return std::fmin(std::fmax(x, 0.0f), static_cast<float>(kMaxStrength));
+    };
+    key.color = key.color.unaryExpr(within);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Files to open: those of a folder, and those of late.
+// Files to open: those of a folder, and those opened last.
 #include <algorithm>
 #include <system_error>
 
@@ -53,6 +53,7 @@ void draw_open(PanelState& state, PanelRequests& requests) {
     ImGui::SetNextWindowSize(
         ImVec2(std::min(0.6f * size.x, 36.0f * ImGui::GetFontSize()), 0.7f * size.y),
         ImGuiCond_Appearing);
+    ImGui::SetNextWindowBgAlpha(1.0f);  // panels under it would be read as part of it
     std::optional<std::filesystem::path> folder;
     if (ImGui::Begin("Open a model (.paim) or a light (.exr)", &state.show_open,
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoCollapse)) {

@@ -12,7 +12,7 @@ void draw_picked(const PanelInfo& info, ViewState& view) {
     if (!info.picked) return;
     const PickedInfo& picked = *info.picked;
     const ImVec2 size = ImGui::GetIO().DisplaySize;
-    const ImVec2 place(size.x - panel_margin(), size.y - 5.0f * ImGui::GetFontSize());
+    const ImVec2 place(size.x - panel_margin(), size.y - 2.0f * panel_margin() - timeline_height());
     if (begin_panel("picked", place, ImVec2(1.0f, 1.0f))) {
         text(fmt::format("vertex {} of part {}", picked.vertex.vertex, picked.vertex.part));
         ImGui::SameLine();

@@ -1,4 +1,7 @@
 // How the picture is displayed.
+#include <algorithm>
+
+#include "player/light/auto_exposure.h"
 #include "player/ui/panels.h"
 #include "player/ui/widgets.h"
 
@@ -21,15 +24,17 @@ std::span<const NamedBackground> backgrounds() {
     return all;
 }
 
+// The colour counts where it is shown.
+bool is_same(const Background& a, const Background& b) {
+    return a.kind == b.kind && (a.kind != Background::Kind::color || a.color == b.color);
+}
+
 void choose_background(Background& background) {
     const auto all = backgrounds();
     size_t chosen = 0;
-    while (chosen + 1 < all.size() && (all[chosen].background.kind != background.kind ||
-                                       (background.kind == Background::Kind::color &&
-                                        all[chosen].background.color != background.color))) {
-        ++chosen;
-    }
-    if (choice("background", chosen, all.size(), [&](size_t i) { return all[i].name; })) {
+    while (chosen < all.size() && !is_same(all[chosen].background, background)) ++chosen;
+    if (choice("background", chosen, all.size(),
+               [&](size_t i) { return i < all.size() ? all[i].name : "a colour"; })) {
         background = all[chosen].background;
     }
 }
@@ -38,7 +43,9 @@ void choose_background(Background& background) {
 
 void draw_picture(ViewState& view, PanelRequests& requests) {
     ToneCurve& curve = view.tone_curve;
+    // Others can be typed.
     ImGui::SliderFloat("exposure", &curve.exposure_ev, -8.0f, 8.0f, "%.2f EV");
+    curve.exposure_ev = std::clamp(curve.exposure_ev, -kLargestExposure_ev, kLargestExposure_ev);
     ImGui::SameLine();
     if (ImGui::SmallButton("auto")) requests.commands.push_back(WindowCommand::auto_exposure);
     const auto names = tone_operator_names();
@@ -47,10 +54,12 @@ void draw_picture(ViewState& view, PanelRequests& requests) {
     if (choice("tone map", chosen, names.size(), [&](size_t i) { return names[i].first; })) {
         curve.tone_operator = names[chosen].second;
     }
-    ImGui::SliderFloat("gamma", &curve.gamma, 0.0f, 5.0f, curve.gamma == 0.0f ? "sRGB" : "%.1f",
-                       ImGuiSliderFlags_AlwaysClamp);
-    // Below 1 a curve is of no use; the low end of the slider means sRGB.
-    if (curve.gamma < 1.0f) curve.gamma = 0.0f;
+    // Below 1 a curve is of little use; the low end of the slider means sRGB.
+    if (ImGui::SliderFloat("gamma", &curve.gamma, 0.0f, 5.0f, curve.gamma == 0.0f ? "sRGB" : "%.1f",
+                           ImGuiSliderFlags_AlwaysClamp) &&
+        curve.gamma < 1.0f) {
+        curve.gamma = 0.0f;
+    }
     choose_background(view.background);
 }
 

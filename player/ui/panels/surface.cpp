@@ -61,6 +61,7 @@ void choose_coefficient(const ViewRange& range, ViewState& view) {
 void draw_surface(const PanelInfo& info, const ViewRange& range, ViewState& view) {
     const auto rows = surface_views();
     auto chosen = static_cast<size_t>(view.surface);
+    ImGui::SetNextItemWidth(15.0f * ImGui::GetFontSize());
     if (choice("surface", chosen, rows.size(), [&](size_t i) { return rows[i].words; })) {
         view.surface = rows[chosen].view;
     }
@@ -79,12 +80,13 @@ void draw_legend(const PanelInfo& info) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     if (begin_panel("legend", ImVec2(size.x - panel_margin(), panel_margin()),
                     ImVec2(1.0f, 0.0f))) {
-        text(legend.title);
+        text_in_lines(legend.title);
         if (legend.kind != ScaleKind::none) draw_scale(legend);
         if (legend.mean_error) text(fmt::format("mean {:.3g}", *legend.mean_error));
         if (legend.worst) {
-            text(fmt::format("worst {:.3g}, vertex {} of part {} (circled)", legend.worst->value,
-                             legend.worst->vertex, legend.worst->part));
+            text_in_lines(fmt::format("worst {:.3g}, vertex {} of part {}{}", legend.worst->value,
+                                      legend.worst->vertex, legend.worst->part,
+                                      info.worst ? " (circled)" : ""));
         }
         if (!legend.note.empty()) note_text(legend.note);
     }
