@@ -93,7 +93,8 @@ void add_questions(CLI::App& app, AnalyzeOptions& options, RawValues& raw) {
 void add_pictures(CLI::App& app, AnalyzeOptions& options, RawValues& raw) {
     app.add_option("--env", options.environments,
                    "Environment map (OpenEXR) of the light; may be given several times; default: "
-                   "the built-in sky");
+                   "the built-in sky")
+        ->allow_extra_args(false);  // one each: what follows may be the bake
     app.add_option("--components", raw.components, "Component counts to measure, besides all")
         ->capture_default_str();
     app.add_option("--bands", raw.bands,
