@@ -293,6 +293,28 @@ TEST_F(PlayTest, SaysHowAMapWasRead) {
     expect_failure({"--env-mapping", "ball"}, 1, "--env-mapping: expected one of auto, latlong");
 }
 
+// What is read stays, and no output takes the place of another.
+TEST_F(PlayTest, RefusesOutputsThatReplaceOtherFiles) {
+    write_exr(out("light.exr"), Image(4, 2, Vec3f::Ones()));
+    const auto contents = [&] { return read_file(file_, std::filesystem::file_size(file_)); };
+    const std::vector<char> before = contents();
+    expect_failure({"--snapshot", out("a.png"), "--save-view", file_.string()}, 1,
+                   "that is the model");
+    expect_failure({"--snapshot", out("x/../light.exr"), "--env", out("light.exr")}, 1,
+                   "that is the light");
+    expect_failure({"--snapshot", out("a.png"), "--save-view", out("a.png")}, 1,
+                   "that is the file of --snapshot");
+    EXPECT_EQ(contents(), before);
+    EXPECT_EQ(read_exr(out("light.exr")).pixels[0], Vec3f(Vec3f::Ones()));
+    EXPECT_FALSE(std::filesystem::exists(out("a.png")));
+}
+
+TEST_F(PlayTest, RefusesClipsOfTooManyPictures) {
+    expect_failure({"--frames-out", out("clip"), "--fps", "1000", "--seconds", "1e5"}, 1,
+                   "at most 99999 pictures");
+    EXPECT_FALSE(std::filesystem::exists(out("clip")));
+}
+
 TEST_F(PlayTest, RefusesCommandLinesThatMakeNoSense) {
     const std::string png = out("a.png");
     expect_failure({"--snapshot", png, "--pose", "5.01"}, 1, "--pose: expected 0 to 5");
