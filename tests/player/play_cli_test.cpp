@@ -145,7 +145,7 @@ TEST_F(PlayTest, ToneCurvesChangeBrightPngs) {
     for (const char* name : {"clamp", "reinhard", "aces"}) {
         const ToolResult result =
             play({"--snapshot", out("a.png"), "--size", "32x24", "--env", out("bright.exr"),
-                  "--exposure", "-1", "--tone-map", name, "--json"});
+                  "--exposure", "-1", "--tone-map", name, "--camera", "29,17,3", "--json"});
         ASSERT_EQ(result.exit_code, 0) << result.err;
         EXPECT_EQ(nlohmann::json::parse(result.out)["tone_map"], name);
         const bool clipped = result.err.find("brighter than white") != std::string::npos;
@@ -159,9 +159,9 @@ TEST_F(PlayTest, ToneCurvesChangeBrightPngs) {
 }
 
 TEST_F(PlayTest, SnapshotReportsAsJson) {
-    const ToolResult result =
-        play({"--snapshot", out("a.png"), "--size", "32x24", "--pose", "2.5",
-              "--transfer-components", "2", "--bands", "3", "--decoder", "gpu", "--json"});
+    const ToolResult result = play({"--snapshot", out("a.png"), "--size", "32x24", "--pose", "2.5",
+                                    "--transfer-components", "2", "--bands", "3", "--decoder",
+                                    "gpu", "--camera", "29,17,3", "--json"});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(result.err, "");
     const auto json = nlohmann::json::parse(result.out);
