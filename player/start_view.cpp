@@ -1,7 +1,10 @@
 // Options to views.
 #include "player/start_view.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cstdio>
 
 #include "paim/base/error.h"
 #include "player/view/view_file.h"
@@ -65,7 +68,11 @@ ViewState start_view(const Options& options, const Scene& scene, Presenter& pres
     view.limits = lower_of(view.limits, options.limits);
     view.limits.bands = std::max(1u, view.limits.bands);
     const uint32_t num_coefficients = view.limits.bands * view.limits.bands;
-    view.coefficient = std::min(view.coefficient, num_coefficients - 1);
+    if (view.coefficient >= num_coefficients) {
+        fmt::print(stderr, "paim-play: note: coefficient {}: there are {}, showing the last\n",
+                   view.coefficient, num_coefficients);
+        view.coefficient = num_coefficients - 1;
+    }
     view.animation.time =
         std::min(view.animation.time, static_cast<double>(scene.asset->num_poses()) - 1.0);
     require_usable(view.camera.orbit, options);

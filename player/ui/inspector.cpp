@@ -18,7 +18,9 @@ std::optional<PicturePlace> place_of(Session& session, float aspect, const Picke
     Presenter& presenter = session.presenter();
     const Vec3f point = presenter.probe().position(presenter.time(view), view.limits, vertex);
     const std::optional<Vec3f> place = project(presenter.camera(view), aspect, point);
-    if (!place) return std::nullopt;
+    // Beyond the split a wipe shows the whole file, which has no error.
+    const bool is_hidden = view.comparison == Comparison::wipe && place && place->x() > view.split;
+    if (!place || is_hidden) return std::nullopt;
     return PicturePlace{place->x(), place->y()};
 }
 
