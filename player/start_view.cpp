@@ -7,17 +7,12 @@
 #include <cstdio>
 
 #include "paim/base/error.h"
+#include "player/render/lower_limits.h"
 #include "player/view/view_file.h"
 
 namespace paim::player {
 
 namespace {
-
-DecodeLimits lower_of(const DecodeLimits& a, const DecodeLimits& b) {
-    return {std::min(a.geometry_components, b.geometry_components),
-            std::min(a.transfer_components, b.transfer_components), std::min(a.bands, b.bands),
-            std::min(a.vertex_components, b.vertex_components)};
-}
 
 void change(const Options& options, ViewState& view) {
     for (const auto& change : options.view_changes) change(view);

@@ -4,16 +4,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "player/render/lower_limits.h"
+
 namespace paim::player {
 
 namespace {
-
-DecodeLimits within(const DecodeLimits& limits, const DecodeLimits& most) {
-    return {std::min(limits.geometry_components, most.geometry_components),
-            std::min(limits.transfer_components, most.transfer_components),
-            std::min(limits.bands, most.bands),
-            std::min(limits.vertex_components, most.vertex_components)};
-}
 
 DecodeLimits all_of(const CodedMesh& mesh) {
     return {mesh.positions.num_components, mesh.transfer->matrix.num_components,
@@ -25,7 +20,7 @@ DecodeLimits all_of(const CodedMesh& mesh) {
 CpuVertices::CpuVertices(std::shared_ptr<const Asset> asset, const DecodeLimits& limits)
     : VertexSource(*asset),
       playback_(std::move(asset)),
-      most_(within(limits, all_of(playback_.asset().moving()))) {}
+      most_(lower_of(limits, all_of(playback_.asset().moving()))) {}
 
 void CpuVertices::write(double time, const DecodeLimits& limits, const LightCoefficients* light,
                         std::span<const Changes> changes, std::span<SurfaceMesh> parts) {
@@ -35,7 +30,7 @@ void CpuVertices::write(double time, const DecodeLimits& limits, const LightCoef
         playback_.set_light(DistantLight(*light));
         light_ = light->values;
     }
-    playback_.update(time, within(limits, most_));
+    playback_.update(time, lower_of(limits, most_));
     for (size_t j = 0; j < parts.size(); ++j) {
         if (changes[j].positions) parts[j].upload_positions(playback_.local_positions(j));
         if (changes[j].colors) parts[j].upload_colors(playback_.radiance(j));

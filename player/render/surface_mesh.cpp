@@ -7,7 +7,6 @@
 
 #include "paim/base/check.h"
 #include "paim/base/error.h"
-#include "paim/base/parallel.h"
 #include "paim/mesh/face_edges.h"
 #include "player/gl/check.h"
 

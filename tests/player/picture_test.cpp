@@ -32,6 +32,7 @@
 #include "poses/octopus.h"
 #include "poses/shapes.h"
 #include "tests/player/test_asset.h"
+#include "tests/player/two_lamps.h"
 #include "tests/temporary_directory.h"
 
 namespace paim::player {
@@ -93,7 +94,7 @@ Sequence walking() {
     return compress("walking", poses, {}, find_root_motion(poses, RootMotionChoice::rigid));
 }
 
-// A box that turns over a floor, which does not follow it, with a sphere beside it that stands still.
+// A box that turns over a floor, which does not follow it, with a still sphere next to it.
 Sequence furnished() {
     const PoseSet box = poses::make_pose_set(*poses::make_box_sequence(200), kNumPoses);
     const RootMotion root_motion =
@@ -118,19 +119,6 @@ const Sequence& sequence(size_t number) {
     const std::array makers{octopus, walking, furnished};
     if (!made[number]) made[number] = makers[number]();
     return *made[number];
-}
-
-// A red light from +X and a blue one from −Z, for colour and direction.
-Image two_lamps() {
-    Image image(64, 32, Vec3f::Constant(0.1f));
-    for (int y = 0; y < 32; ++y) {
-        for (int x = 0; x < 64; ++x) {
-            const Vec3d w = direction_from_latlong((x + 0.5) / 64, (y + 0.5) / 32);
-            if (w.x() > 0.8) image.at(x, y) += Vec3f(9, 1, 1);
-            if (w.z() < -0.7) image.at(x, y) += Vec3f(1, 2, 8);
-        }
-    }
-    return image;
 }
 
 // What each vertex of a part shows at a time.
@@ -257,13 +245,13 @@ std::vector<std::pair<std::string, ViewState>> camera_views(Presenter& presenter
 
 TEST_F(PresentedPictures, AreThoseOfTheReferenceRenderer) {
     const LightCoefficients sky = EnvironmentLight(make_sky()).coefficients(kBands);
-    const LightCoefficients lamps = EnvironmentLight(two_lamps()).coefficients(kBands);
+    const LightCoefficients lamps = EnvironmentLight(make_two_lamps()).coefficients(kBands);
     ASSERT_EQ(sequence(1).assets[0]->moving().root_motion.size(), kNumPoses);
     ASSERT_NE(sequence(2).assets[0]->still(), nullptr);
     ASSERT_LT(sequence(2).assets[0]->moving().num_following, kAllVertices);
     for_each_presenter([&](Presenter& presenter, const std::string& what) {
         for (const bool use_sky : {true, false}) {
-            presenter.set_environment(EnvironmentLight(use_sky ? make_sky() : two_lamps()));
+            presenter.set_environment(EnvironmentLight(use_sky ? make_sky() : make_two_lamps()));
             ViewState view = black_view(0.0);
             view.light.orientation.yaw_deg = use_sky ? 130.0 : 0.0;
             LightCoefficients light =

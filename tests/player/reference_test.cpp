@@ -23,6 +23,7 @@
 #include "poses/octopus.h"
 #include "poses/shapes.h"
 #include "tests/cli/run_tool.h"
+#include "tests/player/two_lamps.h"
 #include "tests/temporary_directory.h"
 
 namespace paim {
@@ -30,19 +31,6 @@ namespace {
 
 constexpr int kWidth = 320;
 constexpr int kHeight = 240;
-
-// A red light from +X and a blue one from −Z, for colour and direction.
-Image make_two_lamps() {
-    Image image(64, 32, Vec3f::Constant(0.1f));
-    for (int y = 0; y < 32; ++y) {
-        for (int x = 0; x < 64; ++x) {
-            const Vec3d w = direction_from_latlong((x + 0.5) / 64, (y + 0.5) / 32);
-            if (w.x() > 0.8) image.at(x, y) += Vec3f(9, 1, 1);
-            if (w.z() < -0.7) image.at(x, y) += Vec3f(1, 2, 8);
-        }
-    }
-    return image;
-}
 
 // Pixels at edges may show either side of the edge. Elsewhere both pictures agree to two steps of
 // eight bits.
@@ -128,7 +116,7 @@ class Reference : public Pictures {
 };
 
 TEST_F(Reference, PlayerAgreesInThreePosesUnderTwoLights) {
-    write_exr(directory_ / "lamps.exr", make_two_lamps());
+    write_exr(directory_ / "lamps.exr", player::make_two_lamps());
     const std::string lamps = (directory_ / "lamps.exr").string();
     for (const double time : {0.0, 2.0, 4.5}) {
         for (const bool use_sky : {true, false}) {

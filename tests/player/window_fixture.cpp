@@ -27,9 +27,9 @@ Image make_light() {
         for (int x = 0; x < light.width; ++x) {
             const Vec3d direction = direction_from_latlong((x + 0.5) / 32.0, (y + 0.5) / 16.0);
             const double above = std::pow(std::max(0.0, direction.y()), 4.0);
-            const double beside = std::pow(std::max(0.0, direction.x()), 4.0);
-            light.at(x, y) = Vec3d(0.01 + 0.4 * above, 0.01 + 0.4 * above + 0.1 * beside,
-                                   0.01 + 0.05 * above + 0.8 * beside)
+            const double from_right = std::pow(std::max(0.0, direction.x()), 4.0);
+            light.at(x, y) = Vec3d(0.01 + 0.4 * above, 0.01 + 0.4 * above + 0.1 * from_right,
+                                   0.01 + 0.05 * above + 0.8 * from_right)
                                  .cast<float>();
         }
     }

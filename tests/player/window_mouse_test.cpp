@@ -211,7 +211,7 @@ TEST_F(WindowMouseTest, ClickPicksAVertexAndShowsItsHistory) {
     ASSERT_TRUE(peak);
     EXPECT_EQ(std::lround(5.0 * *peak), worst);
 
-    click(750, 200);  // beside the body
+    click(750, 200);  // next to the body
     settle();
     EXPECT_FALSE(view().picked);
     EXPECT_FALSE(is_marked(screen()));
