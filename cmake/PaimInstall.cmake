@@ -20,6 +20,7 @@ set(runtime_headers
     format/paim/paim_read.h
     light/light.h
     mesh/root_motion.h
+    mesh/texture.h
     mesh/topology.h
     paim.h
     sh/index.h

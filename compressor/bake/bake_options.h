@@ -22,6 +22,9 @@ constexpr Streams kStreams[] = {Streams::per_pose, Streams::shared, Streams::mix
 // The most rays of a vertex.
 constexpr uint32_t kMostRays = 1u << 24;
 
+// The most bands of outgoing radiance.
+constexpr uint32_t kMaxOutBands = 8;
+
 struct BakeOptions {
     uint32_t bands = 5;  // 1 … sh::kMaxBands
     // Per vertex, even, 2 … kMostRays; the limit if there is a transfer_error.
@@ -32,6 +35,9 @@ struct BakeOptions {
     double transfer_error = 0.0;
     SamplerKind sampler = SamplerKind::cosine;
     Streams streams = Streams::per_pose;
+    // Of glossy transfer; 0: as many as the materials need (material/gloss_bands.h).
+    uint32_t gloss_in_bands = 0;   // of light, 1 … sh::kMaxBands
+    uint32_t gloss_out_bands = 0;  // of outgoing radiance, 1 … kMaxOutBands
     uint32_t bounces = 0;  // number of times that light bounces, 0 … kMaxBounces (bake_directory.h)
 };
 

@@ -13,6 +13,8 @@ namespace paim {
 struct StillMesh {
     Topology topology;
     Albedo albedo;
+    Materials materials;
+    Texture texture;
     Pose pose;
     std::vector<BakeIdentity::Source> sources;  // names and checksums of the meshes that were added
 

@@ -8,6 +8,7 @@
 
 namespace paim {
 
+using Vec2f = Eigen::Vector2f;
 using Vec3f = Eigen::Vector3f;
 using Vec3d = Eigen::Vector3d;
 

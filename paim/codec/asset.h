@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "paim/codec/low_rank.h"
 #include "paim/codec/transfer_model.h"
 #include "paim/mesh/root_motion.h"
+#include "paim/mesh/texture.h"
 #include "paim/mesh/topology.h"
 #include "paim/transfer/layout.h"
 
@@ -21,13 +23,28 @@ constexpr uint32_t kMaxPoses = 1u << 20;
 // Attributes of vertices. Each is compressed on its own.
 enum class Attribute { geometry, transfer };
 
+// Radiance that leaves glossy vertices, in addition to the diffuse one. It depends on the direction
+// towards the eye: Σ_o e_o y_o(direction), with e_o = tint · Σ_i t_oi L_i for each vertex. Directions
+// are in the axes of the transfer.
+struct CodedGloss {
+    TransferLayout layout;           // of kind glossy
+    CodedTransfer transfer;          // of layout.num_planes() planes, [R] rows as its vertices
+    std::vector<uint32_t> vertices;  // [R] the vertex of each row; empty: row r is vertex r
+    Albedo tint;                     // [1] or [R]
+
+    uint32_t num_rows() const { return transfer->num_vertices(); }
+    uint32_t vertex(uint32_t row) const { return vertices.empty() ? row : vertices[row]; }
+};
+
 // One lit mesh: the moving part (with its floor), or the still part around it.
 struct CodedMesh {
     Topology topology;
     Albedo albedo;
     TransferLayout layout;
-    LowRank positions;       // 3 planes: local x, y, z, scene units; a point is a vertex
-    CodedTransfer transfer;  // of layout.num_planes() planes, in local axes
+    LowRank positions;                // 3 planes: local x, y, z, scene units; a point is a vertex
+    CodedTransfer transfer;           // of layout.num_planes() planes, in local axes
+    std::optional<CodedGloss> gloss;  // of the glossy vertices, if there are any
+    Texture texture;         // its colours take the place of the albedo where a face has an image
     RootMotion root_motion;  // from local coordinates to the scene, [P] or empty
     // How many vertices, from the first, follow the root motion. The others are a floor, which keeps
     // its place, or have no face. Triangles of the floor come after all others.

@@ -13,6 +13,9 @@ struct DecodeLimits {
     uint32_t bands = std::numeric_limits<uint32_t>::max();
     // That a vertex sums up itself: of codecs whose vertices share what is rebuilt over the poses.
     uint32_t vertex_components = std::numeric_limits<uint32_t>::max();
+    // The same of glossy transfer.
+    uint32_t gloss_components = std::numeric_limits<uint32_t>::max();
+    uint32_t gloss_vertex_components = std::numeric_limits<uint32_t>::max();
 
     bool operator==(const DecodeLimits&) const = default;
 };

@@ -14,6 +14,16 @@ void add(const Vec3d& offset, std::vector<Vec3f>& positions) {
 
 }  // namespace
 
+const Materials& PoseSource::materials() const {
+    static const Materials matte;
+    return matte;
+}
+
+const Texture& PoseSource::texture() const {
+    static const Texture none;
+    return none;
+}
+
 Pose load_from_origin(const PoseSource& source, uint32_t p) {
     Pose pose = source.load_pose(p);
     add(source.pose_offset(p), pose.positions);

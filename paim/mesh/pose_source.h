@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "paim/base/vector.h"
+#include "paim/mesh/materials.h"
+#include "paim/mesh/texture.h"
 #include "paim/mesh/topology.h"
 
 namespace paim {
@@ -23,6 +25,10 @@ class PoseSource {
 
     virtual const Topology& topology() const = 0;
     virtual const Albedo& albedo() const = 0;
+    // Glossy reflection; by default there is none.
+    virtual const Materials& materials() const;
+    // Images on the faces; by default there are none.
+    virtual const Texture& texture() const;
     virtual uint32_t num_poses() const = 0;
 
     // Positions of all poses are relative to it: adding it, in double, gives scene coordinates.

@@ -11,6 +11,7 @@ namespace paim {
 
 enum class TransferKind : uint32_t {
     diffuse = 0,  // albedo-free, divided by π (docs/algorithms/transfer.md, E1)
+    glossy = 1,   // with the BRDF of its brightest channel (docs/algorithms/gloss.md)
 };
 
 // Transfer maps in_bands² coefficients of incident light to out_bands² coefficients of outgoing

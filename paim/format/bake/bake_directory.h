@@ -20,6 +20,13 @@ namespace paim {
 // How often light may bounce.
 constexpr uint32_t kMaxBounces = 16;
 
+// The glossy transfer of a bake.
+struct GlossIdentity {
+    TransferLayout layout;                 // of kind glossy
+    std::vector<GlossMaterial> materials;  // of all meshes (Materials::glossy)
+    bool operator==(const GlossIdentity&) const = default;
+};
+
 // Everything that decides the bytes of a bake. Bakes with the same identity may share a directory.
 struct BakeIdentity {
     uint32_t baker = 0;  // version of the baker, raised whenever its results change
@@ -44,8 +51,9 @@ struct BakeIdentity {
         uint64_t xxh3 = 0;
         bool operator==(const Source&) const = default;
     };
-    std::vector<Source> poses;         // [P]
-    std::vector<Source> still_meshes;  // checksums of all bytes that were read for them
+    std::vector<Source> poses;           // [P]
+    std::vector<Source> still_meshes;    // checksums of all bytes that were read for them
+    std::optional<GlossIdentity> gloss;  // if any vertex is glossy
 
     uint32_t num_poses() const { return static_cast<uint32_t>(poses.size()); }
     bool operator==(const BakeIdentity&) const = default;
@@ -64,6 +72,10 @@ struct BakedPose {
     // draw with the mean (0) and the variance of the transfer's error, and uncorrelated with it
     // (docs/algorithms/transfer.md). Files hold it as f16.
     std::vector<float> noise;
+    // The same of the glossy transfer, [planes of GlossIdentity::layout][R] (mesh/materials.h:
+    // glossy_rows()). Empty if the bake has none.
+    std::vector<float> gloss;
+    std::vector<float> gloss_noise;
     PoseStatistics statistics;
 };
 
@@ -80,6 +92,8 @@ struct BakedStillMesh {
     Topology topology;
     Albedo albedo;
     BakedPose pose;
+    Materials materials = {};
+    Texture texture = {};
 };
 
 // Reads the statistics of pose p. Errors (bad input) name the file: damaged, of another pose, or of
@@ -134,6 +148,8 @@ class BakeReader {
     const BakeIdentity& identity() const { return identity_; }
     const Topology& topology() const { return topology_; }
     const Albedo& albedo() const { return albedo_; }
+    const Materials& materials() const { return materials_; }
+    const Texture& texture() const { return texture_; }
     uint32_t num_poses() const { return identity_.num_poses(); }
 
     // The still meshes; nothing if the bake has none.
@@ -166,6 +182,8 @@ class BakeReader {
     uint64_t identity_checksum_;
     Topology topology_;
     Albedo albedo_;
+    Materials materials_;
+    Texture texture_;
     std::optional<BakedStillMesh> still_mesh_;
 };
 
