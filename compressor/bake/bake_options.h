@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "compressor/bake/direction_sampler.h"
+#include "paim/transfer/layout.h"
 
 namespace paim {
 
@@ -21,9 +22,6 @@ constexpr Streams kStreams[] = {Streams::per_pose, Streams::shared, Streams::mix
 
 // The most rays of a vertex.
 constexpr uint32_t kMostRays = 1u << 24;
-
-// The most bands of outgoing radiance.
-constexpr uint32_t kMaxOutBands = 8;
 
 struct BakeOptions {
     uint32_t bands = 5;  // 1 … sh::kMaxBands

@@ -1,6 +1,9 @@
 // Vertices that a face has.
 #include "paim/mesh/face_vertices.h"
 
+#include <algorithm>
+#include <limits>
+
 #include "paim/base/check.h"
 
 namespace paim {
@@ -32,6 +35,21 @@ std::vector<uint32_t> face_vertices(const Topology& topology) {
 
 std::vector<uint32_t> isolated_vertices(const Topology& topology) {
     return vertices_where(has_face(topology), false);
+}
+
+Topology faces_among(const Topology& topology, std::span<const uint32_t> vertices) {
+    constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
+    std::vector<uint32_t> places(topology.num_vertices, kNone);
+    for (uint32_t j = 0; j < vertices.size(); ++j) places[vertices[j]] = j;
+    Topology among;
+    among.num_vertices = static_cast<uint32_t>(vertices.size());
+    for (const Triangle& face : topology.triangles) {
+        const Triangle placed{places[face[0]], places[face[1]], places[face[2]]};
+        if (std::find(placed.begin(), placed.end(), kNone) == placed.end()) {
+            among.triangles.push_back(placed);
+        }
+    }
+    return among;
 }
 
 Bounds bounds_of_vertices(std::span<const float> planes, std::span<const uint32_t> vertices) {

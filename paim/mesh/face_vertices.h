@@ -18,6 +18,11 @@ std::vector<uint32_t> face_vertices(const Topology& topology);
 // The vertices that face_vertices() leaves out, ascending.
 std::vector<uint32_t> isolated_vertices(const Topology& topology);
 
+// The faces whose vertices are all among these, in their order, with places in `vertices` as their
+// vertices.
+// vertices  different ones, below topology.num_vertices
+Topology faces_among(const Topology& topology, std::span<const uint32_t> vertices);
+
 // How many of the vertices, which are ascending, are below `end`.
 size_t num_below(uint32_t end, std::span<const uint32_t> vertices);
 

@@ -24,7 +24,7 @@ void Materials::append(const Materials& other, uint32_t num_own, uint32_t num_ot
         if (found == glossy.end()) glossy.push_back(material);
         numbers.push_back(static_cast<uint16_t>(index + 1));
     }
-    PAIM_CHECK_LE(glossy.size(), size_t{65535});
+    PAIM_CHECK_LE(glossy.size(), kMaxGlossMaterials);
     const bool is_uniform = of_vertex.size() == 1 && other.of_vertex.size() == 1;
     if (is_uniform && of_vertex[0] == numbers[other.of_vertex[0]]) return;
     if (of_vertex.size() == 1) of_vertex.assign(num_own, uint16_t{of_vertex[0]});
@@ -52,17 +52,21 @@ std::vector<uint32_t> glossy_rows(const Topology& topology, const Materials& mat
     return rows;
 }
 
-Topology glossy_faces(const Topology& topology, const Materials& materials,
-                      std::span<const uint32_t> rows) {
-    std::vector<uint32_t> row_of(topology.num_vertices, 0);
-    for (uint32_t r = 0; r < rows.size(); ++r) row_of[rows[r]] = r;
-    Topology faces;
-    faces.num_vertices = static_cast<uint32_t>(rows.size());
-    for (const Triangle& face : topology.triangles) {
-        if (!is_glossy(face, materials)) continue;
-        faces.triangles.push_back({row_of[face[0]], row_of[face[1]], row_of[face[2]]});
-    }
-    return faces;
+Albedo tints_of(const Materials& materials, std::span<const uint32_t> rows) {
+    const auto tint = [&](uint32_t v) -> Vec3f {
+        const uint16_t number = materials.at(v);
+        return number == 0 ? Vec3f::Ones().eval() : materials.glossy[number - 1u].tint;
+    };
+    Albedo tints;
+    tints.values.assign(1, Vec3f::Ones());
+    if (rows.empty()) return tints;
+    tints.values.clear();
+    for (const uint32_t v : rows) tints.values.push_back(tint(v));
+    const Vec3f first = tints.values[0];
+    const bool alike = std::all_of(tints.values.begin(), tints.values.end(),
+                                   [&](const Vec3f& value) { return value == first; });
+    if (alike) tints.values.resize(1);
+    return tints;
 }
 
 }  // namespace paim

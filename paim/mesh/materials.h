@@ -22,8 +22,11 @@ struct GlossMaterial {
     bool operator==(const GlossMaterial&) const = default;
 };
 
+// The most glossy materials of a mesh.
+constexpr size_t kMaxGlossMaterials = 65535;
+
 struct Materials {
-    std::vector<GlossMaterial> glossy;  // at most 65,535
+    std::vector<GlossMaterial> glossy;  // at most kMaxGlossMaterials
     // 0: the vertex is matte; m: it has glossy[m − 1]. [1], the same for all vertices, or [V].
     std::vector<uint16_t> of_vertex{0};
 
@@ -42,9 +45,7 @@ struct Materials {
 // is one of them. If all vertices are glossy, they are all rows, with or without a face.
 std::vector<uint32_t> glossy_rows(const Topology& topology, const Materials& materials);
 
-// The faces that have a glossy vertex, with rows as their vertices.
-// rows  of the same topology and materials
-Topology glossy_faces(const Topology& topology, const Materials& materials,
-                      std::span<const uint32_t> rows);
+// The tints of these vertices; those that are matte have white. [1] if all are the same, or [rows].
+Albedo tints_of(const Materials& materials, std::span<const uint32_t> rows);
 
 }  // namespace paim

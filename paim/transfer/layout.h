@@ -9,6 +9,9 @@
 
 namespace paim {
 
+// The most bands of outgoing radiance.
+constexpr uint32_t kMaxOutBands = 8;
+
 enum class TransferKind : uint32_t {
     diffuse = 0,  // albedo-free, divided by π (docs/algorithms/transfer.md, E1)
     glossy = 1,   // with the BRDF of its brightest channel (docs/algorithms/gloss.md)

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -59,8 +60,9 @@ struct BakeIdentity {
     bool operator==(const BakeIdentity&) const = default;
 };
 
-// Checksum of the triangles and the albedo, which all poses share.
-uint64_t mesh_checksum(const Topology& topology, const Albedo& albedo);
+// Checksum of what all poses share: the triangles, the albedo, and the materials if any is glossy.
+uint64_t mesh_checksum(const Topology& topology, const Albedo& albedo,
+                       const Materials& materials = {});
 
 // One baked pose, in its local coordinates and axes where the bake has a root motion. Planes as in
 // transfer/layout.h.
@@ -72,11 +74,11 @@ struct BakedPose {
     // draw with the mean (0) and the variance of the transfer's error, and uncorrelated with it
     // (docs/algorithms/transfer.md). Files hold it as f16.
     std::vector<float> noise;
+    PoseStatistics statistics;
     // The same of the glossy transfer, [planes of GlossIdentity::layout][R] (mesh/materials.h:
     // glossy_rows()). Empty if the bake has none.
     std::vector<float> gloss;
     std::vector<float> gloss_noise;
-    PoseStatistics statistics;
 };
 
 // Memory of the arrays of a baked pose.
@@ -97,29 +99,32 @@ struct BakedStillMesh {
 };
 
 // Reads the statistics of pose p. Errors (bad input) name the file: damaged, of another pose, or of
-// another bake than that with this checksum (bake_manifest.h) and number of bands.
+// another bake than that with this identity, whose checksum is given (bake_manifest.h).
 PoseStatistics read_bake_statistics(const std::filesystem::path& directory,
-                                    uint64_t identity_checksum, uint32_t p, uint32_t bands);
+                                    uint64_t identity_checksum, uint32_t p,
+                                    const BakeIdentity& identity);
 
 // Reads the still meshes of a bake. Errors (bad input) name the file: missing, damaged, of another
 // bake, or with invalid shapes, indices or numbers.
 BakedStillMesh read_bake_still_mesh(const std::filesystem::path& directory,
-                                    uint64_t identity_checksum, const TransferLayout& layout);
+                                    uint64_t identity_checksum, const BakeIdentity& identity);
 
 // Writes a bake, or resumes one.
 class BakeWriter {
   public:
-    // Creates the directory, or resumes the bake in it. Errors: bad input if it holds a bake of
+    // Creates the directory, or resumes the bake in it.
+    // materials  whose glossy ones identity.gloss lists (checked)
+    // Errors: bad input if it holds a bake of
     // another identity (the first difference is named) or other files; output failed.
     BakeWriter(std::filesystem::path directory, const BakeIdentity& identity,
-               const Topology& topology, const Albedo& albedo);
+               const Topology& topology, const Albedo& albedo, const Materials& materials = {});
 
     // Whether the bake has the whole pose p, of this identity.
     bool has_pose(uint32_t p) const;
 
     // The statistics of a pose that has been baked.
     PoseStatistics read_statistics(uint32_t p) const {
-        return read_bake_statistics(directory_, identity_checksum_, p, identity_.layout.in_bands);
+        return read_bake_statistics(directory_, identity_checksum_, p, identity_);
     }
 
     // Writes the file of a pose completely or not at all. May be called from several threads.
@@ -133,6 +138,7 @@ class BakeWriter {
     std::filesystem::path directory_;
     BakeIdentity identity_;
     uint64_t identity_checksum_;
+    uint32_t num_gloss_rows_ = 0;
 };
 
 // Whether the directory is there and is a bake, complete or not.
@@ -155,11 +161,17 @@ class BakeReader {
     // The still meshes; nothing if the bake has none.
     const std::optional<BakedStillMesh>& still_mesh() const { return still_mesh_; }
 
+    // The vertices of the poses that have glossy transfer, ascending (mesh/materials.h).
+    const std::vector<uint32_t>& gloss_rows() const { return gloss_rows_; }
+    // This bake as one of the glossy transfer alone, which code of the transfer can work on: rows are
+    // its vertices, the faces among them its triangles, the tints its albedo, and its transfer is the
+    // glossy one. Its still mesh is that of the glossy rows of the still meshes.
+    // Error (unsupported) if the poses have no glossy vertex.
+    BakeReader gloss() const;
+
     // Reads every byte of pose p and checks it. May be called from several threads.
     BakedPose read_pose(uint32_t p) const;
-    PoseStatistics read_statistics(uint32_t p) const {
-        return read_bake_statistics(directory_, identity_checksum_, p, identity_.layout.in_bands);
-    }
+    PoseStatistics read_statistics(uint32_t p) const;
 
     // Size of all files of the bake.
     uint64_t size_bytes() const;
@@ -177,6 +189,9 @@ class BakeReader {
     void read_noise_rows(uint32_t p, uint64_t first, uint64_t count, float* out) const;
 
   private:
+    void read_rows(uint32_t p, Tag tag, uint32_t num_planes, uint64_t first, uint64_t count,
+                   float* out, ScalarType type = ScalarType::f32) const;
+
     std::filesystem::path directory_;
     BakeIdentity identity_;
     uint64_t identity_checksum_;
@@ -185,6 +200,9 @@ class BakeReader {
     Materials materials_;
     Texture texture_;
     std::optional<BakedStillMesh> still_mesh_;
+    std::vector<uint32_t> gloss_rows_;
+    // Of a bake of the glossy transfer alone: the whole bake.
+    std::shared_ptr<const BakeReader> whole_;
 };
 
 std::filesystem::path bake_pose_file(const std::filesystem::path& directory, uint32_t p);

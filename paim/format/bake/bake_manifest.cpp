@@ -25,6 +25,8 @@ constexpr uint32_t kManifestVersion = 2;
 // of it refuse the bake.
 constexpr uint32_t kRootMotionVersion = 3;
 constexpr uint32_t kFollowingVersion = 4;
+// With glossy transfer; root motion and vertices that do not follow it are there or not.
+constexpr uint32_t kGlossVersion = 5;
 constexpr uint32_t kMaxCount = std::numeric_limits<int32_t>::max();
 constexpr uint64_t kMaxSizeBytes = 64 << 20;
 
@@ -69,8 +71,55 @@ std::string first_difference(const char* what, const std::vector<BakeIdentity::S
 }
 
 uint32_t manifest_version(const BakeIdentity& identity) {
+    if (identity.gloss) return kGlossVersion;
     if (identity.root_motion.empty()) return kManifestVersion;
     return identity.num_following == kAllVertices ? kRootMotionVersion : kFollowingVersion;
+}
+
+ordered_json gloss_json(const GlossIdentity& gloss) {
+    ordered_json json;
+    json["bands"] = gloss.layout.in_bands;
+    json["out_bands"] = gloss.layout.out_bands;
+    json["channels"] = gloss.layout.channels;
+    for (const GlossMaterial& material : gloss.materials) {
+        const Vec3f& tint = material.tint;
+        json["materials"].push_back(
+            {{"brdf", material.brdf}, {"tint", {tint.x(), tint.y(), tint.z()}}});
+    }
+    return json;
+}
+
+GlossIdentity parse_gloss(const nlohmann::json& member, const std::string& file) {
+    const Metadata metadata = Metadata::part(member, file);
+    GlossIdentity gloss;
+    gloss.layout.kind = TransferKind::glossy;
+    gloss.layout.in_bands = metadata.integer("bands", 1, sh::kMaxBands);
+    gloss.layout.out_bands = metadata.integer("out_bands", 1, kMaxOutBands);
+    gloss.layout.channels = metadata.integer("channels", 1, 3);
+    if (gloss.layout.channels == 2) throw_unsupported("{}: 2 channels of gloss", file);
+    const auto materials = metadata.root().find("materials");
+    if (materials == metadata.root().end() || !materials->is_array() || materials->empty() ||
+        materials->size() > kMaxGlossMaterials) {
+        throw_bad_input("{}: 'gloss': expected a list of 1 to {} materials", file,
+                        kMaxGlossMaterials);
+    }
+    for (const nlohmann::json& entry : *materials) {
+        const Metadata material = Metadata::part(entry, file);
+        const std::vector<double> tint = material.numbers("tint", 3, 0.0, 1.0);
+        gloss.materials.push_back(
+            {material.text("brdf"), Vec3d(tint[0], tint[1], tint[2]).cast<float>()});
+    }
+    return gloss;
+}
+
+std::string shown(const std::optional<GlossIdentity>& gloss) {
+    if (!gloss) return "none";
+    std::string text = fmt::format("{} bands in, {} out, {} channels", gloss->layout.in_bands,
+                                   gloss->layout.out_bands, gloss->layout.channels);
+    for (const auto& [brdf, tint] : gloss->materials) {
+        text += fmt::format(", {} of tint ({}, {}, {})", brdf, tint.x(), tint.y(), tint.z());
+    }
+    return text;
 }
 
 }  // namespace
@@ -96,8 +145,9 @@ std::string manifest_text(const BakeIdentity& identity) {
     json["normals"] = identity.normals;
     if (identity.bounces > 0) json["bounces"] = identity.bounces;
     if (!identity.floor.empty()) json["floor"] = identity.floor;
+    if (identity.gloss) json["gloss"] = gloss_json(*identity.gloss);
     json["num_vertices"] = identity.num_vertices;
-    if (manifest_version(identity) == kFollowingVersion) {
+    if (identity.num_following != kAllVertices && !identity.root_motion.empty()) {
         json["num_following"] = identity.num_following;
     }
     json["num_triangles"] = identity.num_triangles;
@@ -124,9 +174,9 @@ BakeIdentity parse_manifest(std::string_view text, const std::string& file) {
     const Metadata metadata(text, file);
     if (metadata.text("format") != "paim-bake") throw_bad_input("{}: not a bake's manifest", file);
     const uint32_t version = metadata.integer("version", 1, kMaxCount);
-    if (version < kManifestVersion || version > kFollowingVersion) {
+    if (version < kManifestVersion || version > kGlossVersion) {
         throw_unsupported("{}: bake version {}, expected {} to {}", file, version, kManifestVersion,
-                          kFollowingVersion);
+                          kGlossVersion);
     }
     if (metadata.text("transfer_kind") != "diffuse") {
         throw_unsupported("{}: transfer of kind '{}'", file, metadata.text("transfer_kind"));
@@ -147,8 +197,13 @@ BakeIdentity parse_manifest(std::string_view text, const std::string& file) {
         identity.bounces = metadata.integer("bounces", 0, kMaxBounces);
     }
     if (metadata.root().contains("floor")) identity.floor = metadata.text("floor");
+    if (version == kGlossVersion) {
+        identity.gloss = parse_gloss(metadata.root().value("gloss", nlohmann::json()), file);
+    }
     identity.num_vertices = metadata.integer("num_vertices", 1, kMaxCount);
-    if (version == kFollowingVersion) {
+    const bool has_following =
+        version == kGlossVersion && metadata.root().contains("num_following");
+    if (version == kFollowingVersion || has_following) {
         identity.num_following = metadata.integer("num_following", 0, identity.num_vertices - 1);
     }
     identity.num_triangles = metadata.integer("num_triangles", 1, kMaxCount);
@@ -166,10 +221,13 @@ BakeIdentity parse_manifest(std::string_view text, const std::string& file) {
         return BakeIdentity::Source{source.text("name"),
                                     parse_hex(source.text("xxh3"), file, "xxh3")};
     };
+    const bool has_root = version == kGlossVersion
+                              ? poses->front().is_object() && poses->front().contains("root")
+                              : version != kManifestVersion;
     std::vector<double> root;
     for (const nlohmann::json& entry : *poses) {
         identity.poses.push_back(source_of(entry));
-        if (version == kManifestVersion) continue;
+        if (!has_root) continue;
         constexpr double kMax = 4e38;  // the range of floats, and rounding
         const Metadata pose = Metadata::part(entry, file);
         const std::vector<double> numbers = pose.numbers("root", kRootNumbers, -kMax, kMax);
@@ -204,8 +262,10 @@ std::string first_difference(const BakeIdentity& there, const BakeIdentity& want
           differ("sampler", there.sampler, wanted.sampler),
           differ("streams", there.streams, wanted.streams),
           differ("transfer error", there.transfer_error, wanted.transfer_error),
-          differ("rays", there.rays, wanted.rays), differ("seed", there.seed, wanted.seed),
+          differ("rays", there.rays, wanted.rays),
+          differ("seed", there.seed, wanted.seed),
           differ("normals", there.normals, wanted.normals),
+          differ("gloss", shown(there.gloss), shown(wanted.gloss)),
           differ("floor", or_none(there.floor), or_none(wanted.floor)),
           differ("vertices", there.num_vertices, wanted.num_vertices),
           differ("triangles", there.num_triangles, wanted.num_triangles),

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "paim/base/check.h"
 #include "paim/base/error.h"
 #include "paim/base/parallel.h"
 #include "paim/format/bake/bake_directory.h"
@@ -30,7 +31,7 @@ const Section& require_planes(const ContainerReader& reader, Tag tag, uint32_t n
 }
 
 PoseStatistics read_statistics_of(const ContainerReader& reader, uint64_t identity_checksum,
-                                  uint32_t p, uint32_t bands) {
+                                  uint32_t p, const BakeIdentity& identity) {
     const Metadata metadata(reader.read_text(reader.require(section::kMetadata, ScalarType::u8)),
                             reader.name());
     const std::string bake = fmt::format("{:016x}", identity_checksum);
@@ -51,11 +52,37 @@ PoseStatistics read_statistics_of(const ContainerReader& reader, uint64_t identi
     if (metadata.root().contains("back_hits")) {
         statistics.back_hits = static_cast<uint64_t>(metadata.number("back_hits", 0.0, kMaxExact));
     }
+    const uint32_t bands = identity.layout.in_bands;
     statistics.transfer_rms = metadata.numbers("transfer_rms", bands, 0.0, kMax);
     statistics.noise_rms = metadata.numbers("noise_rms", bands, 0.0, kMax);
+    if (identity.gloss && metadata.root().contains("gloss_rms")) {
+        const uint32_t gloss_bands = identity.gloss->layout.in_bands;
+        statistics.gloss_rms = metadata.numbers("gloss_rms", gloss_bands, 0.0, kMax);
+        statistics.gloss_noise_rms = metadata.numbers("gloss_noise_rms", gloss_bands, 0.0, kMax);
+    }
     statistics.mesh.zero_area_faces = metadata.count("zero_area_faces");
     statistics.mesh.coincident_faces = metadata.count("coincident_faces");
     return statistics;
+}
+
+Materials read_materials(const ContainerReader& reader, const BakeIdentity& identity,
+                         uint32_t num_vertices) {
+    if (!identity.gloss) return {};
+    const Section& section = reader.require(section::kMaterials, ScalarType::u32);
+    const auto& shape = section.spec.shape;
+    if (shape[0] != 1 || (shape[1] != 1 && shape[1] != num_vertices) || shape[2] != 1) {
+        throw_bad_input("{}: materials: {} x {} x {} values, expected 1 or {}", reader.name(),
+                        shape[0], shape[1], shape[2], num_vertices);
+    }
+    Materials materials{identity.gloss->materials, {}};
+    for (const uint32_t number : reader.read_u32(section)) {
+        if (number > materials.glossy.size()) {
+            throw_bad_input("{}: materials: number {}, expected 0 to {}", reader.name(), number,
+                            materials.glossy.size());
+        }
+        materials.of_vertex.push_back(static_cast<uint16_t>(number));
+    }
+    return materials;
 }
 
 // The checks of read_pose(), without the whole section in memory.
@@ -94,12 +121,14 @@ BakeReader::BakeReader(std::filesystem::path directory) : directory_(std::move(d
     const ContainerReader mesh(directory_ / kMeshName, section::kKindMesh);
     topology_ = read_triangles(mesh, identity_.num_vertices);
     albedo_ = read_albedo(mesh, identity_.num_vertices);
-    if (mesh_checksum(topology_, albedo_) != identity_.mesh_xxh3) {
+    materials_ = read_materials(mesh, identity_, identity_.num_vertices);
+    if (identity_.gloss) gloss_rows_ = glossy_rows(topology_, materials_);
+    if (mesh_checksum(topology_, albedo_, materials_) != identity_.mesh_xxh3) {
         throw_bad_input("{}: not the mesh that the manifest names", mesh.name());
     }
     check_floor(topology_, identity_.num_following, mesh.name());
     if (!identity_.still_meshes.empty()) {
-        still_mesh_ = read_bake_still_mesh(directory_, identity_checksum_, identity_.layout);
+        still_mesh_ = read_bake_still_mesh(directory_, identity_checksum_, identity_);
     }
     uint32_t num_missing = 0;
     uint32_t first_missing = 0;
@@ -114,7 +143,7 @@ BakeReader::BakeReader(std::filesystem::path directory) : directory_(std::move(d
     }
     // Before memory is taken for the manifest's number of vertices, a pose must have as many.
     const ContainerReader pose(bake_pose_file(directory_, 0), section::kKindPose);
-    read_statistics_of(pose, identity_checksum_, 0, identity_.layout.in_bands);
+    read_statistics_of(pose, identity_checksum_, 0, identity_);
     require_planes(pose, section::kPositions, 3, identity_.num_vertices);
     require_planes(pose, section::kTransfer, identity_.layout.num_planes(), identity_.num_vertices);
 }
@@ -129,42 +158,63 @@ uint64_t BakeReader::size_bytes() const {
     return total;
 }
 
+PoseStatistics read_bake_statistics(const std::filesystem::path& directory,
+                                    uint64_t identity_checksum, uint32_t p,
+                                    const BakeIdentity& identity) {
+    const ContainerReader reader(bake_pose_file(directory, p), section::kKindPose);
+    return read_statistics_of(reader, identity_checksum, p, identity);
+}
+
+BakedStillMesh read_bake_still_mesh(const std::filesystem::path& directory,
+                                    uint64_t identity_checksum, const BakeIdentity& identity) {
+    const ContainerReader reader(bake_still_mesh_file(directory), section::kKindMesh);
+    BakedStillMesh still_mesh;
+    BakedPose& pose = still_mesh.pose;
+    pose.statistics = read_statistics_of(reader, identity_checksum, kStillMeshPose, identity);
+    const uint32_t num_vertices = count_vertices(reader, section::kPositions);
+    const uint32_t num_planes = identity.layout.num_planes();
+    pose.positions = read_planes(reader, section::kPositions, 3, num_vertices);
+    pose.normals = read_planes(reader, section::kNormals, 3, num_vertices);
+    pose.transfer = read_planes(reader, section::kTransfer, num_planes, num_vertices);
+    pose.noise = read_planes(reader, section::kNoise, num_planes, num_vertices, ScalarType::f16);
+    still_mesh.topology = read_triangles(reader, num_vertices);
+    still_mesh.albedo = read_albedo(reader, num_vertices);
+    still_mesh.materials = read_materials(reader, identity, num_vertices);
+    if (!identity.gloss) return still_mesh;
+    const auto num_rows =
+        static_cast<uint32_t>(glossy_rows(still_mesh.topology, still_mesh.materials).size());
+    if (num_rows == 0) return still_mesh;
+    const uint32_t num_gloss = identity.gloss->layout.num_planes();
+    pose.gloss = read_planes(reader, section::kGloss, num_gloss, num_rows);
+    pose.gloss_noise =
+        read_planes(reader, section::kGlossNoise, num_gloss, num_rows, ScalarType::f16);
+    return still_mesh;
+}
+
 BakedPose BakeReader::read_pose(uint32_t p) const {
+    PAIM_CHECK(whole_ == nullptr);
     const ContainerReader reader(bake_pose_file(directory_, p), section::kKindPose);
     const auto read = [&](Tag tag, uint32_t num_planes, ScalarType type = ScalarType::f32) {
         return read_planes(reader, tag, num_planes, identity_.num_vertices, type);
     };
     BakedPose pose;
-    pose.statistics = read_statistics_of(reader, identity_checksum_, p, identity_.layout.in_bands);
+    pose.statistics = read_statistics_of(reader, identity_checksum_, p, identity_);
     pose.positions = read(section::kPositions, 3);
     pose.normals = read(section::kNormals, 3);
     pose.transfer = read(section::kTransfer, identity_.layout.num_planes());
     pose.noise = read(section::kNoise, identity_.layout.num_planes(), ScalarType::f16);
+    if (gloss_rows_.empty()) return pose;
+    const uint32_t num_planes = identity_.gloss->layout.num_planes();
+    const auto num_rows = static_cast<uint32_t>(gloss_rows_.size());
+    pose.gloss = read_planes(reader, section::kGloss, num_planes, num_rows);
+    pose.gloss_noise =
+        read_planes(reader, section::kGlossNoise, num_planes, num_rows, ScalarType::f16);
     return pose;
 }
 
-PoseStatistics read_bake_statistics(const std::filesystem::path& directory,
-                                    uint64_t identity_checksum, uint32_t p, uint32_t bands) {
-    const ContainerReader reader(bake_pose_file(directory, p), section::kKindPose);
-    return read_statistics_of(reader, identity_checksum, p, bands);
-}
-
-BakedStillMesh read_bake_still_mesh(const std::filesystem::path& directory,
-                                    uint64_t identity_checksum, const TransferLayout& layout) {
-    const ContainerReader reader(bake_still_mesh_file(directory), section::kKindMesh);
-    BakedStillMesh still_mesh;
-    still_mesh.pose.statistics =
-        read_statistics_of(reader, identity_checksum, kStillMeshPose, layout.in_bands);
-    const uint32_t num_vertices = count_vertices(reader, section::kPositions);
-    still_mesh.pose.positions = read_planes(reader, section::kPositions, 3, num_vertices);
-    still_mesh.pose.normals = read_planes(reader, section::kNormals, 3, num_vertices);
-    still_mesh.pose.transfer =
-        read_planes(reader, section::kTransfer, layout.num_planes(), num_vertices);
-    still_mesh.pose.noise =
-        read_planes(reader, section::kNoise, layout.num_planes(), num_vertices, ScalarType::f16);
-    still_mesh.topology = read_triangles(reader, num_vertices);
-    still_mesh.albedo = read_albedo(reader, num_vertices);
-    return still_mesh;
+PoseStatistics BakeReader::read_statistics(uint32_t p) const {
+    if (whole_ != nullptr) return whole_->read_statistics(p).of_gloss();
+    return read_bake_statistics(directory_, identity_checksum_, p, identity_);
 }
 
 PoseStatistics BakeReader::total_statistics() const {
@@ -174,39 +224,59 @@ PoseStatistics BakeReader::total_statistics() const {
 }
 
 void BakeReader::verify_all() const {
+    if (whole_ != nullptr) return whole_->verify_all();
     parallel_for(num_poses(), 1, [&](size_t index, size_t) {
         const auto p = static_cast<uint32_t>(index);
         const ContainerReader reader(bake_pose_file(directory_, p), section::kKindPose);
-        const auto verify = [&](Tag tag, uint32_t num_planes, ScalarType type = ScalarType::f32) {
-            verify_planes(reader,
-                          require_planes(reader, tag, num_planes, identity_.num_vertices, type));
+        const auto verify = [&](Tag tag, uint32_t num_planes, size_t num_points,
+                                ScalarType type = ScalarType::f32) {
+            verify_planes(reader, require_planes(reader, tag, num_planes,
+                                                 static_cast<uint32_t>(num_points), type));
         };
-        read_statistics_of(reader, identity_checksum_, p, identity_.layout.in_bands);
-        verify(section::kPositions, 3);
-        verify(section::kNormals, 3);
-        verify(section::kTransfer, identity_.layout.num_planes());
-        verify(section::kNoise, identity_.layout.num_planes(), ScalarType::f16);
+        const uint32_t num_planes = identity_.layout.num_planes();
+        read_statistics_of(reader, identity_checksum_, p, identity_);
+        verify(section::kPositions, 3, identity_.num_vertices);
+        verify(section::kNormals, 3, identity_.num_vertices);
+        verify(section::kTransfer, num_planes, identity_.num_vertices);
+        verify(section::kNoise, num_planes, identity_.num_vertices, ScalarType::f16);
+        if (gloss_rows_.empty()) return;
+        const uint32_t num_gloss = identity_.gloss->layout.num_planes();
+        verify(section::kGloss, num_gloss, gloss_rows_.size());
+        verify(section::kGlossNoise, num_gloss, gloss_rows_.size(), ScalarType::f16);
     });
 }
 
-void BakeReader::read_position_rows(uint32_t p, uint64_t first, uint64_t count, float* out) const {
+void BakeReader::read_rows(uint32_t p, Tag tag, uint32_t num_planes, uint64_t first, uint64_t count,
+                           float* out, ScalarType type) const {
     const ContainerReader reader(bake_pose_file(directory_, p), section::kKindPose);
-    reader.read_range(require_planes(reader, section::kPositions, 3, identity_.num_vertices), first,
+    reader.read_range(require_planes(reader, tag, num_planes, identity_.num_vertices, type), first,
                       count, out);
 }
 
+void BakeReader::read_position_rows(uint32_t p, uint64_t first, uint64_t count, float* out) const {
+    if (whole_ == nullptr) return read_rows(p, section::kPositions, 3, first, count, out);
+    const std::vector<uint32_t>& rows = whole_->gloss_rows_;
+    const uint64_t num_vertices = whole_->identity_.num_vertices;
+    if (rows.size() == num_vertices) return whole_->read_position_rows(p, first, count, out);
+    std::vector<float> plane(num_vertices);
+    for (uint64_t done = 0; done < count;) {
+        const uint64_t axis = (first + done) / rows.size();
+        const uint64_t begin = (first + done) % rows.size();
+        const uint64_t end = std::min<uint64_t>(rows.size(), begin + count - done);
+        whole_->read_position_rows(p, axis * num_vertices, num_vertices, plane.data());
+        for (uint64_t r = begin; r < end; ++r) *out++ = plane[rows[r]];
+        done += end - begin;
+    }
+}
+
 void BakeReader::read_transfer_rows(uint32_t p, uint64_t first, uint64_t count, float* out) const {
-    const ContainerReader reader(bake_pose_file(directory_, p), section::kKindPose);
-    reader.read_range(require_planes(reader, section::kTransfer, identity_.layout.num_planes(),
-                                     identity_.num_vertices),
-                      first, count, out);
+    read_rows(p, whole_ == nullptr ? section::kTransfer : section::kGloss,
+              identity_.layout.num_planes(), first, count, out);
 }
 
 void BakeReader::read_noise_rows(uint32_t p, uint64_t first, uint64_t count, float* out) const {
-    const ContainerReader reader(bake_pose_file(directory_, p), section::kKindPose);
-    reader.read_range(require_planes(reader, section::kNoise, identity_.layout.num_planes(),
-                                     identity_.num_vertices, ScalarType::f16),
-                      first, count, out);
+    read_rows(p, whole_ == nullptr ? section::kNoise : section::kGlossNoise,
+              identity_.layout.num_planes(), first, count, out, ScalarType::f16);
 }
 
 }  // namespace paim

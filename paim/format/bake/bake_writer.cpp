@@ -32,6 +32,10 @@ std::string pose_metadata(uint64_t bake, uint32_t p, const PoseStatistics& stati
     if (statistics.back_hits > 0) json["back_hits"] = statistics.back_hits;
     json["transfer_rms"] = statistics.transfer_rms;
     json["noise_rms"] = statistics.noise_rms;
+    if (!statistics.gloss_rms.empty()) {
+        json["gloss_rms"] = statistics.gloss_rms;
+        json["gloss_noise_rms"] = statistics.gloss_noise_rms;
+    }
     json["zero_area_faces"] = statistics.mesh.zero_area_faces;
     json["coincident_faces"] = statistics.mesh.coincident_faces;
     return json_text(json, 2) + "\n";
@@ -47,17 +51,53 @@ bool is_only_started(const std::filesystem::path& directory) {
     return true;
 }
 
-std::vector<SectionPlan> pose_specs(const std::string& metadata, uint32_t num_vertices,
-                                    uint32_t num_planes) {
-    const auto planes = [&](Tag tag, uint32_t count) {
-        return SectionSpec{tag, ScalarType::f32, 0, {1, count, num_vertices}};
+// Shapes of the arrays of a pose.
+struct PoseShape {
+    uint32_t num_vertices;
+    uint32_t num_planes;
+    uint32_t num_rows;  // of gloss; 0: there is none
+    uint32_t num_gloss_planes;
+};
+
+PoseShape pose_shape(const BakeIdentity& identity, const Topology& topology,
+                     const Materials& materials) {
+    PoseShape shape{topology.num_vertices, identity.layout.num_planes(), 0, 0};
+    if (!identity.gloss) return shape;
+    shape.num_rows = static_cast<uint32_t>(glossy_rows(topology, materials).size());
+    shape.num_gloss_planes = identity.gloss->layout.num_planes();
+    return shape;
+}
+
+void check_shape(const BakedPose& pose, const PoseShape& shape) {
+    PAIM_CHECK_EQ(pose.transfer.size(), size_t{shape.num_planes} * shape.num_vertices);
+    PAIM_CHECK_EQ(pose.noise.size(), pose.transfer.size());
+    PAIM_CHECK_EQ(pose.gloss.size(), size_t{shape.num_gloss_planes} * shape.num_rows);
+    PAIM_CHECK_EQ(pose.gloss_noise.size(), pose.gloss.size());
+}
+
+std::vector<SectionPlan> pose_specs(const std::string& metadata, const PoseShape& shape) {
+    const auto planes = [](Tag tag, uint32_t count, uint32_t num_points,
+                           ScalarType type = ScalarType::f32) {
+        return SectionSpec{tag, type, 0, {1, count, num_points}};
     };
-    return {
+    const uint32_t num_vertices = shape.num_vertices;
+    std::vector<SectionPlan> specs{
         SectionSpec{
             section::kMetadata, ScalarType::u8, 0, {1, 1, static_cast<uint32_t>(metadata.size())}},
-        planes(section::kPositions, 3), planes(section::kNormals, 3),
-        planes(section::kTransfer, num_planes),
-        SectionSpec{section::kNoise, ScalarType::f16, 0, {1, num_planes, num_vertices}}};
+        planes(section::kPositions, 3, num_vertices), planes(section::kNormals, 3, num_vertices),
+        planes(section::kTransfer, shape.num_planes, num_vertices),
+        planes(section::kNoise, shape.num_planes, num_vertices, ScalarType::f16)};
+    if (shape.num_rows == 0) return specs;
+    specs.push_back(planes(section::kGloss, shape.num_gloss_planes, shape.num_rows));
+    specs.push_back(
+        planes(section::kGlossNoise, shape.num_gloss_planes, shape.num_rows, ScalarType::f16));
+    return specs;
+}
+
+void append_halves(ContainerWriter& writer, size_t section, const std::vector<float>& values) {
+    std::vector<uint16_t> halves(values.size());
+    std::transform(values.begin(), values.end(), halves.begin(), to_half);
+    writer.append(section, std::span<const uint16_t>(halves));
 }
 
 // Fills the sections of pose_specs(), which are the first ones.
@@ -66,25 +106,56 @@ void append_pose(ContainerWriter& writer, const std::string& metadata, const Bak
     writer.append(1, std::span(pose.positions));
     writer.append(2, std::span(pose.normals));
     writer.append(3, std::span(pose.transfer));
-    std::vector<uint16_t> noise(pose.noise.size());
-    std::transform(pose.noise.begin(), pose.noise.end(), noise.begin(), to_half);
-    writer.append(4, std::span<const uint16_t>(noise));
+    append_halves(writer, 4, pose.noise);
+    if (pose.gloss.empty()) return;
+    writer.append(5, std::span(pose.gloss));
+    append_halves(writer, 6, pose.gloss_noise);
 }
 
-void write_mesh(const std::filesystem::path& path, const Topology& topology, const Albedo& albedo) {
-    ContainerWriter writer(path, section::kKindMesh,
-                           {triangles_spec(topology), albedo_spec(albedo)});
-    append_mesh(writer, 0, 1, topology, albedo);
-    writer.commit();
+// Adds the sections of a mesh behind others.
+void add_mesh_specs(const Topology& topology, const Albedo& albedo, const Materials& materials,
+                    bool has_gloss, std::vector<SectionPlan>& specs) {
+    specs.push_back(triangles_spec(topology));
+    specs.push_back(albedo_spec(albedo));
+    if (!has_gloss) return;
+    const auto count = static_cast<uint32_t>(materials.of_vertex.size());
+    specs.push_back(SectionSpec{section::kMaterials, ScalarType::u32, 0, {1, count, 1}});
+}
+
+// Fills them.
+// first  their first section
+void append_mesh(ContainerWriter& writer, size_t first, const Topology& topology,
+                 const Albedo& albedo, const Materials& materials, bool has_gloss) {
+    append_mesh(writer, first, first + 1, topology, albedo);
+    if (!has_gloss) return;
+    const std::vector<uint32_t> numbers(materials.of_vertex.begin(), materials.of_vertex.end());
+    writer.append(first + 2, std::span(numbers));
+}
+
+// The same materials by their numbers in the identity's list.
+Materials as_listed(const Materials& materials, const BakeIdentity& identity) {
+    if (!identity.gloss) return {};
+    Materials listed{identity.gloss->materials, materials.of_vertex};
+    for (uint16_t& number : listed.of_vertex) {
+        if (number == 0) continue;
+        const auto found =
+            std::find(listed.glossy.begin(), listed.glossy.end(), materials.glossy[number - 1u]);
+        PAIM_CHECK(found != listed.glossy.end());
+        number = static_cast<uint16_t>(found - listed.glossy.begin() + 1);
+    }
+    return listed;
 }
 
 }  // namespace
 
-uint64_t mesh_checksum(const Topology& topology, const Albedo& albedo) {
+uint64_t mesh_checksum(const Topology& topology, const Albedo& albedo, const Materials& materials) {
     StreamingHash hash;
     hash.update(&topology.num_vertices, sizeof(topology.num_vertices));
     hash.update(topology.triangles.data(), topology.triangles.size() * sizeof(Triangle));
     hash.update(albedo.values.data(), albedo.values.size() * sizeof(Vec3f));
+    if (!materials.empty()) {
+        hash.update(materials.of_vertex.data(), materials.of_vertex.size() * sizeof(uint16_t));
+    }
     return hash.digest();
 }
 
@@ -97,8 +168,10 @@ std::filesystem::path bake_pose_file(const std::filesystem::path& directory, uin
 }
 
 BakeWriter::BakeWriter(std::filesystem::path directory, const BakeIdentity& identity,
-                       const Topology& topology, const Albedo& albedo)
+                       const Topology& topology, const Albedo& albedo, const Materials& materials)
     : directory_(std::move(directory)), identity_(identity) {
+    const Materials listed = as_listed(materials, identity_);
+    num_gloss_rows_ = pose_shape(identity_, topology, listed).num_rows;
     for (auto& source : identity_.poses) source.name = as_manifest_text(source.name);
     for (auto& source : identity_.still_meshes) source.name = as_manifest_text(source.name);
     identity_checksum_ = identity_checksum(identity_);
@@ -117,7 +190,11 @@ BakeWriter::BakeWriter(std::filesystem::path directory, const BakeIdentity& iden
     ensure_directory(directory_);
     remove_abandoned_files(directory_);
     // The manifest is written last, so that a directory with a manifest has a mesh.
-    write_mesh(directory_ / kMeshName, topology, albedo);
+    std::vector<SectionPlan> specs;
+    add_mesh_specs(topology, albedo, listed, identity_.gloss.has_value(), specs);
+    ContainerWriter mesh(directory_ / kMeshName, section::kKindMesh, specs);
+    append_mesh(mesh, 0, topology, albedo, listed, identity_.gloss.has_value());
+    mesh.commit();
     write_file(manifest, text);
 }
 
@@ -136,7 +213,7 @@ bool BakeWriter::has_pose(uint32_t p) const {
 bool BakeWriter::has_still_mesh() const {
     if (!std::filesystem::exists(bake_still_mesh_file(directory_))) return false;
     try {
-        read_bake_still_mesh(directory_, identity_checksum_, identity_.layout);
+        read_bake_still_mesh(directory_, identity_checksum_, identity_);
         return true;
     } catch (const Error&) {
         return false;
@@ -144,29 +221,31 @@ bool BakeWriter::has_still_mesh() const {
 }
 
 void BakeWriter::write_pose(uint32_t p, const BakedPose& pose) const {
-    const uint32_t num_planes = identity_.layout.num_planes();
-    PAIM_CHECK_EQ(pose.transfer.size(), size_t{num_planes} * identity_.num_vertices);
-    PAIM_CHECK_EQ(pose.noise.size(), pose.transfer.size());
+    const uint32_t num_gloss_planes =
+        num_gloss_rows_ > 0 ? identity_.gloss->layout.num_planes() : 0;
+    const PoseShape shape{identity_.num_vertices, identity_.layout.num_planes(), num_gloss_rows_,
+                          num_gloss_planes};
+    check_shape(pose, shape);
     const std::string metadata = pose_metadata(identity_checksum_, p, pose.statistics);
     ContainerWriter writer(bake_pose_file(directory_, p), section::kKindPose,
-                           pose_specs(metadata, identity_.num_vertices, num_planes));
+                           pose_specs(metadata, shape));
     append_pose(writer, metadata, pose);
     writer.commit();
 }
 
 void BakeWriter::write_still_mesh(const BakedStillMesh& still_mesh) const {
-    const uint32_t num_vertices = still_mesh.topology.num_vertices;
-    const uint32_t num_planes = identity_.layout.num_planes();
-    PAIM_CHECK_EQ(still_mesh.pose.transfer.size(), size_t{num_planes} * num_vertices);
-    PAIM_CHECK_EQ(still_mesh.pose.noise.size(), still_mesh.pose.transfer.size());
+    const Materials listed = as_listed(still_mesh.materials, identity_);
+    const PoseShape shape = pose_shape(identity_, still_mesh.topology, listed);
+    check_shape(still_mesh.pose, shape);
     const std::string metadata =
         pose_metadata(identity_checksum_, kStillMeshPose, still_mesh.pose.statistics);
-    std::vector<SectionPlan> specs = pose_specs(metadata, num_vertices, num_planes);
-    specs.push_back(triangles_spec(still_mesh.topology));
-    specs.push_back(albedo_spec(still_mesh.albedo));
+    std::vector<SectionPlan> specs = pose_specs(metadata, shape);
+    const size_t first = specs.size();
+    const bool has_gloss = identity_.gloss.has_value();
+    add_mesh_specs(still_mesh.topology, still_mesh.albedo, listed, has_gloss, specs);
     ContainerWriter writer(bake_still_mesh_file(directory_), section::kKindMesh, specs);
     append_pose(writer, metadata, still_mesh.pose);
-    append_mesh(writer, 5, 6, still_mesh.topology, still_mesh.albedo);
+    append_mesh(writer, first, still_mesh.topology, still_mesh.albedo, listed, has_gloss);
     writer.commit();
 }
 

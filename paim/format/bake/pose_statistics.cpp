@@ -40,6 +40,15 @@ double PoseStatistics::relative_noise() const {
     return std::sqrt(noise / transfer);
 }
 
+PoseStatistics PoseStatistics::of_gloss() const {
+    PoseStatistics gloss = *this;
+    gloss.transfer_rms = gloss_rms;
+    gloss.noise_rms = gloss_noise_rms;
+    gloss.gloss_rms.clear();
+    gloss.gloss_noise_rms.clear();
+    return gloss;
+}
+
 std::vector<double> rms_by_band(const TransferLayout& layout, std::span<const float> planes) {
     const size_t num_vertices = planes.size() / layout.num_planes();
     PAIM_CHECK_EQ(planes.size(), num_vertices * layout.num_planes());
@@ -51,7 +60,7 @@ std::vector<double> rms_by_band(const TransferLayout& layout, std::span<const fl
         }
     }
     for (size_t l = 0; l < energy.size(); ++l) {
-        const size_t count = layout.channels * (2 * l + 1) * num_vertices;
+        const size_t count = layout.channels * layout.num_outgoing() * (2 * l + 1) * num_vertices;
         energy[l] = count > 0 ? std::sqrt(energy[l] / static_cast<double>(count)) : 0.0;
     }
     return energy;
@@ -71,6 +80,8 @@ PoseStatistics combine(std::span<const PoseStatistics> poses) {
     }
     total.transfer_rms = combine_rms(poses, &PoseStatistics::transfer_rms);
     total.noise_rms = combine_rms(poses, &PoseStatistics::noise_rms);
+    total.gloss_rms = combine_rms(poses, &PoseStatistics::gloss_rms);
+    total.gloss_noise_rms = combine_rms(poses, &PoseStatistics::gloss_noise_rms);
     return total;
 }
 

@@ -23,13 +23,20 @@ struct PoseStatistics {
     PoseReport mesh{};  // 0 in old bakes, which did not count these
     // Rays that hit the back of a face, which bounces no light.
     uint64_t back_hits = 0;
+    // [bands of gloss] The same of the glossy transfer, over its rows and all of its coefficients;
+    // empty if there is none.
+    std::vector<double> gloss_rms;
+    std::vector<double> gloss_noise_rms;
+
+    // Those of the glossy transfer in the place of those of the transfer.
+    PoseStatistics of_gloss() const;
 
     // Noise as a fraction of the transfer over all coefficients; not a number if both are 0.
     double relative_noise() const;
 };
 
-// [bands] Root mean square of planes (transfer/layout.h) over the vertices, channels and
-// coefficients of each band.
+// [in_bands] Root mean square of planes (transfer/layout.h) over the vertices, channels, and
+// coefficients of each band of light, of all outgoing coefficients.
 std::vector<double> rms_by_band(const TransferLayout& layout, std::span<const float> planes);
 
 // Adds counts, and computes RMS values over all poses, which have the same number of bands

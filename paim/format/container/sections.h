@@ -42,5 +42,10 @@ constexpr Tag kPositions("POSN");  // f32 [3][V]
 constexpr Tag kNormals("NRML");    // f32 [3][V]
 constexpr Tag kTransfer("TRNF");   // f32 [planes][V]
 constexpr Tag kNoise("NOIS");      // f16 [planes][V]
+// Only of glossy vertices; rows as in mesh/materials.h.
+constexpr Tag kGloss("GLSS");       // f32 [planes of gloss][R]
+constexpr Tag kGlossNoise("GLNS");  // f16 [planes of gloss][R]
+// Only of bakes with gloss: u32 [1 or V][1], Materials::of_vertex.
+constexpr Tag kMaterials("MATL");
 
 }  // namespace paim::section
