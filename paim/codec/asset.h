@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "paim/base/check.h"
@@ -21,18 +22,19 @@ namespace paim {
 constexpr uint32_t kMaxPoses = 1u << 20;
 
 // Attributes of vertices. Each is compressed on its own.
-enum class Attribute { geometry, transfer };
+enum class Attribute { geometry, transfer, gloss };
+constexpr size_t kNumAttributes = 3;
 
 // Radiance that leaves glossy vertices, in addition to the diffuse one. It depends on the direction
 // towards the eye: Σ_o e_o y_o(direction), with e_o = tint · Σ_i t_oi L_i for each vertex. Directions
 // are in the axes of the transfer.
 struct CodedGloss {
-    TransferLayout layout;           // of kind glossy
+    TransferLayout layout;  // of kind glossy
+    uint32_t num_rows = 0;
     CodedTransfer transfer;          // of layout.num_planes() planes, [R] rows as its vertices
     std::vector<uint32_t> vertices;  // [R] the vertex of each row; empty: row r is vertex r
     Albedo tint;                     // [1] or [R]
 
-    uint32_t num_rows() const { return transfer->num_vertices(); }
     uint32_t vertex(uint32_t row) const { return vertices.empty() ? row : vertices[row]; }
 };
 
@@ -54,8 +56,27 @@ struct CodedMesh {
     uint32_t num_poses() const {
         return std::max(positions.num_poses, transfer.empty() ? 0u : transfer->matrix.num_poses);
     }
+    bool has(Attribute which) const { return which != Attribute::gloss || gloss.has_value(); }
+    // The attributes that it has, in the order of their numbers.
+    std::vector<Attribute> attributes() const {
+        std::vector<Attribute> all{Attribute::geometry, Attribute::transfer};
+        if (gloss) all.push_back(Attribute::gloss);
+        return all;
+    }
     const LowRank& attribute(Attribute which) const {
-        return which == Attribute::geometry ? positions : transfer->matrix;
+        switch (which) {
+            case Attribute::geometry:
+                return positions;
+            case Attribute::transfer:
+                return transfer->matrix;
+            case Attribute::gloss:
+                break;
+        }
+        PAIM_CHECK(gloss.has_value());
+        return gloss->transfer->matrix;
+    }
+    LowRank& attribute(Attribute which) {
+        return const_cast<LowRank&>(std::as_const(*this).attribute(which));
     }
 };
 

@@ -24,12 +24,13 @@ StoredValues keep_planes(const StoredValues& values, const std::vector<uint32_t>
 
 }  // namespace
 
-void keep_bands(CodedMesh& mesh, uint32_t bands) {
-    const TransferLayout layout = mesh.layout.with_bands(bands);
-    if (layout == mesh.layout) return;
+namespace {
+
+void keep_bands(uint32_t bands, TransferLayout& whole, LowRank& matrix) {
+    const TransferLayout layout = whole.with_bands(bands);
+    if (layout == whole) return;
     std::vector<uint32_t> planes;
-    planes_of(mesh.layout, layout, planes);
-    LowRank& matrix = mesh.transfer->matrix;
+    planes_of(whole, layout, planes);
     matrix.mean = keep_planes(matrix.mean, planes, matrix.num_points);
     for (StoredValues& component : matrix.components) {
         component = keep_planes(component, planes, matrix.num_points);
@@ -40,7 +41,14 @@ void keep_bands(CodedMesh& mesh, uint32_t bands) {
         matrix.steps = std::move(steps);
     }
     matrix.num_planes = layout.num_planes();
-    mesh.layout = layout;
+    whole = layout;
+}
+
+}  // namespace
+
+void keep_bands(CodedMesh& mesh, uint32_t bands) {
+    keep_bands(bands, mesh.layout, mesh.transfer->matrix);
+    if (mesh.gloss) keep_bands(bands, mesh.gloss->layout, mesh.gloss->transfer->matrix);
 }
 
 void keep_within(const DecodeLimits& limits, Asset& asset) {
@@ -48,6 +56,7 @@ void keep_within(const DecodeLimits& limits, Asset& asset) {
         keep_bands(mesh, limits.bands);
         mesh.positions.keep_components(limits.geometry_components);
         mesh.transfer->matrix.keep_components(limits.transfer_components);
+        if (mesh.gloss) mesh.gloss->transfer->matrix.keep_components(limits.gloss_components);
     }
 }
 

@@ -6,11 +6,11 @@
 
 namespace paim {
 
-// Keeps the first bands of the transfer, at least one.
+// Keeps the first bands of the transfer, and of the gloss, at least one.
 void keep_bands(CodedMesh& mesh, uint32_t bands);
 
-// Keeps the bands, and the components over the poses, of all parts within the limits. The limit of
-// vertex_components is left to playing.
+// Keeps the bands, and the components over the poses, of all parts within the limits. The limits of
+// components of vertices are left to playing.
 void keep_within(const DecodeLimits& limits, Asset& asset);
 
 }  // namespace paim

@@ -23,10 +23,11 @@ class TransferPlayer {
     virtual void decode(double time, const DecodeLimits& limits, TransferLayout& layout,
                         std::vector<float>& transfer) = 0;
 
-    // The radiance of all vertices, albedo(v) · Σ_i t_i(v) L_i per channel. Bands that the light
-    // does not have are zero. A call with the same time and limits as the last one reuses the pose.
-    // radiance  [V] linear RGB; may be slightly negative where the spherical harmonics of
-    //           the light ring
+    // The radiance of all vertices, albedo(v) · Σ_i t_oi(v) L_i per channel, for each outgoing
+    // coefficient o. Bands that the light does not have are zero. A call with the same time and
+    // limits as the last one reuses the pose.
+    // radiance  [num_outgoing][V] linear RGB; may be slightly negative where the spherical
+    //           harmonics of the light ring
     virtual void light(double time, const DecodeLimits& limits, const LightCoefficients& light,
                        const Albedo& albedo, std::vector<Vec3f>& radiance) = 0;
 };

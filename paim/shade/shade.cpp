@@ -9,30 +9,41 @@
 
 namespace paim {
 
+namespace {
+
+// Adds plane times incident radiance to the channels that the plane is of.
+void add_plane(const TransferLayout& layout, uint32_t channel, const float* plane,
+               const Vec3f& incident, std::span<Vec3f> radiance) {
+    if (layout.channels == 1) {
+        for (size_t v = 0; v < radiance.size(); ++v) radiance[v] += plane[v] * incident;
+        return;
+    }
+    for (size_t v = 0; v < radiance.size(); ++v) {
+        radiance[v][channel] += plane[v] * incident[channel];
+    }
+}
+
+}  // namespace
+
 void shade(const TransferLayout& layout, std::span<const float> transfer, const Albedo& albedo,
            const LightCoefficients& light, std::vector<Vec3f>& radiance) {
     PAIM_CHECK(layout.channels == 1 || layout.channels == 3);
-    PAIM_CHECK_EQ(layout.out_bands, 1u);
     PAIM_CHECK_EQ(transfer.size() % layout.num_planes(), size_t{0});
     const size_t num_vertices = transfer.size() / layout.num_planes();
     const auto num_coefficients = std::min<uint32_t>(
         layout.num_coefficients(), static_cast<uint32_t>(sh::num_coefficients(light.bands)));
-    radiance.assign(num_vertices, Vec3f::Zero());
-    for (uint32_t i = 0; i < num_coefficients; ++i) {
-        const Vec3f& incident = light.values[i];
-        if (layout.channels == 1) {
-            const float* plane = transfer.data() + layout.plane(0, i) * num_vertices;
-            for (size_t v = 0; v < num_vertices; ++v) radiance[v] += plane[v] * incident;
-            continue;
+    radiance.assign(layout.num_outgoing() * num_vertices, Vec3f::Zero());
+    for (uint32_t o = 0; o < layout.num_outgoing(); ++o) {
+        const std::span out = std::span(radiance).subspan(o * num_vertices, num_vertices);
+        for (uint32_t i = 0; i < num_coefficients; ++i) {
+            for (uint32_t channel = 0; channel < layout.channels; ++channel) {
+                const size_t first = layout.plane(channel, i, o) * num_vertices;
+                add_plane(layout, channel, transfer.data() + first, light.values[i], out);
+            }
         }
-        for (uint32_t channel = 0; channel < 3; ++channel) {
-            const float* plane = transfer.data() + layout.plane(channel, i) * num_vertices;
-            for (size_t v = 0; v < num_vertices; ++v)
-                radiance[v][channel] += plane[v] * incident[channel];
+        for (size_t v = 0; v < num_vertices; ++v) {
+            out[v] = out[v].cwiseProduct(albedo.at(static_cast<uint32_t>(v)));
         }
-    }
-    for (size_t v = 0; v < num_vertices; ++v) {
-        radiance[v] = radiance[v].cwiseProduct(albedo.at(static_cast<uint32_t>(v)));
     }
 }
 

@@ -12,11 +12,11 @@
 
 namespace paim {
 
-// radiance(v) = albedo(v) · Σ_i t_i(v) L_i, per channel. Bands that the light or the
-// transfer does not have are zero.
-// transfer  [layout.num_planes()][V], of one outgoing band (checked)
-// radiance  [V] linear RGB; may be slightly negative where the spherical harmonics of the light
-//           ring
+// radiance(o, v) = albedo(v) · Σ_i t_oi(v) L_i, per channel, for each outgoing coefficient o. Bands
+// that the light or the transfer does not have are zero.
+// transfer  [layout.num_planes()][V]
+// radiance  [layout.num_outgoing()][V] linear RGB; may be slightly negative where the spherical
+//           harmonics of the light ring
 void shade(const TransferLayout& layout, std::span<const float> transfer, const Albedo& albedo,
            const LightCoefficients& light, std::vector<Vec3f>& radiance);
 

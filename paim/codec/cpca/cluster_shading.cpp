@@ -115,12 +115,12 @@ void ClusterShading::shade_piece(const Piece& piece, std::span<const Vec3f> basi
 }
 
 void ClusterShading::shade(std::span<const Vec3f> basis_radiance, uint32_t num_components,
-                           const Albedo& albedo, std::vector<Vec3f>& radiance,
+                           const Albedo& albedo, std::span<Vec3f> radiance,
                            VectorUnit unit) const {
     PAIM_CHECK_EQ(basis_radiance.size(), size_t{num_rows_});
     const auto coefficients =
         std::span(coefficients_).first(std::min<size_t>(num_components, coefficients_.size()));
-    radiance.resize(vertices_.size());
+    PAIM_CHECK_EQ(radiance.size(), vertices_.size());
     constexpr size_t kPiecesATask = 16;
     parallel_for(pieces_.size(), kPiecesATask, [&](size_t begin, size_t end) {
         for (size_t j = begin; j < end; ++j) {

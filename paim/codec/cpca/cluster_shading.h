@@ -26,9 +26,9 @@ class ClusterShading {
     // decoding and shading up to rounding. All units give the same bytes.
     // basis_radiance  [rows] (checked), of CpcaPlayer::basis_radiance()
     // num_components  of clusters, in use
-    // radiance        [V] linear RGB
+    // radiance        [V] (checked), linear RGB
     void shade(std::span<const Vec3f> basis_radiance, uint32_t num_components, const Albedo& albedo,
-               std::vector<Vec3f>& radiance, VectorUnit unit = best_vector_unit()) const;
+               std::span<Vec3f> radiance, VectorUnit unit = best_vector_unit()) const;
 
   private:
     // Vertices of one cluster: numbers first to first + count − 1 of vertices_.

@@ -105,23 +105,27 @@ void CpcaPlayer::basis_radiance(double time, const DecodeLimits& limits,
     time_ = time;
     limits_ = limits;
 
-    basis_radiance.resize(clusters.num_rows());
-    parallel_for(basis_radiance.size(), kBlock, [&](size_t begin, size_t end) {
-        LitRows rows{pose, layout_.channels, begin, end - begin};
-        for (uint32_t channel = 0; channel < layout_.channels; ++channel) {
-            for (uint32_t i = 0; i < num_coefficients; ++i) {
-                rows.add(layout_.plane(channel, i), channel, light.values[i]);
+    const size_t num_rows = clusters.num_rows();
+    basis_radiance.resize(layout_.num_outgoing() * num_rows);
+    parallel_for(num_rows, kBlock, [&](size_t begin, size_t end) {
+        for (uint32_t o = 0; o < layout_.num_outgoing(); ++o) {
+            LitRows rows{pose, layout_.channels, begin, end - begin};
+            for (uint32_t channel = 0; channel < layout_.channels; ++channel) {
+                for (uint32_t i = 0; i < num_coefficients; ++i) {
+                    rows.add(layout_.plane(channel, i, o), channel, light.values[i]);
+                }
             }
-        }
-        for (size_t j = 0; j < rows.count; ++j) {
-            basis_radiance[begin + j] = clusters.scales[begin + j] *
-                                        Vec3f(rows.sums[0][j], rows.sums[1][j], rows.sums[2][j]);
+            Vec3f* const out = basis_radiance.data() + o * num_rows + begin;
+            for (size_t j = 0; j < rows.count; ++j) {
+                out[j] = clusters.scales[begin + j] *
+                         Vec3f(rows.sums[0][j], rows.sums[1][j], rows.sums[2][j]);
+            }
         }
     });
     if (limits.vertex_components >= clusters.num_components) return;
     const uint32_t stride = clusters.rows_per_cluster();
     for (size_t r = 0; r < basis_radiance.size(); ++r) {
-        if (r % stride > limits.vertex_components) basis_radiance[r].setZero();
+        if (r % num_rows % stride > limits.vertex_components) basis_radiance[r].setZero();
     }
 }
 
@@ -129,7 +133,14 @@ void CpcaPlayer::light(double time, const DecodeLimits& limits, const LightCoeff
                        const Albedo& albedo, std::vector<Vec3f>& radiance) {
     basis_radiance(time, limits, light, radiance_);
     if (!shading_) shading_.emplace(transfer_.clusters);
-    shading_->shade(radiance_, limits.vertex_components, albedo, radiance);
+    const size_t num_rows = transfer_.clusters.num_rows();
+    const size_t num_vertices = transfer_.num_vertices();
+    radiance.resize(layout_.num_outgoing() * num_vertices);
+    for (size_t o = 0; o < layout_.num_outgoing(); ++o) {
+        shading_->shade(std::span(radiance_).subspan(o * num_rows, num_rows),
+                        limits.vertex_components, albedo,
+                        std::span(radiance).subspan(o * num_vertices, num_vertices));
+    }
 }
 
 }  // namespace paim

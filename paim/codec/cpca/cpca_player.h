@@ -28,12 +28,12 @@ class CpcaPlayer : public TransferPlayer {
                const Albedo& albedo, std::vector<Vec3f>& radiance) override;
 
     // The radiance of the rows of all bases under a light:
-    //   basis_radiance[r] = scales[r] · Σ_i row_r,i(time) L_i
-    // per channel, of every row r of every cluster; zero for components of clusters beyond the
+    //   basis_radiance[o][r] = scales[r] · Σ_i row_r,oi(time) L_i
+    // per channel, of every row r of every cluster and every outgoing coefficient o; zero for components of clusters beyond the
     // limits. Bands that the light does not have are zero. After the first call, calls with the
     // same time and limits only apply the light.
     // time            in poses, as decode() takes it
-    // basis_radiance  [clusters · (1 + components)] linear RGB
+    // basis_radiance  [num_outgoing][clusters · (1 + components)] linear RGB
     void basis_radiance(double time, const DecodeLimits& limits, const LightCoefficients& light,
                         std::vector<Vec3f>& basis_radiance);
 

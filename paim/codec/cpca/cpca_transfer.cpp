@@ -130,8 +130,9 @@ FrameCost cpca_cost(const TransferLayout& layout, uint32_t num_clusters, uint32_
                     uint32_t num_time_components, bool coloured_light) {
     const uint64_t channels = num_radiance_channels(layout, coloured_light);
     const uint64_t functions = uint64_t{num_clusters} * (uint64_t{num_components} + 1);
-    return {channels * (uint64_t{num_components} + 1), 0,
-            functions * (channels * layout.num_coefficients() +
+    const uint64_t outgoing = layout.num_outgoing();
+    return {channels * outgoing * (uint64_t{num_components} + 1), 0,
+            functions * (channels * outgoing * layout.num_coefficients() +
                          uint64_t{num_time_components} * layout.num_planes())};
 }
 

@@ -48,7 +48,7 @@ class CpcaTransfer : public TransferModel {
 };
 
 // Cost of a frame. The mean and the K components of each cluster are multiplied by the light once a
-// frame. Then a vertex costs K + 1 multiply-adds a channel, light included.
+// frame. Then a vertex costs K + 1 multiply-adds a channel and outgoing coefficient, light included.
 // num_time_components  whose weighted sums are the clusters' bases of a pose; 0: the bases are the
 //                      same in all poses
 FrameCost cpca_cost(const TransferLayout& layout, uint32_t num_clusters, uint32_t num_components,

@@ -19,7 +19,7 @@ FrameCost SvdTransfer::cost(const TransferLayout& layout, const DecodeLimits& li
 FrameCost svd_cost(const TransferLayout& layout, uint32_t num_components, bool coloured_light) {
     const uint64_t channels = num_radiance_channels(layout, coloured_light);
     return {(uint64_t{num_components} + 1) * layout.num_planes(),
-            channels * layout.num_coefficients(), 0};
+            channels * layout.num_outgoing() * layout.num_coefficients(), 0};
 }
 
 }  // namespace paim

@@ -13,15 +13,19 @@ constexpr Tag kMetadata("META");   // u8 [n]: JSON text
 constexpr Tag kTriangles("TRIS");  // u32 [F][3]
 constexpr Tag kAlbedo("ALBD");     // f32 [1 or V][3]
 
-// .paim: mean, components, weights and spectrum of geometry and of transfer.
-constexpr Tag kMean[2] = {Tag("GMEA"), Tag("TMEA")};  // f32, i16 or i8 [planes][N]
-constexpr Tag kComponent[2] = {Tag("GCMP"),
-                               Tag("TCMP")};             // f32, f16, i16 or i8 [planes][N], index k
-constexpr Tag kWeights[2] = {Tag("GWGT"), Tag("TWGT")};  // f32 or i16 [K][P]
-constexpr Tag kSingularValues[2] = {Tag("GSPC"), Tag("TSPC")};  // f64 or f32 [n]
+// .paim: mean, components, weights and spectrum of geometry, transfer and gloss.
+constexpr Tag kMean[3] = {Tag("GMEA"), Tag("TMEA"), Tag("XMEA")};  // f32, i16 or i8 [planes][N]
+constexpr Tag kComponent[3] = {Tag("GCMP"), Tag("TCMP"),
+                               Tag("XCMP")};  // f32, f16, i16 or i8 [planes][N], index k
+constexpr Tag kWeights[3] = {Tag("GWGT"), Tag("TWGT"), Tag("XWGT")};         // f32 or i16 [K][P]
+constexpr Tag kSingularValues[3] = {Tag("GSPC"), Tag("TSPC"), Tag("XSPC")};  // f64 or f32 [n]
 // Only if values (weights) are integers.
-constexpr Tag kSteps[2] = {Tag("GSTP"), Tag("TSTP")};        // f32 [planes]
-constexpr Tag kWeightSteps[2] = {Tag("GWST"), Tag("TWST")};  // f32 [K]
+constexpr Tag kSteps[3] = {Tag("GSTP"), Tag("TSTP"), Tag("XSTP")};        // f32 [planes]
+constexpr Tag kWeightSteps[3] = {Tag("GWST"), Tag("TWST"), Tag("XWST")};  // f32 [K]
+// Only if some vertices are glossy. Sections of the codec of gloss have the tags of those of the
+// transfer, with X as their first letter.
+constexpr Tag kGlossTint("XTNT");      // f32 [1 or R][3]
+constexpr Tag kGlossVertices("XVTX");  // u32 [R][1], only if not all vertices are rows
 // Only if geometry is smoothed: i16 [1 + K][3], rounds of the mean and each component.
 constexpr Tag kSmoothing("GSMO");
 
@@ -36,6 +40,11 @@ constexpr Tag kStillTransfer("STRN");   // f32, i16 or i8 [planes][S]
 // Only if values are integers: f32 [planes].
 constexpr Tag kStillPositionSteps("SPST");
 constexpr Tag kStillTransferSteps("STST");
+// Only if the still part has gloss; as those of the moving part.
+constexpr Tag kStillGloss("SGLS");          // f32, i16 or i8 [planes of gloss][R]
+constexpr Tag kStillGlossSteps("SGST");     // f32 [planes of gloss]
+constexpr Tag kStillGlossTint("SGTN");      // f32 [1 or R][3]
+constexpr Tag kStillGlossVertices("SGVX");  // u32 [R][1]
 
 // .bake poses and still meshes.
 constexpr Tag kPositions("POSN");  // f32 [3][V]

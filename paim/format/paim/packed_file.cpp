@@ -18,6 +18,7 @@
 #include "paim/format/pack/index_encoder.h"
 #include "paim/format/pack/plane_encoder.h"
 #include "paim/format/paim/paim_metadata.h"
+#include "paim/format/paim/row_predictors.h"
 #include "paim/format/paim/section_table.h"
 #include "paim/format/paim/value_limits.h"
 
@@ -52,31 +53,6 @@ StoredValues weight_integers(const LowRank& matrix) {
     }
     return integers;
 }
-
-// Predictors of the integers of an asset.
-class Predictors {
-  public:
-    explicit Predictors(const Asset& asset) : poses_(PlanePredictor::chain(asset.num_poses())) {
-        for (const CodedMesh& mesh : asset.parts) vertices_.emplace_back(mesh.topology);
-    }
-
-    const PlanePredictor& of(const TableRow& row) const {
-        switch (row.neighbours) {
-            case Neighbours::vertices:
-                return vertices_[row.part];
-            case Neighbours::poses:
-                return poses_;
-            case Neighbours::none:
-                break;
-        }
-        return none_;
-    }
-
-  private:
-    std::vector<PlanePredictor> vertices_;
-    PlanePredictor poses_;
-    PlanePredictor none_;
-};
 
 // Makes a task from each kind of row.
 class Packer {
@@ -146,6 +122,9 @@ class Packer {
                         std::vector<int16_t>(numbers->begin(), numbers->end());
                     return encode_planes(integers, num_rows, predictor, effort);
                 }};
+    }
+    Task operator()(const VertexNumbers& row) const {
+        return zstd(ScalarType::u32, std::span<const uint32_t>(*row.values));
     }
     Task operator()(const std::vector<float>* row) const { return floats(*row); }
     Task operator()(const RootMotion* motion) const {
@@ -230,7 +209,9 @@ bool holds_integers(const TableRow& row) {
 }  // namespace
 
 bool needs_packing(const Asset& asset) {
-    if (asset.moving().transfer->always_packed()) return true;
+    const CodedMesh& moving = asset.moving();
+    if (moving.transfer->always_packed()) return true;
+    if (moving.gloss && moving.gloss->transfer->always_packed()) return true;
     const std::vector<TableRow> table = section_table(asset);
     return std::any_of(table.begin(), table.end(), holds_integers);
 }
@@ -239,7 +220,7 @@ PackedFile::PackedFile(const Asset& asset, Effort effort) {
     for (const CodedMesh& mesh : asset.parts) check_magnitudes(mesh, {}, kScaleDown);
     const std::string metadata = paim_metadata(asset);
     const std::vector<TableRow> table = section_table(asset);
-    const Predictors predictors(asset);
+    const RowPredictors predictors(asset);
     std::vector<Task> tasks;
     tasks.push_back(
         {{section::kMetadata, ScalarType::u8, 0, {1, 1, static_cast<uint32_t>(metadata.size())}},

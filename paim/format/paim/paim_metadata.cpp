@@ -3,6 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <iterator>
+
 #include "paim/base/error.h"
 #include "paim/base/json_text.h"
 #include "paim/codec/codecs.h"
@@ -12,16 +14,53 @@ namespace paim {
 
 namespace {
 
-constexpr const char* kSingularIndices[2] = {"geometry_singular_indices",
-                                             "transfer_singular_indices"};
+constexpr const char* kSingularIndices[] = {"geometry_singular_indices",
+                                            "transfer_singular_indices", "singular_indices"};
+static_assert(std::size(kSingularIndices) == kNumAttributes);
 
 bool has_floor(const CodedMesh& mesh) {
     return !mesh.root_motion.empty() && mesh.num_following < mesh.topology.num_vertices;
 }
 
+const TransferNames& transfer_names(TransferKind kind) {
+    return kTransferNames[static_cast<size_t>(kind)];
+}
+
 const char* transfer_kind(const CodedMesh& mesh) {
-    if (mesh.root_motion.empty()) return kDiffuse;
-    return has_floor(mesh) ? kDiffuseLocalOnFloor : kDiffuseLocal;
+    const TransferNames& names = transfer_names(mesh.layout.kind);
+    if (mesh.root_motion.empty()) return names.in_scene;
+    return has_floor(mesh) ? names.local_on_floor : names.local;
+}
+
+// The codec and its numbers.
+void add_codec(const TransferModel& transfer, nlohmann::ordered_json& json) {
+    if (const std::string_view codec = transfer.codec_name(); is_named_in_files(codec)) {
+        json["codec"] = codec;
+    }
+    for (const NamedNumber& number : transfer.numbers()) json[number.name] = *number.value;
+}
+
+void add_singular_indices(const CodedMesh& mesh, Attribute attribute,
+                          nlohmann::ordered_json& json) {
+    const std::vector<uint32_t>& indices = mesh.attribute(attribute).singular_indices;
+    if (!indices.empty()) json[kSingularIndices[static_cast<size_t>(attribute)]] = indices;
+}
+
+nlohmann::ordered_json gloss_json(const Asset& asset) {
+    const CodedMesh& mesh = asset.moving();
+    const CodedGloss& gloss = *mesh.gloss;
+    nlohmann::ordered_json json;
+    json["rows"] = gloss.num_rows;
+    if (const CodedMesh* still = asset.still(); still != nullptr && still->gloss) {
+        json["still_rows"] = still->gloss->num_rows;
+    }
+    json["bands"] = gloss.layout.in_bands;
+    json["out_bands"] = gloss.layout.out_bands;
+    json["channels"] = gloss.layout.channels;
+    add_codec(*gloss.transfer, json);
+    json["components"] = gloss.transfer->matrix.num_components;
+    add_singular_indices(mesh, Attribute::gloss, json);
+    return json;
 }
 
 }  // namespace
@@ -37,23 +76,18 @@ std::string paim_metadata(const Asset& asset) {
     root["transfer_kind"] = transfer_kind(mesh);
     if (has_floor(mesh)) root["num_following"] = mesh.num_following;
     root["bands"] = mesh.layout.in_bands;
+    if (mesh.layout.kind == TransferKind::glossy) root["out_bands"] = mesh.layout.out_bands;
     root["channels"] = mesh.layout.channels;
     if (asset.vertex_order == VertexOrder::cache) root["vertex_order"] = "local";
-    if (const std::string_view codec = mesh.transfer->codec_name(); is_named_in_files(codec)) {
-        root["codec"] = codec;
-    }
-    for (const NamedNumber& number : mesh.transfer->numbers()) {
-        root[number.name] = *number.value;
-    }
+    add_codec(*mesh.transfer, root);
     root["geometry_components"] = mesh.positions.num_components;
     root["transfer_components"] = mesh.transfer->matrix.num_components;
     if (const uint32_t bits = mesh.positions.fraction_bits; bits > 0) {
         root["geometry_fraction_bits"] = bits;
     }
-    for (const Attribute attribute : {Attribute::geometry, Attribute::transfer}) {
-        const std::vector<uint32_t>& indices = mesh.attribute(attribute).singular_indices;
-        if (!indices.empty()) root[kSingularIndices[static_cast<size_t>(attribute)]] = indices;
-    }
+    add_singular_indices(mesh, Attribute::geometry, root);
+    add_singular_indices(mesh, Attribute::transfer, root);
+    if (mesh.gloss) root["gloss"] = gloss_json(asset);
     root["provenance"] =
         nlohmann::ordered_json::parse(asset.provenance_json.empty() ? "{}" : asset.provenance_json);
     return json_text(root, 2) + "\n";

@@ -9,11 +9,19 @@
 
 namespace paim {
 
-// Kinds of transfer: in the axes of the scene, in those of a root motion, and in those of a root motion
-// that not all vertices follow. Readers that know nothing of it refuse the second and the third.
-constexpr const char* kDiffuse = "diffuse";
-constexpr const char* kDiffuseLocal = "diffuse-local";
-constexpr const char* kDiffuseLocalOnFloor = "diffuse-local-on-floor";
+// Names of a kind of transfer: in the axes of the scene, in those of a root motion, and in those of a
+// root motion that not all vertices follow. Readers that know nothing of it refuse the second and the
+// third.
+struct TransferNames {
+    const char* in_scene;
+    const char* local;
+    const char* local_on_floor;
+};
+
+// Of each TransferKind. Files of glossy transfer alone are made on the way to files that have both
+// kinds (ReadOptions::kind).
+constexpr TransferNames kTransferNames[] = {{"diffuse", "diffuse-local", "diffuse-local-on-floor"},
+                                            {"glossy", "glossy-local", "glossy-local-on-floor"}};
 
 std::string paim_metadata(const Asset& asset);
 

@@ -19,6 +19,9 @@ struct ReadOptions {
     // Bytes to read at most: the source is taken to end there. Nothing is said of what comes after
     // them, not even where that is damaged.
     uint64_t most_bytes = std::numeric_limits<uint64_t>::max();
+    // The kind of the transfer. Files of glossy transfer alone cannot be played: they are joined with
+    // others (codec/gloss_asset.h).
+    TransferKind kind = TransferKind::diffuse;
 };
 
 // Reads a .paim. Errors (bad input, unsupported) name the file and what is wrong. Indices, shapes

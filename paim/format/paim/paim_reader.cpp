@@ -36,16 +36,30 @@ Prefix find_prefix(const ContainerReader& reader) {
     return *std::prev(next);
 }
 
-TransferLayout read_layout(const Metadata& metadata) {
-    TransferLayout layout;
+void read_channels(const Metadata& metadata, TransferLayout& layout) {
     layout.in_bands = metadata.integer("bands", 1, sh::kMaxBands);
     layout.channels = metadata.integer("channels", 1, 3);
     if (layout.channels == 2) throw_unsupported("{}: 2 transfer channels", metadata.file());
-    if (const std::string kind = metadata.text("transfer_kind");
-        kind != kDiffuse && kind != kDiffuseLocal && kind != kDiffuseLocalOnFloor) {
-        throw_unsupported("{}: transfer of kind '{}'", metadata.file(), kind);
+}
+
+TransferLayout read_layout(const Metadata& metadata, TransferKind kind) {
+    TransferLayout layout;
+    layout.kind = kind;
+    read_channels(metadata, layout);
+    if (kind == TransferKind::glossy) {
+        layout.out_bands = metadata.integer("out_bands", 1, kMaxOutBands);
     }
     return layout;
+}
+
+// The names of the kind of transfer that is asked for. Error (unsupported) if the file has another.
+const TransferNames& check_kind(const Metadata& metadata, TransferKind kind) {
+    const TransferNames& names = kTransferNames[static_cast<size_t>(kind)];
+    const std::string name = metadata.text("transfer_kind");
+    if (name != names.in_scene && name != names.local && name != names.local_on_floor) {
+        throw_unsupported("{}: transfer of kind '{}'", metadata.file(), name);
+    }
+    return names;
 }
 
 VertexOrder read_vertex_order(const Metadata& metadata) {
@@ -92,11 +106,28 @@ LowRank start_matrix(const Metadata& metadata, const char* components, uint32_t 
     return matrix;
 }
 
-CodedMesh start_moving(const Metadata& metadata) {
+// The gloss of the file's moving part, without values; nothing if it has none.
+std::optional<CodedGloss> start_gloss(const Metadata& metadata, uint32_t num_vertices,
+                                      uint32_t num_poses) {
+    const auto member = metadata.root().find("gloss");
+    if (member == metadata.root().end()) return std::nullopt;
+    const Metadata part = Metadata::part(*member, metadata.file());
+    CodedGloss gloss;
+    gloss.layout = read_layout(part, TransferKind::glossy);
+    gloss.num_rows = part.integer("rows", 1, std::max(1u, num_vertices));
+    gloss.transfer = start_transfer(part);
+    const uint32_t num_points = gloss.transfer->start(gloss.num_rows);
+    gloss.transfer->matrix =
+        start_matrix(part, "components", num_points, gloss.layout.num_planes(), num_poses, 0);
+    return gloss;
+}
+
+CodedMesh start_moving(const Metadata& metadata, TransferKind kind) {
     CodedMesh mesh;
     mesh.topology.num_vertices =
         metadata.integer("num_vertices", 0, std::numeric_limits<int32_t>::max());
-    mesh.layout = read_layout(metadata);
+    mesh.layout = read_layout(metadata, kind);
+    const TransferNames& names = check_kind(metadata, kind);
     const uint32_t num_poses = metadata.integer("num_poses", 1, kMaxPoses);
     mesh.positions = start_matrix(metadata, "geometry_components", mesh.topology.num_vertices, 3,
                                   num_poses, uint64_t{kExceptionsPerPose} * num_poses);
@@ -104,9 +135,9 @@ CodedMesh start_moving(const Metadata& metadata) {
         mesh.positions.fraction_bits = metadata.integer("geometry_fraction_bits", 2, 4);
     }
     // 64 MB at most, which every file may claim (kMaxFreeBytes).
-    const std::string kind = metadata.text("transfer_kind");
-    if (kind != kDiffuse) mesh.root_motion.resize(num_poses);
-    if (kind == kDiffuseLocalOnFloor) {
+    const std::string name = metadata.text("transfer_kind");
+    if (name != names.in_scene) mesh.root_motion.resize(num_poses);
+    if (name == names.local_on_floor) {
         mesh.num_following =
             metadata.integer("num_following", 0, std::max(1u, mesh.topology.num_vertices) - 1);
     }
@@ -114,6 +145,7 @@ CodedMesh start_moving(const Metadata& metadata) {
     const uint32_t num_points = mesh.transfer->start(mesh.topology.num_vertices);
     mesh.transfer->matrix = start_matrix(metadata, "transfer_components", num_points,
                                          mesh.layout.num_planes(), num_poses, 0);
+    mesh.gloss = start_gloss(metadata, mesh.topology.num_vertices, num_poses);
     return mesh;
 }
 
@@ -124,19 +156,28 @@ bool has_still_part(const ContainerReader& reader) {
                        [&](Tag tag) { return reader.find(tag) != nullptr; });
 }
 
-CodedMesh start_still(const ContainerReader& reader, const TransferLayout& layout) {
+CodedMesh start_still(const ContainerReader& reader, const Metadata& metadata,
+                      const CodedMesh& moving) {
     CodedMesh mesh;
-    mesh.layout = layout;
+    mesh.layout = moving.layout;
     mesh.topology.num_vertices = count_vertices(reader, section::kStillPositions);
-    const auto start = [&](uint32_t num_planes) {
+    const auto start = [&](uint32_t num_planes, uint32_t num_points) {
         LowRank matrix;
-        matrix.num_points = mesh.topology.num_vertices;
+        matrix.num_points = num_points;
         matrix.num_planes = num_planes;
         matrix.num_poses = 1;
         return matrix;
     };
-    mesh.positions = start(3);
-    mesh.transfer = plain_transfer(start(layout.num_planes()));
+    const uint32_t num_vertices = mesh.topology.num_vertices;
+    mesh.positions = start(3, num_vertices);
+    mesh.transfer = plain_transfer(start(mesh.layout.num_planes(), num_vertices));
+    if (!moving.gloss) return mesh;
+    const Metadata part = Metadata::part(metadata.root()["gloss"], metadata.file());
+    if (!part.root().contains("still_rows")) return mesh;
+    CodedGloss& gloss = mesh.gloss.emplace();
+    gloss.layout = moving.gloss->layout;
+    gloss.num_rows = part.integer("still_rows", 1, num_vertices);
+    gloss.transfer = plain_transfer(start(gloss.layout.num_planes(), gloss.num_rows));
     return mesh;
 }
 
@@ -154,7 +195,7 @@ ContainerReader open(std::shared_ptr<const ByteSource> source, const std::string
             section::kKindAnimation, options.prefix ? Extent::prefix : Extent::whole};
 }
 
-Asset read_asset(const ContainerReader& reader) {
+Asset read_asset(const ContainerReader& reader, TransferKind kind) {
     const Prefix prefix = find_prefix(reader);
     const Metadata metadata(reader.read_text(reader.require(section::kMetadata, ScalarType::u8)),
                             reader.name());
@@ -164,21 +205,28 @@ Asset read_asset(const ContainerReader& reader) {
     asset.name = metadata.text("name");
     asset.provenance_json = metadata.object_text("provenance");
     asset.vertex_order = read_vertex_order(metadata);
-    asset.moving() = start_moving(metadata);
+    asset.moving() = start_moving(metadata, kind);
     if (has_still_part(reader)) {
-        asset.parts.push_back(start_still(reader, asset.moving().layout));
+        asset.parts.push_back(start_still(reader, metadata, asset.moving()));
     }
-
-    LowRank& positions = asset.moving().positions;
-    LowRank& transfer = asset.moving().transfer->matrix;
-    const uint32_t geometry_components = positions.num_components;
-    const uint32_t transfer_components = transfer.num_components;
-    read_sections(reader, {prefix.geometry_components, prefix.transfer_components}, asset);
+    ComponentCounts of_file{};
+    for (const Attribute which : asset.moving().attributes()) {
+        of_file[static_cast<size_t>(which)] = asset.moving().attribute(which).num_components;
+    }
+    read_sections(reader,
+                  {prefix.geometry_components, prefix.transfer_components, prefix.gloss_components},
+                  asset);
     check_floor(asset.moving().topology, asset.moving().num_following, reader.name());
-    read_indices(metadata, Attribute::geometry, geometry_components, positions);
-    read_indices(metadata, Attribute::transfer, transfer_components, transfer);
-    asset.complete = positions.num_components == geometry_components &&
-                     transfer.num_components == transfer_components;
+    asset.complete = true;
+    for (const Attribute which : asset.moving().attributes()) {
+        LowRank& matrix = asset.moving().attribute(which);
+        const uint32_t num_components = of_file[static_cast<size_t>(which)];
+        const bool of_gloss = which == Attribute::gloss;
+        read_indices(
+            of_gloss ? Metadata::part(metadata.root()["gloss"], metadata.file()) : metadata, which,
+            num_components, matrix);
+        asset.complete = asset.complete && matrix.num_components == num_components;
+    }
     return asset;
 }
 
@@ -190,12 +238,13 @@ Asset read_paim(const std::filesystem::path& path, const ReadOptions& options) {
             "{}: is a directory, expected a .paim file (paim-compress encode makes one of a .bake)",
             path.string());
     }
-    return read_asset(open(std::make_shared<FileSource>(path), path.string(), options));
+    return read_asset(open(std::make_shared<FileSource>(path), path.string(), options),
+                      options.kind);
 }
 
 Asset read_paim(std::span<const uint8_t> bytes, const std::string& name,
                 const ReadOptions& options) {
-    return read_asset(open(std::make_shared<MemorySource>(bytes), name, options));
+    return read_asset(open(std::make_shared<MemorySource>(bytes), name, options), options.kind);
 }
 
 }  // namespace paim

@@ -46,12 +46,18 @@ class PaimWriter {
 
     void append(size_t section, std::span<const float> rows, Precision precision);
 
+    // An attribute whose means and components are given in pieces.
+    struct Streamed {
+        Precision precision;
+        size_t mean_section;
+        std::vector<size_t> component_sections;
+        StreamedMagnitudes magnitudes;
+    };
+
     std::string path_;
-    Precision precision_[2];
-    size_t mean_section_[2];
-    std::vector<size_t> component_section_[2];
+    std::vector<Attribute> attributes_;
+    std::vector<Streamed> streamed_;  // of each of these
     MagnitudeLimits limits_;
-    StreamedMagnitudes magnitudes_[2];
     ContainerWriter writer_;
 };
 

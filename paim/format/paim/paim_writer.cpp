@@ -19,6 +19,7 @@ struct PlainType {
     ScalarType operator()(Topology*) const { return ScalarType::u32; }
     ScalarType operator()(const SingularValues&) const { return ScalarType::f64; }
     ScalarType operator()(RootMotion*) const { return ScalarType::f64; }
+    ScalarType operator()(const VertexNumbers&) const { return ScalarType::u32; }
     ScalarType operator()(const MatrixValues& row) const {
         return row.is_component && row.matrix->precision == Precision::f16 ? ScalarType::f16
                                                                            : ScalarType::f32;
@@ -53,6 +54,9 @@ struct PlainValues {
         const std::vector<double> numbers = root_numbers(*motion);
         writer.append(section, std::span<const double>(numbers));
     }
+    void operator()(const VertexNumbers& row) const {
+        writer.append(section, std::span<const uint32_t>(*row.values));
+    }
     void operator()(const SmallNumbers&) const { PAIM_CHECK(!"integers are packed"); }
 
   private:
@@ -68,8 +72,11 @@ struct PaimWriter::Layout {
     std::string metadata;
     std::vector<TableRow> table;  // row j is section 1 + j
     std::vector<SectionPlan> plans;
-    size_t mean[2] = {0, 0};
-    std::vector<size_t> component[2];
+    struct Places {  // of the sections of an attribute
+        size_t mean = 0;
+        std::vector<size_t> components;
+    };
+    std::vector<Places> places;  // of CodedMesh::attributes()
 
     explicit Layout(const Asset& asset) : metadata(paim_metadata(asset)) {
         plans.push_back(SectionSpec{
@@ -77,14 +84,17 @@ struct PaimWriter::Layout {
         for (TableRow& row : section_table(asset)) {
             if (row.is_present()) table.push_back(std::move(row));
         }
-        const LowRank* const matrices[] = {&asset.moving().positions,
-                                           &asset.moving().transfer->matrix};
-        for (size_t i = 0; i < 2; ++i) component[i].resize(matrices[i]->num_components);
+        std::vector<const LowRank*> matrices;
+        for (const Attribute which : asset.moving().attributes()) {
+            matrices.push_back(&asset.moving().attribute(which));
+            places.emplace_back().components.resize(matrices.back()->num_components);
+        }
         for (const TableRow& row : table) {
             if (const auto* values = std::get_if<MatrixValues>(&row.values)) {
-                for (size_t i = 0; i < 2; ++i) {
+                for (size_t i = 0; i < matrices.size(); ++i) {
                     if (values->matrix != matrices[i]) continue;
-                    (values->is_component ? component[i][row.index] : mean[i]) = plans.size();
+                    (values->is_component ? places[i].components[row.index] : places[i].mean) =
+                        plans.size();
                 }
             }
             plans.push_back(SectionSpec{row.tag,
@@ -109,13 +119,14 @@ PaimWriter::PaimWriter(const std::filesystem::path& path, const Asset& asset)
 
 PaimWriter::PaimWriter(const std::filesystem::path& path, const Asset& asset, Layout layout)
     : path_(path.string()),
-      precision_{asset.moving().positions.precision, asset.moving().transfer->matrix.precision},
-      mean_section_{layout.mean[0], layout.mean[1]},
-      component_section_{std::move(layout.component[0]), std::move(layout.component[1])},
+      attributes_(asset.moving().attributes()),
       limits_(asset.moving()),
-      magnitudes_{StreamedMagnitudes(asset.moving().positions),
-                  StreamedMagnitudes(asset.moving().transfer->matrix)},
       writer_(path, section::kKindAnimation, layout.plans) {
+    for (size_t i = 0; i < attributes_.size(); ++i) {
+        const LowRank& matrix = asset.moving().attribute(attributes_[i]);
+        streamed_.push_back({matrix.precision, layout.places[i].mean,
+                             std::move(layout.places[i].components), StreamedMagnitudes(matrix)});
+    }
     for (size_t part = 1; part < asset.parts.size(); ++part) {
         check_magnitudes(asset.parts[part], path_ + ": ", kScaleDown);
     }
@@ -130,13 +141,15 @@ PaimWriter::PaimWriter(const std::filesystem::path& path, const Asset& asset, La
 
 void PaimWriter::append_rows(Attribute attribute, std::span<const float> mean,
                              std::span<const std::span<const float>> components) {
-    const auto i = static_cast<size_t>(attribute);
-    PAIM_CHECK_EQ(components.size(), component_section_[i].size());
-    writer_.append(mean_section_[i], mean);
+    const auto found = std::find(attributes_.begin(), attributes_.end(), attribute);
+    PAIM_CHECK(found != attributes_.end());
+    Streamed& to = streamed_[static_cast<size_t>(found - attributes_.begin())];
+    PAIM_CHECK_EQ(components.size(), to.component_sections.size());
+    writer_.append(to.mean_section, mean);
     for (size_t k = 0; k < components.size(); ++k) {
-        append(component_section_[i][k], components[k], precision_[i]);
+        append(to.component_sections[k], components[k], to.precision);
     }
-    magnitudes_[i].add(mean, components);
+    to.magnitudes.add(mean, components);
 }
 
 void PaimWriter::append(size_t section, std::span<const float> rows, Precision precision) {
@@ -150,9 +163,8 @@ void PaimWriter::append(size_t section, std::span<const float> rows, Precision p
 }
 
 void PaimWriter::commit() {
-    for (const Attribute attribute : {Attribute::geometry, Attribute::transfer}) {
-        limits_.check(attribute, magnitudes_[static_cast<size_t>(attribute)].bounds(), path_ + ": ",
-                      kScaleDown);
+    for (size_t i = 0; i < attributes_.size(); ++i) {
+        limits_.check(attributes_[i], streamed_[i].magnitudes.bounds(), path_ + ": ", kScaleDown);
     }
     writer_.commit();
 }
@@ -163,7 +175,7 @@ void write_paim(const std::filesystem::path& path, const Asset& asset) {
         return;
     }
     PaimWriter writer(path, asset);
-    for (const Attribute attribute : {Attribute::geometry, Attribute::transfer}) {
+    for (const Attribute attribute : asset.moving().attributes()) {
         const LowRank& matrix = asset.moving().attribute(attribute);
         PAIM_CHECK_EQ(matrix.mean.size(), matrix.num_rows());
         PAIM_CHECK_EQ(matrix.components.size(), size_t{matrix.num_components});

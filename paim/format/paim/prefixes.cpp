@@ -2,6 +2,7 @@
 #include "paim/format/paim/prefixes.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 
 #include "paim/format/container/sections.h"
@@ -33,7 +34,7 @@ class ComponentEnds {
 }  // namespace
 
 std::vector<Prefix> list_prefixes(const ContainerReader& reader) {
-    ComponentEnds ends[2];
+    ComponentEnds ends[std::size(section::kComponent)];
     Prefix shortest;
     for (const Section& section : reader.sections()) {
         const uint64_t end = section.offset + section.stored_size_bytes;
@@ -45,7 +46,8 @@ std::vector<Prefix> list_prefixes(const ContainerReader& reader) {
             ends[part - std::begin(section::kComponent)].add(section, end);
         }
     }
-    const std::vector<uint64_t> sizes[2] = {ends[0].running(), ends[1].running()};
+    std::vector<std::vector<uint64_t>> sizes;  // of each attribute
+    for (const ComponentEnds& part : ends) sizes.push_back(part.running());
     std::vector<uint64_t> steps{shortest.size_bytes};
     for (const auto& part : sizes) {
         for (const uint64_t size : part) steps.push_back(std::max(size, shortest.size_bytes));
@@ -58,7 +60,7 @@ std::vector<Prefix> list_prefixes(const ContainerReader& reader) {
             return static_cast<uint32_t>(std::upper_bound(part.begin(), part.end(), size_bytes) -
                                          part.begin());
         };
-        prefixes.push_back({size_bytes, count(sizes[0]), count(sizes[1])});
+        prefixes.push_back({size_bytes, count(sizes[0]), count(sizes[1]), count(sizes[2])});
     }
     return prefixes;
 }

@@ -13,6 +13,7 @@ struct Prefix {
     uint64_t size_bytes = 0;  // from the start of the file
     uint32_t geometry_components = 0;
     uint32_t transfer_components = 0;
+    uint32_t gloss_components = 0;
 
     bool operator==(const Prefix&) const = default;
 };

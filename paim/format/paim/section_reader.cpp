@@ -11,7 +11,7 @@
 #include "paim/format/container/mesh_sections.h"
 #include "paim/format/container/root_numbers.h"
 #include "paim/format/container/sections.h"
-#include "paim/format/pack/plane_predictor.h"
+#include "paim/format/paim/row_predictors.h"
 #include "paim/format/paim/section_table.h"
 #include "paim/format/paim/value_limits.h"
 #include "paim/format/paim/value_reader.h"
@@ -48,6 +48,7 @@ struct AllowedTypes {
     Types operator()(const MatrixValues&) const { return kValues; }
     Types operator()(StoredValues*) const { return kValues; }
     Types operator()(const SmallNumbers&) const { return {ScalarType::i16}; }
+    Types operator()(const VertexNumbers&) const { return {ScalarType::u32}; }
     Types operator()(RootMotion*) const { return {ScalarType::f64}; }
     template <typename Row>
     Types operator()(const Row&) const {
@@ -156,60 +157,35 @@ void set_precisions(const ContainerReader& reader, const std::vector<FoundRow>& 
     }
 }
 
-// Error (bad input) if the file is too small for so many vertices. The predictor takes many bytes a
+// Predictors of the integers of a file.
+// Error (bad input) if the file is too small for so many vertices. A predictor takes many bytes a
 // vertex, while sections may claim few.
-PlanePredictor make_predictor(const ContainerReader& reader, const Topology& topology) {
+RowPredictors make_predictors(const ContainerReader& reader, const Asset& asset) {
+    const bool predicted =
+        std::any_of(reader.sections().begin(), reader.sections().end(),
+                    [](const Section& s) { return s.codec == SectionCodec::planes; });
+    if (!predicted) return RowPredictors(asset.num_poses());
     const uint64_t most =
         most_bytes_of_values(reader.file_size_bytes()) / PlanePredictor::kBytesAVertex;
-    if (topology.num_vertices > most) {
+    for (const CodedMesh& mesh : asset.parts) {
+        if (mesh.topology.num_vertices <= most) continue;
         throw_bad_input("{}: {} vertices, expected at most {} in a file of {} bytes", reader.name(),
-                        topology.num_vertices, most, reader.file_size_bytes());
+                        mesh.topology.num_vertices, most, reader.file_size_bytes());
     }
-    return PlanePredictor(topology);
+    return RowPredictors(asset);
 }
-
-// Predictors of the integers of a file; none if no section is predicted.
-class Predictors {
-  public:
-    Predictors(const ContainerReader& reader, const Asset& asset)
-        : poses_(PlanePredictor::chain(asset.num_poses())), vertices_(asset.parts.size()) {
-        const bool predicted =
-            std::any_of(reader.sections().begin(), reader.sections().end(),
-                        [](const Section& s) { return s.codec == SectionCodec::planes; });
-        if (!predicted) return;
-        for (size_t j = 0; j < asset.parts.size(); ++j) {
-            vertices_[j] = make_predictor(reader, asset.parts[j].topology);
-        }
-    }
-
-    const PlanePredictor& of(const TableRow& row) const {
-        switch (row.neighbours) {
-            case Neighbours::vertices:
-                return vertices_[row.part];
-            case Neighbours::poses:
-                return poses_;
-            case Neighbours::none:
-                break;
-        }
-        return none_;
-    }
-
-  private:
-    PlanePredictor poses_;
-    std::vector<PlanePredictor> vertices_;
-    PlanePredictor none_;
-};
 
 // Reads a row. Arrays of values are only listed here, and read together afterwards.
 struct RowReader {
     const ContainerReader& reader;
     const Section& section;
     const TableRow& row;
-    const Predictors& predictors;
+    const RowPredictors& predictors;
     std::vector<ValueJob>& jobs;
 
     void operator()(Topology*) const {}  // read before all other rows
     void operator()(Albedo*) const {}
+    void operator()(const VertexNumbers&) const {}
     void operator()(const SingularValues& values) const {
         std::vector<double>& out = values.matrix->singular_values;
         if (section.spec.type == ScalarType::f32) {
@@ -267,13 +243,31 @@ struct RowReader {
     }
 };
 
+// Error (bad input) unless the numbers are different ones below num_vertices.
+void read_vertex_numbers(const ContainerReader& reader, const Section& section,
+                         const VertexNumbers& numbers) {
+    *numbers.values = reader.read_u32(section);
+    std::vector<bool> is_named(numbers.num_vertices, false);
+    for (const uint32_t v : *numbers.values) {
+        if (v >= numbers.num_vertices || is_named[v]) {
+            throw_bad_input("{}: vertex {}, expected different ones from 0 to {}",
+                            reader.label(section), v, int64_t{numbers.num_vertices} - 1);
+        }
+        is_named[v] = true;
+    }
+}
+
 void read_meshes(const ContainerReader& reader, const std::vector<FoundRow>& found, Asset& asset) {
     for (const FoundRow& row : found) {
         CodedMesh& mesh = asset.parts[row.row.part];
         if (std::holds_alternative<Topology*>(row.row.values)) {
             mesh.topology = read_triangles(reader, mesh.topology.num_vertices, row.row.tag);
-        } else if (std::holds_alternative<Albedo*>(row.row.values)) {
-            mesh.albedo = read_albedo(reader, mesh.topology.num_vertices, row.row.tag);
+        } else if (const auto* colours = std::get_if<Albedo*>(&row.row.values)) {
+            const bool of_rows = mesh.gloss && *colours == &mesh.gloss->tint;
+            **colours = read_albedo(
+                reader, of_rows ? mesh.gloss->num_rows : mesh.topology.num_vertices, row.row.tag);
+        } else if (const auto* numbers = std::get_if<VertexNumbers>(&row.row.values)) {
+            read_vertex_numbers(reader, *row.section, *numbers);
         }
     }
 }
@@ -287,12 +281,16 @@ bool is_wanted(const FoundRow& found) {
 }  // namespace
 
 void read_sections(const ContainerReader& reader, const ComponentCounts& counts, Asset& asset) {
-    LowRank* const matrices[] = {&asset.moving().positions, &asset.moving().transfer->matrix};
-    for (LowRank* matrix : matrices) matrix->components.resize(matrix->num_components);
+    CodedMesh& moving = asset.moving();
+    const std::vector<Attribute> attributes = moving.attributes();
+    for (const Attribute which : attributes) {
+        LowRank& matrix = moving.attribute(which);
+        matrix.components.resize(matrix.num_components);
+    }
     std::vector<FoundRow> found = find_rows(reader, asset);
     set_precisions(reader, found);
     read_meshes(reader, found, asset);
-    const Predictors predictors(reader, asset);
+    const RowPredictors predictors = make_predictors(reader, asset);
 
     // Arrays of the same type and shape are put together, so that many are read at once.
     std::vector<ValueJob> jobs;
@@ -305,17 +303,18 @@ void read_sections(const ContainerReader& reader, const ComponentCounts& counts,
         }
     };
     read(false);
-    for (const LowRank* matrix : matrices) check_singular_values(reader, *matrix);
-    matrices[0]->keep_components(counts.geometry);
-    matrices[1]->keep_components(counts.transfer);
+    for (const Attribute which : attributes) {
+        check_singular_values(reader, moving.attribute(which));
+        moving.attribute(which).keep_components(counts[static_cast<size_t>(which)]);
+    }
     read(true);
     std::stable_sort(jobs.begin(), jobs.end(), [](const ValueJob& a, const ValueJob& b) {
         return std::pair(a.section->spec.tag.text, a.section->spec.index) <
                std::pair(b.section->spec.tag.text, b.section->spec.index);
     });
     read_values(reader, jobs);
-    check_smoothing(reader, asset.moving().positions);
-    smooth_stored(asset.moving().positions, asset.moving().topology);
+    check_smoothing(reader, moving.positions);
+    smooth_stored(moving.positions, moving.topology);
     for (const CodedMesh& mesh : asset.parts) check_magnitudes(mesh, reader.name() + ": ");
 }
 

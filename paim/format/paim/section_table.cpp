@@ -46,20 +46,27 @@ class TableBuilder {
             add(section::kRootMotion, {size_of(moving.root_motion.size()), kRootNumbers},
                 &moving.root_motion);
         }
-        for (const SectionRow& row : moving.transfer->sections()) add_codec_row(row);
-        LowRank* const matrices[] = {&moving.positions, &moving.transfer->matrix};
-        for (size_t i = 0; i < 2; ++i) add_frame(i, *matrices[i]);
+        for (const SectionRow& row : moving.transfer->sections()) add_codec_row(row, false);
+        if (moving.gloss) add_gloss_rows(moving, section::kGlossTint, section::kGlossVertices);
+        if (moving.gloss) {
+            for (const SectionRow& row : moving.gloss->transfer->sections()) {
+                add_codec_row(row, true);
+            }
+        }
+        const std::vector<Attribute> attributes = moving.attributes();
+        for (const Attribute which : attributes) add_frame(which, moving.attribute(which));
         if (LowRank& positions = moving.positions; positions.fraction_bits > 0) {
             add(section::kSmoothing, {1 + positions.num_components, positions.num_planes},
                 SmallNumbers{&positions.smoothing, kMaxSmoothingRounds + 1});
         }
-        for (size_t i = 0; i < 2; ++i) {
-            add_values(section::kMean[i], 0, {matrices[i], &matrices[i]->mean, false}, i);
+        for (const Attribute which : attributes) {
+            LowRank& matrix = moving.attribute(which);
+            add_values(section::kMean[number(which)], 0, {&matrix, &matrix.mean, false}, which);
         }
-        for (const auto& [attribute, k] : component_order(asset_)) {
-            const auto i = static_cast<size_t>(attribute);
-            add_values(section::kComponent[i], k,
-                       {matrices[i], component_of(*matrices[i], k), true}, i);
+        for (const auto& [which, k] : component_order(asset_)) {
+            LowRank& matrix = moving.attribute(which);
+            add_values(section::kComponent[number(which)], k,
+                       {&matrix, component_of(matrix, k), true}, which);
         }
         return std::move(rows_);
     }
@@ -70,30 +77,52 @@ class TableBuilder {
         rows_.push_back({tag, index, shape, neighbours, part_, std::move(values)});
     }
 
-    void add_still(CodedMesh& mesh) {
-        LowRank& transfer = mesh.transfer->matrix;
-        add(section::kStillTriangles, {size_of(mesh.topology.triangles.size()), 3}, &mesh.topology);
-        const auto add_planes = [&](Tag tag, Tag tag_of_steps, LowRank& matrix) {
-            add(tag_of_steps, {1, matrix.num_planes}, Steps{&matrix});
-            add(tag, {matrix.num_planes, matrix.num_points}, MatrixValues{&matrix, &matrix.mean},
-                Neighbours::vertices);
-        };
-        add_planes(section::kStillPositions, section::kStillPositionSteps, mesh.positions);
-        add(section::kStillAlbedo, {size_of(mesh.albedo.values.size()), 3}, &mesh.albedo);
-        add_planes(section::kStillTransfer, section::kStillTransferSteps, transfer);
+    static size_t number(Attribute which) { return static_cast<size_t>(which); }
+
+    // What rows of gloss there are.
+    void add_gloss_rows(CodedMesh& mesh, Tag tint, Tag vertices) {
+        CodedGloss& gloss = *mesh.gloss;
+        add(tint, {size_of(gloss.tint.values.size()), 3}, &gloss.tint);
+        if (gloss.num_rows < mesh.topology.num_vertices) {
+            add(vertices, {gloss.num_rows, 1},
+                VertexNumbers{&gloss.vertices, mesh.topology.num_vertices});
+        }
     }
 
-    void add_codec_row(const SectionRow& row) {
+    void add_still(CodedMesh& mesh) {
+        add(section::kStillTriangles, {size_of(mesh.topology.triangles.size()), 3}, &mesh.topology);
+        const auto add_planes = [&](Tag tag, Tag tag_of_steps, LowRank& matrix,
+                                    Neighbours neighbours) {
+            add(tag_of_steps, {1, matrix.num_planes}, Steps{&matrix});
+            add(tag, {matrix.num_planes, matrix.num_points}, MatrixValues{&matrix, &matrix.mean},
+                neighbours);
+        };
+        add_planes(section::kStillPositions, section::kStillPositionSteps, mesh.positions,
+                   Neighbours::vertices);
+        add(section::kStillAlbedo, {size_of(mesh.albedo.values.size()), 3}, &mesh.albedo);
+        add_planes(section::kStillTransfer, section::kStillTransferSteps, mesh.transfer->matrix,
+                   Neighbours::vertices);
+        if (!mesh.gloss) return;
+        add_gloss_rows(mesh, section::kStillGlossTint, section::kStillGlossVertices);
+        add_planes(section::kStillGloss, section::kStillGlossSteps, mesh.gloss->transfer->matrix,
+                   Neighbours::rows_of_gloss);
+    }
+
+    void add_codec_row(const SectionRow& row, bool of_gloss) {
+        Tag tag = tag_of(row.tag);
+        if (of_gloss) tag.text[0] = 'X';
+        const Neighbours neighbours = of_gloss ? Neighbours::rows_of_gloss : Neighbours::vertices;
         std::visit(
             [&](auto values) {
-                add(tag_of(row.tag), {row.num_rows, row.num_columns}, values,
-                    row.by_vertex ? Neighbours::vertices : Neighbours::none, row.index);
+                add(tag, {row.num_rows, row.num_columns}, values,
+                    row.by_vertex ? neighbours : Neighbours::none, row.index);
             },
             row.values);
     }
 
     // Adds the rows of an attribute without mean and components.
-    void add_frame(size_t i, LowRank& matrix) {
+    void add_frame(Attribute which, LowRank& matrix) {
+        const size_t i = number(which);
         add(section::kSingularValues[i], {1, size_of(matrix.singular_values.size())},
             SingularValues{&matrix});
         add(section::kWeights[i], {matrix.num_components, matrix.num_poses}, Weights{&matrix},
@@ -102,11 +131,25 @@ class TableBuilder {
         add(section::kSteps[i], {1, matrix.num_planes}, Steps{&matrix});
     }
 
-    void add_values(Tag tag, uint32_t index, MatrixValues values, size_t i) {
-        const bool by_vertex = i == static_cast<size_t>(Attribute::geometry) ||
-                               asset_.moving().transfer->points_are_vertices();
+    // The neighbours of the points of an attribute.
+    Neighbours neighbours_of(Attribute which) const {
+        const CodedMesh& moving = asset_.moving();
+        switch (which) {
+            case Attribute::geometry:
+                return Neighbours::vertices;
+            case Attribute::transfer:
+                return moving.transfer->points_are_vertices() ? Neighbours::vertices
+                                                              : Neighbours::none;
+            case Attribute::gloss:
+                break;
+        }
+        return moving.gloss->transfer->points_are_vertices() ? Neighbours::rows_of_gloss
+                                                             : Neighbours::none;
+    }
+
+    void add_values(Tag tag, uint32_t index, MatrixValues values, Attribute which) {
         add(tag, {values.matrix->num_planes, values.matrix->num_points}, values,
-            by_vertex ? Neighbours::vertices : Neighbours::none, index);
+            neighbours_of(which), index);
     }
 
     Asset& asset_;
@@ -122,9 +165,14 @@ void check_parts(const Asset& asset) {
     const CodedMesh* const still = asset.still();
     if (still == nullptr) return;
     const TransferModel& transfer = *still->transfer;
-    if (still->num_poses() != 1 || still->positions.num_components != 0 ||
+    const CodedMesh& moving = asset.moving();
+    const bool is_plain_gloss =
+        !still->gloss || (moving.gloss && still->gloss->layout == moving.gloss->layout &&
+                          still->gloss->transfer->matrix.num_components == 0 &&
+                          still->gloss->transfer->points_are_vertices());
+    if (!is_plain_gloss || still->num_poses() != 1 || still->positions.num_components != 0 ||
         transfer.matrix.num_components != 0 || !transfer.points_are_vertices() ||
-        still->layout != asset.moving().layout) {
+        still->layout != moving.layout) {
         throw_unsupported(
             "a second part that moves, or whose transfer is coded otherwise: files hold one that "
             "is still, every vertex with its own transfer of the first part's layout");
@@ -158,7 +206,7 @@ std::vector<ComponentId> component_order(const Asset& asset) {
         double share;
     };
     std::vector<Ranked> ranked;
-    for (const Attribute attribute : {Attribute::geometry, Attribute::transfer}) {
+    for (const Attribute attribute : asset.moving().attributes()) {
         const LowRank& matrix = asset.moving().attribute(attribute);
         const double largest = matrix.singular_values.empty() ? 0.0 : matrix.singular_values[0];
         double energy = 0.0;  // relative to the largest value, whose square may overflow

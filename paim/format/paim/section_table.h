@@ -28,6 +28,10 @@ struct WeightSteps {  // only where weights are integers
 struct Steps {  // only where values are integers
     LowRank* matrix;
 };
+struct VertexNumbers {  // of the rows of gloss, different ones, each below num_vertices
+    std::vector<uint32_t>* values;
+    uint32_t num_vertices;
+};
 struct MatrixValues {
     LowRank* matrix;
     StoredValues* values;  // nullptr: not in memory, but given in pieces
@@ -35,13 +39,13 @@ struct MatrixValues {
 };
 using RowValues =
     std::variant<Topology*, Albedo*, SingularValues, Weights, WeightSteps, Steps, MatrixValues,
-                 StoredValues*, SmallNumbers, std::vector<float>*, RootMotion*>;
+                 StoredValues*, SmallNumbers, VertexNumbers, std::vector<float>*, RootMotion*>;
 
 // A dimension that only the file knows.
 constexpr uint32_t kAnySize = std::numeric_limits<uint32_t>::max();
 
 // The neighbours that integers of a section are predicted from.
-enum class Neighbours { none, vertices, poses };
+enum class Neighbours { none, vertices, rows_of_gloss, poses };
 
 struct TableRow {
     Tag tag;

@@ -61,10 +61,13 @@ MagnitudeLimits::MagnitudeLimits(const CodedMesh& mesh) {
     const double turned = mesh.root_motion.empty() ? 1.0 : std::sqrt(3.0);
     growth_[static_cast<size_t>(Attribute::geometry)] = {turned, farthest};
     growth_[static_cast<size_t>(Attribute::transfer)] = {mesh.transfer->vertex_gain(), 0.0};
+    growth_[static_cast<size_t>(Attribute::gloss)] = {
+        mesh.gloss ? mesh.gloss->transfer->vertex_gain() : 1.0, 0.0};
 }
 
 void MagnitudeLimits::check(Attribute attribute, std::span<const double> bounds,
                             std::string_view where, std::string_view advice) const {
+    constexpr std::array<const char*, kNumAttributes> kWords{"positions", "transfer", "gloss"};
     constexpr double kMax = std::numeric_limits<float>::max();
     const Growth& growth = growth_[static_cast<size_t>(attribute)];
     for (const double bound : bounds) {
@@ -73,13 +76,13 @@ void MagnitudeLimits::check(Attribute attribute, std::span<const double> bounds,
         throw_bad_input(
             "{}{}: means, components and weights decode to numbers of up to {:.3g}, expected at "
             "most {:.3g}{}",
-            where, attribute == Attribute::geometry ? "positions" : "transfer", most, kMax, advice);
+            where, kWords[static_cast<size_t>(attribute)], most, kMax, advice);
     }
 }
 
 void check_magnitudes(const CodedMesh& mesh, std::string_view where, std::string_view advice) {
     const MagnitudeLimits limits(mesh);
-    for (const Attribute attribute : {Attribute::geometry, Attribute::transfer}) {
+    for (const Attribute attribute : mesh.attributes()) {
         limits.check(attribute, magnitude_bounds(mesh.attribute(attribute)), where, advice);
     }
 }

@@ -40,7 +40,7 @@ class MagnitudeLimits {
     struct Growth {
         double factor, added;
     };
-    std::array<Growth, 2> growth_;  // of each attribute
+    std::array<Growth, kNumAttributes> growth_;  // of each attribute
 };
 
 // The same of a mesh with all values.

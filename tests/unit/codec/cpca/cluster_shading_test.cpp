@@ -76,7 +76,7 @@ TEST(ClusterShading, GivesTheSameBytesOnEveryVectorUnit) {
                 const std::vector<Vec3f> expected =
                     by_definition(clusters, rows, std::min(used, 18u), albedo);
                 for (const VectorUnit unit : vector_units()) {
-                    std::vector<Vec3f> radiance;
+                    std::vector<Vec3f> radiance(num_vertices);
                     shading.shade(rows, used, albedo, radiance, unit);
                     ASSERT_EQ(bits(floats(radiance)), bits(floats(expected)))
                         << num_vertices << " vertices, " << used << " components, unit "
@@ -89,7 +89,7 @@ TEST(ClusterShading, GivesTheSameBytesOnEveryVectorUnit) {
 
 TEST(ClusterShadingDeathTest, RefusesOtherBases) {
     const VertexClusters clusters = some_clusters(20, 2);
-    std::vector<Vec3f> radiance;
+    std::vector<Vec3f> radiance(20);
     const std::vector<Vec3f> rows = random_colours(clusters.num_rows() - 1);
     EXPECT_DEATH(ClusterShading(clusters).shade(rows, 2, {}, radiance), "check failed");
 }
