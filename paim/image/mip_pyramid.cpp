@@ -48,7 +48,8 @@ struct Neighbors {
 
 // place  in turns of the image
 Neighbors neighbors(float place, int size) {
-    const float wrapped = place - std::floor(place);  // 0..1, and 1 where it rounds up
+    // 0..1, and 1 where it rounds up.
+    const float wrapped = std::isfinite(place) ? place - std::floor(place) : 0.0f;
     const float at = wrapped * static_cast<float>(size) - 0.5f;
     const float below = std::floor(at);
     const int first = static_cast<int>(below);  // −1 … size − 1
@@ -57,7 +58,7 @@ Neighbors neighbors(float place, int size) {
 
 Vec3f sample_level(const DecodedTexture& image, float u, float v) {
     const Neighbors x = neighbors(u, image.width);
-    const Neighbors y = neighbors(1.0f - (v - std::floor(v)), image.height);
+    const Neighbors y = neighbors(-v, image.height);
     const auto row = [&](int line) -> Vec3f {
         const Rgb8* pixels =
             image.pixels.data() + static_cast<size_t>(line) * static_cast<size_t>(image.width);
@@ -83,7 +84,8 @@ MipPyramid::MipPyramid(DecodedTexture image) {
 }
 
 Vec3f MipPyramid::sample(float u, float v, float level) const {
-    const float clamped = std::clamp(level, 0.0f, static_cast<float>(levels_.size() - 1));
+    const float coarsest = static_cast<float>(levels_.size() - 1);
+    const float clamped = level > 0.0f ? std::min(level, coarsest) : 0.0f;
     const auto first = static_cast<size_t>(clamped);
     const float share = clamped - static_cast<float>(first);
     const Vec3f near = sample_level(levels_[first], u, v);

@@ -22,8 +22,9 @@ class MipPyramid {
 
     // The colour of a place, linear, 0..1: bilinear within the two levels next to `level`, and
     // between them. The image repeats.
-    // u, v   finite; u grows to the right and v upwards, 0..1 is the whole image
-    // level  any number, clamped to the levels that there are
+    // u, v   u grows to the right and v upwards, 0..1 is the whole image. What is not
+    //        finite counts as 0
+    // level  clamped to the levels that there are; NaN counts as 0
     Vec3f sample(float u, float v, float level) const;
 
     // The level at which a pixel of a picture is about as large as one of the image: log2 of the

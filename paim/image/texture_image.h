@@ -24,7 +24,7 @@ struct DecodedTexture {
 // its alpha. Colour profiles and gamma values of files are ignored, too: values are sRGB.
 // bytes       of the whole file
 // name        of the image, for messages
-// max_pixels  at least 1. It bounds the memory in use, whatever the bytes say: no block is larger than
+// max_pixels  at least 0. It bounds the memory in use, whatever the bytes say: no block is larger than
 //             some 20 bytes for each pixel of the image, twice the bytes of the file and 1 MiB.
 // Errors (bad input) name the image: neither PNG nor JPEG, truncated, damaged, more pixels than
 // max_pixels.

@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "paim/base/error.h"
+#include "paim/image/texture_pyramids.h"
 #include "paim/image/tone.h"
+#include "tests/texture_bytes.h"
 
 namespace paim {
 namespace {
@@ -101,6 +104,17 @@ TEST(MipPyramid, InterpolatesLevels) {
     EXPECT_FLOAT_EQ(pyramid.sample(0.75f, 0.75f, 9.0f).x(), mean);
 }
 
+// Files may hold any coordinates.
+TEST(MipPyramid, TakesAnyNumbers) {
+    const MipPyramid pyramid(image_of(3, 2, std::vector<Rgb8>(6, grey(99))));
+    const float huge = 3e38f, infinite = INFINITY, none = NAN;
+    for (const float number : {huge, -huge, infinite, -infinite, none}) {
+        EXPECT_NEAR(pyramid.sample(number, 0.5f, 0.3f).x(), srgb_to_linear(99), 1e-6f);
+        EXPECT_NEAR(pyramid.sample(0.5f, number, 0.3f).x(), srgb_to_linear(99), 1e-6f);
+        EXPECT_NEAR(pyramid.sample(0.5f, 0.5f, number).x(), srgb_to_linear(99), 1e-6f);
+    }
+}
+
 TEST(MipPyramid, LevelIsOfTheLongerStep) {
     const MipPyramid pyramid(image_of(64, 16, std::vector<Rgb8>(64 * 16)));
     // One pixel of the image in x, four in y.
@@ -109,6 +123,21 @@ TEST(MipPyramid, LevelIsOfTheLongerStep) {
     // No step at all is the finest level there is.
     EXPECT_EQ(pyramid.sample(0.1f, 0.1f, pyramid.level(Vec2f::Zero(), Vec2f::Zero())),
               pyramid.sample(0.1f, 0.1f, 0.0f));
+}
+
+TEST(MakePyramids, BoundsAllImagesTogether) {
+    const std::vector<Rgb8> pixels(6, grey(99));
+    const TextureImage image{"a.png", png_bytes(3, 2, pixels)};
+    const std::vector<TextureImage> images{image, {"b.png", image.bytes}};
+    const std::vector<MipPyramid> pyramids = make_pyramids(images, 12);
+    ASSERT_EQ(pyramids.size(), 2u);
+    EXPECT_EQ(pyramids[1].levels()[0].pixels, pixels);
+    try {
+        make_pyramids(images, 11);
+        FAIL() << "expected an error";
+    } catch (const Error& error) {
+        EXPECT_STREQ(error.what(), "b.png: 3 x 2 pixels, expected at most 5");
+    }
 }
 
 }  // namespace
