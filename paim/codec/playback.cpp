@@ -43,14 +43,38 @@ struct Playback::Part {
             place();
         }
         if (light.bands > 0 && (moved || !is_lit || limits != new_limits)) {
-            light_in_place(root, mesh.num_following, light, radiance, radiance_in_scene,
-                           [&](const LightCoefficients& local, std::vector<Vec3f>& lit) {
-                               player->light(new_time, new_limits, local, mesh.albedo, lit);
-                           });
+            light_all(new_time, new_limits);
             is_lit = true;
         }
         time = new_time;
         limits = new_limits;
+    }
+
+    // The light is met once, in white if that is kept.
+    void light_all(double new_time, const DecodeLimits& new_limits) {
+        static const Albedo white{{Vec3f::Ones()}};
+        if (!keeps_white) return shade(new_time, new_limits, mesh.albedo, radiance);
+        shade(new_time, new_limits, white, white_radiance);
+        radiance.clear();
+        for (const Vec3f& value : white_radiance) {
+            const auto v = static_cast<uint32_t>(radiance.size());
+            radiance.push_back(mesh.albedo.at(v).cwiseProduct(value));
+        }
+    }
+
+    void shade(double new_time, const DecodeLimits& new_limits, const Albedo& albedo,
+               std::vector<Vec3f>& shaded) {
+        light_in_place(root, mesh.num_following, light, shaded, radiance_in_scene,
+                       [&](const LightCoefficients& local, std::vector<Vec3f>& lit) {
+                           player->light(new_time, new_limits, local, albedo, lit);
+                       });
+    }
+
+    void keep_white_radiance(bool keep) {
+        if (mesh.texture.empty() || keep == keeps_white) return;
+        keeps_white = keep;
+        white_radiance.clear();
+        is_lit = false;
     }
 
     void place() {
@@ -72,7 +96,9 @@ struct Playback::Part {
     DecodeLimits limits;
     std::vector<float> positions;        // local
     std::vector<float> scene_positions;  // only where there is a root motion
+    bool keeps_white = false;
     std::vector<Vec3f> radiance;
+    std::vector<Vec3f> white_radiance;     // empty unless it is kept
     std::vector<Vec3f> radiance_in_scene;  // scratch: of a floor under a body that turns
 };
 
@@ -106,6 +132,10 @@ void Playback::set_light(const LightField& light) {
     }
 }
 
+void Playback::keep_white_radiance(bool keep) {
+    for (Part& part : state_->parts) part.keep_white_radiance(keep);
+}
+
 void Playback::update(double time, const DecodeLimits& limits) {
     for (Part& part : state_->parts) {
         part.update(part.mesh.num_poses() == 1 ? 0.0 : time, limits);
@@ -131,6 +161,11 @@ RigidTransform Playback::root(size_t part) const {
 std::span<const Vec3f> Playback::radiance(size_t part) const {
     PAIM_CHECK_LT(part, num_parts());
     return state_->parts[part].radiance;
+}
+
+std::span<const Vec3f> Playback::white_radiance(size_t part) const {
+    PAIM_CHECK_LT(part, num_parts());
+    return state_->parts[part].white_radiance;
 }
 
 }  // namespace paim

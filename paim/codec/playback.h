@@ -33,6 +33,11 @@ class PAIM_EXPORT Playback {
     // to place.
     void set_light(const LightField& light);
 
+    // Whether the next updates keep the radiance of the same surface in white, too, for parts that
+    // have a texture: it is multiplied by the colours of images instead of the albedo. Light is
+    // computed once for both. Not kept unless this is called.
+    void keep_white_radiance(bool keep);
+
     // Computes positions and radiance at `time` in poses, clamped to 0 … P−1. Fractions lie between
     // poses.
     void update(double time, const DecodeLimits& limits = {});
@@ -46,6 +51,10 @@ class PAIM_EXPORT Playback {
     RigidTransform root(size_t part = 0) const;
     // returns  [V] linear RGB; empty if no light was set
     std::span<const Vec3f> radiance(size_t part = 0) const;
+    // The radiance without its albedo: radiance(v) = albedo(v) · white_radiance(v).
+    // returns  [V] linear RGB; empty if no light was set, if the part has no texture, or if this is
+    //          not kept
+    std::span<const Vec3f> white_radiance(size_t part = 0) const;
 
   private:
     struct Part;

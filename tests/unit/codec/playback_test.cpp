@@ -198,5 +198,37 @@ TEST(Playback, AsksForTheLightAtTheMiddleOfTheFaces) {
     expect_as_decoded(playback, 0, 3.0, {}, LightOfPlaces().at({1.5f, 4, -5}, 2));
 }
 
+// The colours of images replace the albedo, so that radiance is needed without it.
+TEST(Playback, KeepsTheRadianceOfAWhiteSurfaceOnDemand) {
+    for (const Variant& variant : make_variants()) {
+        auto textured = std::make_shared<Asset>(*variant.asset);
+        textured->moving().texture.images.emplace_back();
+        const LightCoefficients light = make_light(3, 7);
+        Playback plain(textured), both(textured);
+        both.keep_white_radiance(true);
+        for (Playback* const playback : {&plain, &both}) {
+            playback->set_light(DistantLight(light));
+            playback->update(0.5);
+        }
+        EXPECT_TRUE(plain.white_radiance(0).empty()) << variant.name;
+        // The still part has no texture.
+        EXPECT_TRUE(both.white_radiance(1).empty()) << variant.name;
+        const auto white = both.white_radiance(0);
+        const auto lit = both.radiance(0), expected = plain.radiance(0);
+        ASSERT_EQ(white.size(), expected.size());
+        const Albedo& albedo = textured->moving().albedo;
+        for (uint32_t v = 0; v < expected.size(); ++v) {
+            // One product is rounded once either way.
+            EXPECT_EQ(lit[v], expected[v]) << variant.name;
+            EXPECT_EQ(lit[v], albedo.at(v).cwiseProduct(white[v])) << variant.name;
+            EXPECT_FALSE(white[v].isZero(0.0f)) << variant.name;
+        }
+        both.keep_white_radiance(false);
+        both.update(0.5);
+        EXPECT_TRUE(both.white_radiance(0).empty()) << variant.name;
+        EXPECT_EQ(both.radiance(0)[1], expected[1]) << variant.name;
+    }
+}
+
 }  // namespace
 }  // namespace paim
