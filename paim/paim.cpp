@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <new>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -152,8 +153,17 @@ paim_status paim_asset_get_part(const paim_asset* asset, uint32_t part, paim_par
     if (asset == nullptr || info == nullptr) return bad_argument(__func__, "an argument is null");
     if (!has_part(*asset->asset, part)) return bad_argument(__func__, "there is no such part");
     const paim::CodedMesh& mesh = asset->asset->parts[part];
-    *info = {mesh.topology.num_vertices, static_cast<uint32_t>(mesh.topology.triangles.size()),
-             mesh.layout.in_bands, mesh.layout.channels};
+    *info = {mesh.topology.num_vertices,
+             static_cast<uint32_t>(mesh.topology.triangles.size()),
+             mesh.layout.in_bands,
+             mesh.layout.channels,
+             0,
+             0};
+    if (mesh.gloss) {
+        info->num_bands = std::max(info->num_bands, mesh.gloss->layout.in_bands);
+        info->num_glossy = mesh.gloss->num_rows;
+        info->num_out_bands = mesh.gloss->layout.out_bands;
+    }
     return PAIM_OK;
 }
 
@@ -187,7 +197,7 @@ void paim_player_destroy(paim_player* player) {
 
 paim_limits paim_no_limits(void) {
     constexpr uint32_t kAll = std::numeric_limits<uint32_t>::max();
-    return {kAll, kAll, kAll, kAll};
+    return {kAll, kAll, kAll, kAll, kAll, kAll};
 }
 
 paim_status paim_player_set_light(paim_player* player, const float* rgb, uint32_t num_bands) {
@@ -209,14 +219,27 @@ paim_status paim_player_set_light(paim_player* player, const float* rgb, uint32_
     });
 }
 
+paim_status paim_player_set_eye(paim_player* player, const float* xyz) {
+    if (player == nullptr) return bad_argument(__func__, "player is null");
+    std::optional<paim::Vec3f> eye;
+    if (xyz != nullptr) eye = paim::Vec3f(xyz[0], xyz[1], xyz[2]);
+    if (eye && !eye->allFinite()) return bad_argument(__func__, "not finite");
+    player->playback.set_eye(eye);
+    return PAIM_OK;
+}
+
 paim_status paim_player_update(paim_player* player, double time, const paim_limits* limits) {
     if (player == nullptr) return bad_argument(__func__, "player is null");
     if (std::isnan(time)) return bad_argument(__func__, "time is not a number");
     return guarded([&] {
         paim::DecodeLimits used;
         if (limits != nullptr) {
-            used = {limits->geometry_components, limits->transfer_components, limits->bands,
-                    limits->vertex_components};
+            used = {limits->geometry_components,
+                    limits->transfer_components,
+                    limits->bands,
+                    limits->vertex_components,
+                    limits->gloss_components,
+                    limits->gloss_vertex_components};
         }
         player->playback.update(time, used);
         player->is_updated = true;

@@ -47,8 +47,10 @@ typedef struct paim_asset_info {
 typedef struct paim_part_info {
     uint32_t num_vertices;
     uint32_t num_triangles;
-    uint32_t num_bands;    /* of light, at most 64 */
-    uint32_t num_channels; /* of transfer: 1 grey, 3 coloured */
+    uint32_t num_bands;     /* of light, at most 64: the more of transfer and gloss */
+    uint32_t num_channels;  /* of transfer: 1 grey, 3 coloured */
+    uint32_t num_glossy;    /* vertices whose radiance depends on the eye; 0: none */
+    uint32_t num_out_bands; /* of their outgoing radiance; 0: none */
 } paim_part_info;
 
 /* Where a part stands in the scene. */
@@ -67,6 +69,8 @@ typedef struct paim_limits {
     uint32_t transfer_components;
     uint32_t bands;             /* at least 1 is used */
     uint32_t vertex_components; /* of codecs whose vertices share bases */
+    uint32_t gloss_components;  /* the same of gloss */
+    uint32_t gloss_vertex_components;
 } paim_limits;
 
 /* "MAJOR.MINOR.PATCH" */
@@ -105,14 +109,18 @@ PAIM_EXPORT paim_limits paim_no_limits(void);
  * rgb  [num_bands * num_bands][3] radiance coefficients; num_bands 1 to 64 */
 PAIM_EXPORT paim_status paim_player_set_light(paim_player* player, const float* rgb,
                                               uint32_t num_bands);
+/* Where glossy surfaces are seen from, from the next update on. Without an eye, as at first, radiance is
+ * that of the diffuse reflection alone.
+ * xyz  scene units, relative to the asset's origin; null: no eye. PAIM_BAD_ARGUMENT unless finite */
+PAIM_EXPORT paim_status paim_player_set_eye(paim_player* player, const float* xyz);
 /* Shows the moment `time` in poses, 0 to num_poses - 1, clamped; fractions lie between two poses. Only
  * what changed since the last update is computed again.
  * limits  null: everything */
 PAIM_EXPORT paim_status paim_player_update(paim_player* player, double time,
                                            const paim_limits* limits);
 /* Results of the last update. xyz, rgb  [num_vertices][3]; num_floats is that product.
- * radiance  PAIM_BAD_ARGUMENT if no light was set before the update; may be slightly negative where the
- *           light's spherical harmonics ring */
+ * radiance  towards the eye if there is one. PAIM_BAD_ARGUMENT if no light was set before the update; may
+ *           be slightly negative where the light's spherical harmonics ring */
 PAIM_EXPORT paim_status paim_player_copy_positions(const paim_player* player, uint32_t part,
                                                    float* xyz, size_t num_floats);
 /* Positions before the part was moved to its place, for bodies that travel so far that floats of the

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "paim/base/check.h"
+#include "paim/codec/gloss_player.h"
 #include "paim/codec/rebuild_planes.h"
 #include "paim/codec/transfer_player.h"
 #include "paim/light/light_in_place.h"
@@ -33,21 +34,37 @@ struct Playback::Part {
         : mesh(coded),
           centre(centre_of(coded)),
           root(root_at(coded.root_motion, 0.0)),
-          player(coded.transfer->make_player(coded.layout)) {}
+          player(coded.transfer->make_player(coded.layout)) {
+        if (coded.gloss) gloss.emplace(*coded.gloss);
+    }
 
-    void update(double new_time, const DecodeLimits& new_limits) {
+    void update(double new_time, const DecodeLimits& new_limits, const std::optional<Vec3f>& eye) {
         const bool moved = time != new_time;
         if (moved) root = root_at(mesh.root_motion, new_time);
         if (moved || limits.geometry_components != new_limits.geometry_components) {
             decoder.decode(mesh.positions, new_time, new_limits.geometry_components, positions);
             place();
+            is_seen = false;
         }
         if (light.bands > 0 && (moved || !is_lit || limits != new_limits)) {
             light_all(new_time, new_limits);
+            if (gloss) gloss->light(new_time, new_limits, to_local(light, root));
             is_lit = true;
+            is_seen = false;
         }
+        if (gloss && is_lit && eye && !is_seen) look_from(*eye);
         time = new_time;
         limits = new_limits;
+    }
+
+    // All glossy vertices that can be seen follow the root motion: floors are matte.
+    void look_from(const Vec3f& eye) {
+        towards_eye = gloss->towards(positions, root.to_local(eye.cast<double>()));
+        shown = radiance;
+        for (uint32_t r = 0; r < towards_eye.size(); ++r) {
+            shown[mesh.gloss->vertex(r)] += towards_eye[r];
+        }
+        is_seen = true;
     }
 
     // The light is met once, in white if that is kept.
@@ -90,14 +107,18 @@ struct Playback::Part {
     RigidTransform root;
     PositionDecoder decoder;
     std::unique_ptr<TransferPlayer> player;
+    std::optional<GlossPlayer> gloss;
     LightCoefficients light;
     bool is_lit = false;         // whether the radiance is up to date with the light
+    bool is_seen = false;        // whether `shown` is up to date with radiance, positions and eye
     std::optional<double> time;  // of positions and radiance
     DecodeLimits limits;
     std::vector<float> positions;        // local
     std::vector<float> scene_positions;  // only where there is a root motion
     bool keeps_white = false;
-    std::vector<Vec3f> radiance;
+    std::vector<Vec3f> radiance;           // diffuse
+    std::vector<Vec3f> shown;              // with gloss
+    std::span<const Vec3f> towards_eye;    // [R] the gloss alone
     std::vector<Vec3f> white_radiance;     // empty unless it is kept
     std::vector<Vec3f> radiance_in_scene;  // scratch: of a floor under a body that turns
 };
@@ -105,6 +126,7 @@ struct Playback::Part {
 struct Playback::State {
     std::shared_ptr<const Asset> asset;
     std::vector<Part> parts;
+    std::optional<Vec3f> eye;
 };
 
 Playback::Playback(std::shared_ptr<const Asset> asset) : state_(std::make_unique<State>()) {
@@ -127,9 +149,18 @@ size_t Playback::num_parts() const {
 
 void Playback::set_light(const LightField& light) {
     for (Part& part : state_->parts) {
-        part.light = light.at(part.centre_in_scene(), static_cast<int>(part.mesh.layout.in_bands));
+        const CodedGloss* const gloss = part.mesh.gloss ? &*part.mesh.gloss : nullptr;
+        const uint32_t bands =
+            std::max(part.mesh.layout.in_bands, gloss != nullptr ? gloss->layout.in_bands : 0);
+        part.light = light.at(part.centre_in_scene(), static_cast<int>(bands));
         part.is_lit = false;
     }
+}
+
+void Playback::set_eye(const std::optional<Vec3f>& eye) {
+    if (state_->eye == eye) return;
+    state_->eye = eye;
+    for (Part& part : state_->parts) part.is_seen = false;
 }
 
 void Playback::keep_white_radiance(bool keep) {
@@ -138,7 +169,7 @@ void Playback::keep_white_radiance(bool keep) {
 
 void Playback::update(double time, const DecodeLimits& limits) {
     for (Part& part : state_->parts) {
-        part.update(part.mesh.num_poses() == 1 ? 0.0 : time, limits);
+        part.update(part.mesh.num_poses() == 1 ? 0.0 : time, limits, state_->eye);
     }
 }
 
@@ -160,7 +191,19 @@ RigidTransform Playback::root(size_t part) const {
 
 std::span<const Vec3f> Playback::radiance(size_t part) const {
     PAIM_CHECK_LT(part, num_parts());
-    return state_->parts[part].radiance;
+    const Part& of = state_->parts[part];
+    return of.gloss && state_->eye ? of.shown : of.radiance;
+}
+
+std::span<const Vec3f> Playback::exit_radiance(size_t part) const {
+    PAIM_CHECK_LT(part, num_parts());
+    const Part& of = state_->parts[part];
+    return of.gloss ? of.gloss->exit_radiance() : std::span<const Vec3f>();
+}
+
+std::span<const Vec3f> Playback::gloss_radiance(size_t part) const {
+    PAIM_CHECK_LT(part, num_parts());
+    return state_->eye ? state_->parts[part].towards_eye : std::span<const Vec3f>();
 }
 
 std::span<const Vec3f> Playback::white_radiance(size_t part) const {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "paim/base/export.h"
@@ -13,8 +14,8 @@
 namespace paim {
 
 // A Playback has scratch memory of its own, so each thread needs one; any number may share an
-// asset. update() computes only what changed: nothing if time, limits and light are the same, the
-// light alone if only the light is new. Where a part has a root motion (mesh/root_motion.h), its
+// asset. update() computes only what changed: nothing if time, limits, light and eye are the same,
+// the light alone if only the light is new. Where a part has a root motion (mesh/root_motion.h), its
 // positions are moved to the scene and the light is turned into its axes.
 class PAIM_EXPORT Playback {
   public:
@@ -33,6 +34,10 @@ class PAIM_EXPORT Playback {
     // to place.
     void set_light(const LightField& light);
 
+    // Where glossy surfaces are seen from, from the next update on: scene units, relative to the
+    // asset's origin. Without an eye, as at first, radiance is that of the diffuse reflection alone.
+    void set_eye(const std::optional<Vec3f>& eye);
+
     // Whether the next updates keep the radiance of the same surface in white, too, for parts that
     // have a texture: it is multiplied by the colours of images instead of the albedo. Light is
     // computed once for both. Not kept unless this is called.
@@ -49,8 +54,15 @@ class PAIM_EXPORT Playback {
     // the scene are too coarse for their shape.
     std::span<const float> local_positions(size_t part = 0) const;
     RigidTransform root(size_t part = 0) const;
-    // returns  [V] linear RGB; empty if no light was set
+    // returns  [V] linear RGB, towards the eye if there is one; empty if no light was set
     std::span<const Vec3f> radiance(size_t part = 0) const;
+    // The gloss in it, of the rows of CodedGloss.
+    // returns  [R]; empty without gloss, light or eye
+    std::span<const Vec3f> gloss_radiance(size_t part = 0) const;
+    // Outgoing coefficients of the gloss, which do not depend on the eye. Directions are in local axes
+    // (root()).
+    // returns  [CodedGloss::layout.num_outgoing()][R]; empty without gloss or light
+    std::span<const Vec3f> exit_radiance(size_t part = 0) const;
     // The radiance without its albedo: radiance(v) = albedo(v) · white_radiance(v).
     // returns  [V] linear RGB; empty if no light was set, if the part has no texture, or if this is
     //          not kept

@@ -115,8 +115,7 @@ void ClusterShading::shade_piece(const Piece& piece, std::span<const Vec3f> basi
 }
 
 void ClusterShading::shade(std::span<const Vec3f> basis_radiance, uint32_t num_components,
-                           const Albedo& albedo, std::span<Vec3f> radiance,
-                           VectorUnit unit) const {
+                           const Albedo& albedo, std::span<Vec3f> radiance, VectorUnit unit) const {
     PAIM_CHECK_EQ(basis_radiance.size(), size_t{num_rows_});
     const auto coefficients =
         std::span(coefficients_).first(std::min<size_t>(num_components, coefficients_.size()));

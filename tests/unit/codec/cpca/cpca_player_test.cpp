@@ -99,7 +99,7 @@ TEST(CpcaPlayer, KeepsWithinLimits) {
 TEST(CpcaPlayer, ShadesAMeanAndItsComponent) {
     const CpcaTransfer transfer(LowRank::still(1, std::vector<int8_t>{4, 6}, {0.5f}),
                                 {1, 1, {0, 0}, {std::vector<int8_t>{-4, 1}}, {1.0f, 1.0f}});
-    std::vector<Vec3f> products, radiance;
+    std::vector<Vec3f> products, radiance(2);
     CpcaPlayer(transfer, {TransferKind::diffuse, 1, 1})
         .basis_radiance(0.0, {}, {1, {Vec3f(5, 10, 20)}}, products);
     EXPECT_EQ(products, (std::vector<Vec3f>{Vec3f(10, 20, 40), Vec3f(15, 30, 60)}));
