@@ -66,6 +66,12 @@ void add_target_options(CLI::App& app, CompressOptions& options, EncodeArguments
            "worst vertex meets it, which takes several searches. Default: any")
         ->type_name("ERROR")
         ->group(kGroup);
+    app.add_option(
+           "--max-gloss-error", arguments.max_gloss_error,
+           "Largest error of glossy transfer, relative to it, such as 10%. Without it, that "
+           "of --max-error")
+        ->type_name("ERROR")
+        ->group(kGroup);
     app.add_option("--geometry-error", arguments.geometry_error,
                    fmt::format("Largest RMS distance of the positions, as a share of the diagonal "
                                "of the largest pose. Where integers of 16 bits cannot be that "
@@ -168,6 +174,7 @@ void check_without_target(const EncodeArguments& arguments, const CompressOption
         if (given) throw_usage("{}: needs --max-error or --max-size", option);
     };
     needs_target(!arguments.max_vertex_error.empty(), "--max-vertex-error");
+    needs_target(!arguments.max_gloss_error.empty(), "--max-gloss-error");
     needs_target(!arguments.geometry_error.empty(), "--geometry-error");
     needs_target(!arguments.max_sted.empty(), "--max-sted");
     needs_target(arguments.max_normal_angle.has_value(), "--max-normal-angle");
@@ -274,6 +281,12 @@ void apply(const EncodeArguments& arguments, CompressOptions& options) {
     if (arguments.has_target()) {
         options.target = parse_target(arguments);
         check_with_target(arguments);
+        if (!arguments.max_gloss_error.empty()) {
+            if (!options.target->transfer_error) {
+                throw_usage("--max-gloss-error: needs --max-error");
+            }
+            options.gloss_error = cli::parse_share(arguments.max_gloss_error, "--max-gloss-error");
+        }
     } else {
         check_without_target(arguments, options);
     }

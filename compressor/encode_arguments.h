@@ -14,7 +14,7 @@ enum class PrecisionChoice : uint32_t { automatic, f32, f16 };
 
 // Values whose form is checked after parsing.
 struct EncodeArguments {
-    std::string max_error, max_size, max_vertex_error;
+    std::string max_error, max_size, max_vertex_error, max_gloss_error;
     std::string geometry_error, max_sted;
     std::optional<double> max_normal_angle;
     std::optional<uint32_t> max_decode_cost;

@@ -38,6 +38,7 @@ struct CompressOptions {
     std::filesystem::path bake_directory;  // of `encode`
     EncodeOptions encode;
     std::optional<EncodeTarget> target;              // without its band power
+    std::optional<double> gloss_error;               // if another than that of the transfer
     std::string band_power = "flat";                 // or "natural" or a file
     EnvMapping env_mapping = EnvMapping::automatic;  // of the file
 

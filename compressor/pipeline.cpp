@@ -12,13 +12,15 @@
 #include "compressor/encode/memory/measuring_memory.h"
 #include "compressor/encode/memory/memory_plan.h"
 #include "compressor/encode/search/feasibility.h"
+#include "compressor/encode/search/glossy_encode.h"
 #include "compressor/encode/search/less_noise.h"
 #include "compressor/encode/search/target_encode.h"
 #include "compressor/encode_report.h"
+#include "compressor/gloss_report.h"
+#include "compressor/hidden_directory.h"
 #include "compressor/mesh_warnings.h"
 #include "compressor/outlier_notes.h"
 #include "compressor/output_check.h"
-#include "compressor/pilot_directory.h"
 #include "compressor/target_report.h"
 #include "paim/base/error.h"
 #include "paim/base/file.h"
@@ -83,13 +85,31 @@ void warn_of_mesh(const BakeReport& report) {
 }
 
 EncodeReport encode_streamed(const CompressOptions& options, const EncodeOptions& encode_options,
-                             const BakeReader& reader) {
-    cli::Progress encoding("encoding", "rows", num_rows_to_read(reader, encode_options),
+                             const BakeReader& reader, const std::filesystem::path& output,
+                             const char* label = "encoding") {
+    cli::Progress encoding(label, "rows", num_rows_to_read(reader, encode_options),
                            options.quiet || options.json);
-    EncodeReport report{options.output, reader.identity().num_vertices, reader.num_poses(), {}};
-    report.summary = encode(reader, encode_options, options.output,
-                            [&](uint64_t rows) { encoding.advance(rows); });
+    EncodeReport report{output, reader.identity().num_vertices, reader.num_poses(), {}};
+    report.summary =
+        encode(reader, encode_options, output, [&](uint64_t rows) { encoding.advance(rows); });
     encoding.finish();
+    return report;
+}
+
+// Both kinds of transfer, each by itself, joined.
+GlossReport<EncodeReport> encode_glossy_streamed(const CompressOptions& options,
+                                                 const EncodeOptions& encode_options,
+                                                 const BakeReader& reader) {
+    const HiddenDirectory scratch(options.output, "parts");
+    const TransferFiles files{scratch.path() / "diffuse.paim", scratch.path() / "gloss.paim"};
+    GlossReport<EncodeReport> report{options.output,     0,  reader.identity().num_vertices,
+                                     reader.num_poses(), {}, {}};
+    report.diffuse = encode_streamed(options, encode_options, reader, files.diffuse);
+    report.gloss =
+        encode_streamed(options, encode_options, reader.gloss(), files.gloss, "encoding gloss");
+    report.diffuse.paim = "diffuse transfer";
+    report.gloss.paim = "gloss";
+    report.size_bytes = join_transfer_files(reader, files, options.output);
     return report;
 }
 
@@ -121,6 +141,30 @@ TargetReport encode_target(const CompressOptions& options, const EncodeOptions& 
     return report;
 }
 
+GlossReport<TargetReport> encode_glossy_target(const CompressOptions& options,
+                                               const EncodeOptions& encode_options,
+                                               const BakeReader& reader) {
+    GlossyTarget target{target_of(options, reader), target_of(options, reader.gloss())};
+    if (options.gloss_error) target.gloss.transfer_error = options.gloss_error;
+    const HiddenDirectory scratch(options.output, "parts");
+    cli::Progress encoding("encoding", "%", 200, options.quiet || options.json);
+    auto shown = shown_on(encoding);
+    const std::string gloss = "gloss";
+    const GlossySummary summary = encode_glossy_to_target(
+        reader, encode_options, target, scratch.path(), options.output,
+        [&](const char* part, const std::string& step, double done) {
+            shown(part + std::string(", ") + step, part == gloss ? 1.0 + done : done);
+        });
+    encoding.set_label("encoding");
+    encoding.finish();
+    return {options.output,
+            summary.size_bytes,
+            reader.identity().num_vertices,
+            reader.num_poses(),
+            {"diffuse transfer", summary.diffuse},
+            {"gloss", summary.gloss}};
+}
+
 // Checks the option before long work starts, and says how its map was read.
 void check_band_power(const CompressOptions& options, uint32_t bands) {
     if (!options.target) return;
@@ -131,9 +175,8 @@ void check_band_power(const CompressOptions& options, uint32_t bands) {
 // The report of an encoding with the outliers of its bake, which notes name.
 template <typename Report>
 ordered_json tell_with_outliers(const CompressOptions& options, const BakeIdentity& bake,
-                                const Report& report) {
+                                const Report& report, const PositionOutliers& outliers) {
     ordered_json json = tell(options, report);
-    const PositionOutliers& outliers = report.summary.outliers;
     if (outliers.empty()) return json;
     print_notes(outlier_notes(bake, outliers));
     json["outliers"] = outliers_json(bake, outliers);
@@ -163,6 +206,17 @@ void say_if_fewer_bands(const EncodeOptions& asked, const BakeReader& reader) {
                bands);
 }
 
+ordered_json run_glossy_encode(const CompressOptions& options, const EncodeOptions& encode_options,
+                               const BakeReader& reader) {
+    if (options.target) {
+        const auto report = encode_glossy_target(options, encode_options, reader);
+        return tell_with_outliers(options, reader.identity(), report,
+                                  report.diffuse.summary.outliers);
+    }
+    const auto report = encode_glossy_streamed(options, encode_options, reader);
+    return tell_with_outliers(options, reader.identity(), report, report.diffuse.summary.outliers);
+}
+
 ordered_json run_encode(const CompressOptions& options, const std::filesystem::path& directory) {
     check_paim_output(options.output);
     const BakeReader reader(directory);
@@ -173,12 +227,14 @@ ordered_json run_encode(const CompressOptions& options, const std::filesystem::p
     reader.verify_all();
     say_if_dark(reader);
     say_if_fewer_bands(encode_options, reader);
+    if (!reader.gloss_rows().empty()) return run_glossy_encode(options, encode_options, reader);
     if (options.target) {
-        return tell_with_outliers(options, reader.identity(),
-                                  encode_target(options, encode_options, reader));
+        const TargetReport report = encode_target(options, encode_options, reader);
+        return tell_with_outliers(options, reader.identity(), report, report.summary.outliers);
     }
-    const EncodeReport report = encode_streamed(options, encode_options, reader);
-    ordered_json json = tell_with_outliers(options, reader.identity(), report);
+    const EncodeReport report = encode_streamed(options, encode_options, reader, options.output);
+    ordered_json json =
+        tell_with_outliers(options, reader.identity(), report, report.summary.outliers);
     if (!options.json && report.more_rays_would_help()) {
         fmt::print(stderr,
                    "note: most of the error is bake noise: more rays would help more than more "
@@ -200,7 +256,7 @@ ordered_json run_encode(const CompressOptions& options, const std::filesystem::p
 // json  receives what the pilot was
 uint32_t choose_rays(CompressOptions options, const BakeInput& input,
                      const std::filesystem::path& directory, ordered_json& json) {
-    const PilotDirectory pilot(directory);
+    const HiddenDirectory pilot(directory, "pilot");
     options.bake.rays = pilot_rays(*options.target->transfer_error);
     warn_of_mesh(bake(options, input, pilot.path(), "baking a pilot"));
     const BakeReader reader(pilot.path());

@@ -129,7 +129,8 @@ double transfer_energy(const BakeReader& bake, const PoseStatistics& total,
     const std::vector<double>& rms = total.transfer_rms;
     double energy = 0.0;
     for (size_t l = 0; l < layout.in_bands; ++l) {
-        energy += static_cast<double>((2 * l + 1) * layout.channels) * rms[l] * rms[l];
+        energy += static_cast<double>((2 * l + 1) * layout.channels * layout.num_outgoing()) *
+                  rms[l] * rms[l];
     }
     return energy * bake.identity().num_vertices * bake.num_poses();
 }

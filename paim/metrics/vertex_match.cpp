@@ -20,16 +20,25 @@ CacheOrder vertex_order(VertexOrder order, const Topology& of_bake) {
     return as_baked;
 }
 
-// Whether the triangles are the same in the same order. Corners of a triangle may be rotated.
+Triangle turned(Triangle t) {
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+    return t;
+}
+
+// Whether the triangles are the same, in any order. Corners of a triangle may be rotated.
 bool same_triangles(const Topology& a, const Topology& b) {
-    const auto turned = [](Triangle t) {
-        std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-        return t;
+    if (a.num_vertices != b.num_vertices || a.triangles.size() != b.triangles.size()) return false;
+    const auto all_turned = [](const Topology& topology) {
+        std::vector<Triangle> triangles(topology.triangles.size());
+        std::transform(topology.triangles.begin(), topology.triangles.end(), triangles.begin(),
+                       turned);
+        return triangles;
     };
-    return a.num_vertices == b.num_vertices &&
-           std::equal(a.triangles.begin(), a.triangles.end(), b.triangles.begin(),
-                      b.triangles.end(),
-                      [&](const Triangle& s, const Triangle& t) { return turned(s) == turned(t); });
+    std::vector<Triangle> of_a = all_turned(a), of_b = all_turned(b);
+    if (of_a == of_b) return true;
+    std::sort(of_a.begin(), of_a.end());
+    std::sort(of_b.begin(), of_b.end());
+    return of_a == of_b;
 }
 
 }  // namespace
@@ -47,8 +56,10 @@ std::vector<uint32_t> match_vertices(const Topology& of_file, VertexOrder order,
 std::optional<uint32_t> plane_of_file(const TransferLayout& of_file, const TransferLayout& of_bake,
                                       uint32_t plane) {
     const uint32_t i = plane % of_bake.num_coefficients();
+    const uint32_t outgoing = plane / of_bake.num_coefficients();  // of all channels
+    const uint32_t channel = outgoing / of_bake.num_outgoing();
     if (i >= of_file.num_coefficients()) return std::nullopt;
-    return of_file.plane(of_file.channels == 1 ? 0 : plane / of_bake.num_coefficients(), i);
+    return of_file.plane(of_file.channels == 1 ? 0 : channel, i, outgoing % of_bake.num_outgoing());
 }
 
 void reorder_planes(std::span<float> planes, std::span<const uint32_t> old_vertex) {

@@ -27,7 +27,8 @@ double heaviest_energy(const EncodeProblem& problem) {
     for (uint32_t l = 0; l < problem.layout.in_bands; ++l) {
         const double rms = problem.statistics.transfer_rms[l];
         const double weight = problem.spectrum.weight(l);
-        energy += weight * (2.0 * l + 1.0) * problem.layout.channels * rms * rms;
+        energy += weight * (2.0 * l + 1.0) * problem.layout.channels *
+                  problem.layout.num_outgoing() * rms * rms;
         heaviest = std::max(heaviest, weight);
     }
     return heaviest > 0.0 ? energy / heaviest : energy;

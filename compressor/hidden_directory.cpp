@@ -1,5 +1,5 @@
-// Where a pilot bake is while its noise is measured.
-#include "compressor/pilot_directory.h"
+// A directory for files on the way to a result.
+#include "compressor/hidden_directory.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -9,9 +9,7 @@
 #include <string>
 #include <system_error>
 
-#include "paim/base/error.h"
 #include "paim/base/file.h"
-#include "paim/format/bake/bake_removal.h"
 
 namespace paim {
 
@@ -27,43 +25,41 @@ int lock_directory(const fs::path& path) {
     return -1;
 }
 
-void remove_abandoned_pilots(const fs::path& parent, const std::string& prefix) {
+void remove_abandoned(const fs::path& parent, const std::string& prefix) {
     std::error_code failure;
     for (fs::directory_iterator entry(parent, failure), end; !failure && entry != end;
          entry.increment(failure)) {
         if (!entry->path().filename().string().starts_with(prefix)) continue;
         const int lock = lock_directory(entry->path());
         if (lock < 0) continue;
-        remove_bake(entry->path());
+        fs::remove_all(entry->path(), failure);
+        failure.clear();
         ::close(lock);
     }
 }
 
 }  // namespace
 
-PilotDirectory::PilotDirectory(const fs::path& bake) {
-    const fs::path target = follow_links(fs::absolute(bake));
+HiddenDirectory::HiddenDirectory(const fs::path& result, std::string_view purpose) {
+    const fs::path target = follow_links(fs::absolute(result));
     const fs::path parent = target.parent_path();
-    const std::string prefix = fmt::format(".{}.pilot-", target.stem().string());
+    const std::string prefix = fmt::format(".{}.{}-", target.stem().string(), purpose);
     ensure_directory(parent);
-    remove_abandoned_pilots(parent, prefix);
+    remove_abandoned(parent, prefix);
     path_ = parent / fmt::format("{}{}", prefix, ::getpid());
     ensure_directory(path_);
     lock_ = lock_directory(path_);
 }
 
-PilotDirectory::~PilotDirectory() {
-    try {
-        remove_bake(path_);
-    } catch (const Error&) {
-        // The next pilot of this bake removes it.
-    }
+HiddenDirectory::~HiddenDirectory() {
+    std::error_code ignored;  // the next one for this result removes it
+    fs::remove_all(path_, ignored);
     if (lock_ >= 0) ::close(lock_);
 }
 
-bool PilotDirectory::become(const fs::path& bake) const {
+bool HiddenDirectory::become(const fs::path& result) const {
     std::error_code failure;
-    fs::rename(path_, follow_links(bake), failure);
+    fs::rename(path_, follow_links(result), failure);
     return !failure;
 }
 

@@ -1,0 +1,49 @@
+// From a target to a file with diffuse and glossy transfer.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+
+#include "compressor/encode/search/target_encode.h"
+
+namespace paim {
+
+// The files of the diffuse and of the glossy transfer of a bake, from which a file of both is made.
+struct TransferFiles {
+    std::filesystem::path diffuse, gloss;
+};
+
+// Joins them. Returns the size of the file, which is written completely or not at all.
+// bake  that both were made from
+// Errors: those of reading and writing.
+uint64_t join_transfer_files(const BakeReader& bake, const TransferFiles& files,
+                             const std::filesystem::path& output);
+
+struct GlossySummary {
+    TargetSummary diffuse, gloss;
+    uint64_t size_bytes = 0;  // of the file of both
+};
+
+struct GlossyTarget {
+    // Of the diffuse transfer; the size is that of the file of both.
+    EncodeTarget diffuse;
+    // Of the gloss. Its error is relative to the glossy transfer alone. Its size is not used. It has an
+    // error if the diffuse target has one (checked).
+    EncodeTarget gloss;
+};
+
+// Encodes both, each by itself, so that each meets its target. For a size alone, both have the same
+// error, which is the smallest whose file fits, to 2 % of it or less.
+// bake     with glossy rows (checked), verified
+// scratch  an empty directory for files of the parts
+// on_step  called with "diffuse" or "gloss", how far that is (0 … 1), and what is being done
+// Errors: those of encode_to_target().
+using GlossyListener = std::function<void(const char* part, const std::string& step, double done)>;
+GlossySummary encode_glossy_to_target(const BakeReader& bake, const EncodeOptions& options,
+                                      const GlossyTarget& target,
+                                      const std::filesystem::path& scratch,
+                                      const std::filesystem::path& output,
+                                      const GlossyListener& on_step = {});
+
+}  // namespace paim
