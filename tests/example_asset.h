@@ -15,7 +15,7 @@
 namespace paim {
 
 // A tetrahedron with random components. Weights fall off, so that components have an order.
-inline Asset make_example_asset(uint32_t bands = 2, uint32_t channels = 1, uint32_t num_poses = 5,
+inline Asset make_example_asset(const TransferLayout& layout, uint32_t num_poses = 5,
                                 uint32_t num_components = 3) {
     RandomStream random(7);
     Asset asset;
@@ -23,7 +23,7 @@ inline Asset make_example_asset(uint32_t bands = 2, uint32_t channels = 1, uint3
     asset.provenance_json = R"({"made":"by a test"})";
     CodedMesh& mesh = asset.moving();
     mesh.topology = {4, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
-    mesh.layout = {TransferKind::diffuse, bands, channels};
+    mesh.layout = layout;
     const auto fill = [&](uint32_t num_planes) {
         LowRank matrix;
         matrix.num_points = 4;
@@ -48,6 +48,10 @@ inline Asset make_example_asset(uint32_t bands = 2, uint32_t channels = 1, uint3
     mesh.positions = fill(3);
     mesh.transfer = SvdTransfer(fill(mesh.layout.num_planes()));
     return asset;
+}
+inline Asset make_example_asset(uint32_t bands = 2, uint32_t channels = 1, uint32_t num_poses = 5,
+                                uint32_t num_components = 3) {
+    return make_example_asset({TransferKind::diffuse, bands, channels}, num_poses, num_components);
 }
 
 // The same with integers instead of floats: i16 components, of which the last are i8.
@@ -78,11 +82,11 @@ inline Asset quantise_example(Asset asset) {
 
 // The tetrahedron with clustered transfer: two clusters of two vertices, and so many components in
 // each; components over time and numbers as in make_example_asset().
-inline Asset make_clustered_example(uint32_t bands = 2, uint32_t channels = 1,
+inline Asset make_clustered_example(const TransferLayout& layout,
                                     uint32_t num_cluster_components = 1, bool integers = false) {
     RandomStream random(10);
     const auto number = [&] { return static_cast<float>(2.0 * random.uniform() - 1.0); };
-    Asset asset = make_example_asset(bands, channels);
+    Asset asset = make_example_asset(layout);
     VertexClusters clusters;
     clusters.num_clusters = 2;
     clusters.num_components = num_cluster_components;
@@ -109,6 +113,11 @@ inline Asset make_clustered_example(uint32_t bands = 2, uint32_t channels = 1,
     for (StoredValues& component : matrix.components) component = fill();
     asset.moving().transfer = CpcaTransfer(std::move(matrix), std::move(clusters));
     return integers ? quantise_example(asset) : asset;
+}
+inline Asset make_clustered_example(uint32_t bands = 2, uint32_t channels = 1,
+                                    uint32_t num_cluster_components = 1, bool integers = false) {
+    return make_clustered_example({TransferKind::diffuse, bands, channels}, num_cluster_components,
+                                  integers);
 }
 
 // A still part: two triangles of three colours.

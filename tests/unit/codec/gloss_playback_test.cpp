@@ -1,0 +1,184 @@
+// Playback of gloss: outgoing coefficients against decoded transfer, radiance against a sum over them.
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "paim/codec/gloss_player.h"
+#include "paim/codec/playback.h"
+#include "paim/sh/basis.h"
+#include "tests/gloss_example.h"
+
+namespace paim {
+namespace {
+
+LightCoefficients make_light(int bands, uint64_t seed) {
+    RandomStream random(seed);
+    LightCoefficients light{bands, {}};
+    const auto number = [&] { return static_cast<float>(2.0 * random.uniform() - 1.0); };
+    for (int i = 0; i < bands * bands; ++i) {
+        const float red = number(), green = number(), blue = number();
+        light.values.emplace_back(red, green, blue);
+    }
+    return light;
+}
+
+// tint · Σ_i t_oi L_i of the decoded transfer, [O][R].
+std::vector<Vec3d> expected_exit(const CodedGloss& gloss, double time, const DecodeLimits& limits,
+                                 const LightCoefficients& light) {
+    TransferLayout layout;
+    std::vector<float> transfer;
+    gloss.transfer->make_player(gloss.layout)
+        ->decode(time, limits_of_gloss(limits), layout, transfer);
+    std::vector<Vec3d> exit;
+    for (uint32_t o = 0; o < layout.num_outgoing(); ++o) {
+        for (uint32_t r = 0; r < gloss.num_rows; ++r) {
+            Vec3d sum = Vec3d::Zero();
+            for (uint32_t i = 0; i < layout.num_coefficients(); ++i) {
+                for (int channel = 0; channel < 3; ++channel) {
+                    const uint32_t of = layout.channels == 1 ? 0 : static_cast<uint32_t>(channel);
+                    sum[channel] += double{transfer[layout.plane(of, i, o) * gloss.num_rows + r]} *
+                                    double{light.values[i][channel]};
+                }
+            }
+            exit.push_back(sum.cwiseProduct(gloss.tint.at(r).cast<double>()));
+        }
+    }
+    return exit;
+}
+
+Vec3d position_of(std::span<const float> planes, uint32_t v) {
+    const size_t n = planes.size() / 3;
+    return {double{planes[v]}, double{planes[n + v]}, double{planes[2 * n + v]}};
+}
+
+// Compares with sums of at most 4 · 9 products of floats, up to 4,000 integers large where values
+// are integers: relative to the largest, roundings of 50 additions.
+void expect_near(const Vec3f& got, const Vec3d& expected, double scale) {
+    EXPECT_LT((got.cast<double>() - expected).norm(), 50 * 0x1p-23 * scale);
+}
+
+double largest(const std::vector<Vec3d>& values) {
+    double most = 1.0;
+    for (const Vec3d& value : values) most = std::max(most, value.norm());
+    return most;
+}
+
+TEST(GlossPlayback, SumsOutgoingCoefficientsTowardsTheEye) {
+    const LightCoefficients light = make_light(3, 5);
+    for (GlossVariant& variant : gloss_variants()) {
+        SCOPED_TRACE(variant.name);
+        const auto asset = std::make_shared<const Asset>(std::move(variant.asset));
+        const CodedGloss& gloss = *asset->moving().gloss;
+        Playback playback(asset), diffuse(asset);
+        playback.set_light(DistantLight(light));
+        diffuse.set_light(DistantLight(light));
+        const Vec3f eye(3, -5, 2);
+        playback.set_eye(eye);
+        for (const double time : {0.0, 1.25, 4.0}) {
+            DecodeLimits limits;
+            if (time > 2.0) limits = {2, 2, 2, 1, 1, 1};
+            playback.update(time, limits);
+            diffuse.update(time, limits);
+            const std::vector<Vec3d> exit = expected_exit(gloss, time, limits, light);
+            const double scale = largest(exit);
+            ASSERT_EQ(playback.exit_radiance().size(), exit.size());
+            for (size_t j = 0; j < exit.size(); ++j) {
+                expect_near(playback.exit_radiance()[j], exit[j], 4.0 * scale);
+            }
+            std::vector<Vec3d> radiance(4);
+            for (uint32_t v = 0; v < 4; ++v) radiance[v] = diffuse.radiance()[v].cast<double>();
+            ASSERT_EQ(playback.gloss_radiance().size(), size_t{gloss.num_rows});
+            for (uint32_t r = 0; r < gloss.num_rows; ++r) {
+                const uint32_t v = gloss.vertex(r);
+                const Vec3d direction = eye.cast<double>() - position_of(playback.positions(), v);
+                std::vector<double> values(4);
+                sh::evaluate_basis(2, direction, std::span(values));
+                Vec3d sum = Vec3d::Zero();
+                for (size_t o = 0; o < 4; ++o) sum += values[o] * exit[o * gloss.num_rows + r];
+                expect_near(playback.gloss_radiance()[r], sum, 8.0 * scale);
+                radiance[v] += sum;
+            }
+            for (uint32_t v = 0; v < 4; ++v) {
+                expect_near(playback.radiance()[v], radiance[v], 8.0 * scale);
+            }
+        }
+    }
+}
+
+TEST(GlossPlayback, IsDiffuseWithoutAnEye) {
+    const auto asset = std::make_shared<const Asset>(with_partial_gloss());
+    Asset matte = *asset;
+    matte.moving().gloss.reset();
+    Playback playback(asset), expected(std::make_shared<const Asset>(std::move(matte)));
+    for (Playback* one : {&playback, &expected}) {
+        one->set_light(DistantLight(make_light(3, 6)));
+        one->update(1.5);
+    }
+    const std::vector<Vec3f> radiance(expected.radiance().begin(), expected.radiance().end());
+    const auto shown = [&] {
+        return std::vector<Vec3f>(playback.radiance().begin(), playback.radiance().end());
+    };
+    EXPECT_EQ(shown(), radiance);
+    EXPECT_TRUE(playback.gloss_radiance().empty());
+    playback.set_eye(Vec3f(1, 2, 3));
+    playback.update(1.5);
+    EXPECT_NE(shown(), radiance);
+    // Vertex 1 has no gloss.
+    EXPECT_EQ(playback.radiance()[1], radiance[1]);
+    playback.set_eye({});
+    playback.update(1.5);
+    EXPECT_EQ(shown(), radiance);
+}
+
+// What was computed before makes no difference.
+TEST(GlossPlayback, FollowsEyeLightAndPose) {
+    const auto asset = std::make_shared<const Asset>(with_gloss(make_gloss_alone(3, true, false)));
+    struct Moment {
+        double time;
+        uint64_t light;
+        Vec3f eye;
+    };
+    Playback reused(asset);
+    for (const Moment& moment :
+         {Moment{0, 1, {1, 0, 0}}, Moment{0, 1, {0, 9, 0}}, Moment{0, 2, {0, 9, 0}},
+          Moment{2.5, 2, {0, 9, 0}}, Moment{2.5, 2, {0, 9, 0}}}) {
+        Playback fresh(asset);
+        for (Playback* one : {&reused, &fresh}) {
+            one->set_light(DistantLight(make_light(3, moment.light)));
+            one->set_eye(moment.eye);
+            one->update(moment.time);
+        }
+        for (size_t v = 0; v < 4; ++v) {
+            // A pose that is lit again sums in another order.
+            expect_near(reused.radiance()[v], fresh.radiance()[v].cast<double>(), 10.0);
+        }
+    }
+}
+
+// Body, light and eye turned together show the same.
+TEST(GlossPlayback, TurnsWithTheBody) {
+    const Asset still = with_partial_gloss();
+    Asset turned = still;
+    turned.moving().root_motion.resize(5);
+    RigidTransform root;
+    root.rotation = Eigen::AngleAxisd(0.8, Vec3d(1, 2, -1).normalized());
+    root.translation = Vec3d(4, -2, 1);
+    for (RigidTransform& of_pose : turned.moving().root_motion) of_pose = root;
+    const LightCoefficients light = make_light(3, 7);
+    const Vec3f eye(2, 2, 5);
+    Playback one(std::make_shared<const Asset>(still)),
+        other(std::make_shared<const Asset>(turned));
+    one.set_light(DistantLight(light));
+    one.set_eye(eye);
+    one.update(3.0);
+    other.set_light(DistantLight(turn(light, root.rotation.toRotationMatrix())));
+    other.set_eye(root.to_scene(eye.cast<double>()).cast<float>());
+    other.update(3.0);
+    for (size_t v = 0; v < 4; ++v) {
+        // Rotations of 9 coefficients round a few times more, and so does the place of the eye.
+        expect_near(other.radiance()[v], one.radiance()[v].cast<double>(), 100.0);
+    }
+}
+
+}  // namespace
+}  // namespace paim
