@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "analysis/analysis_run.h"
+#include "analysis/bake_file.h"
 #include "analysis/gnuplot.h"
 #include "analysis/page.h"
 #include "analysis/same_bake.h"
@@ -19,7 +20,6 @@
 #include "paim/base/file.h"
 #include "paim/base/json_text.h"
 #include "paim/base/tbb_parallel.h"
-#include "paim/format/paim/paim_read.h"
 #include "paim/metrics/asset_error.h"
 
 namespace paim {
@@ -50,7 +50,7 @@ void check_inputs(const AnalyzeOptions& options, const BakeReader& bake) {
         if (!file.empty()) files.push_back(file);
     }
     for (const std::filesystem::path& file : files) {
-        const Asset asset = read_paim(file);
+        const Asset asset = read_file_of(bake, file);
         try {
             for (size_t part = 0; part < asset.parts.size(); ++part) match_part(asset, part, bake);
             if (file == options.curves_of) vertex_component_name(*asset.moving().transfer);
@@ -67,6 +67,17 @@ void check_inputs(const AnalyzeOptions& options, const BakeReader& bake) {
     };
     if (!options.temporal.empty()) need_poses("--temporal", 2);
     if (options.held_out) need_poses("--held-out", 3);
+}
+
+// Error (usage) if something else than curves is asked of the glossy transfer.
+void check_gloss(const AnalyzeOptions& options) {
+    const bool others = options.held_out || options.trade || !options.compare.empty() ||
+                        !options.budget.empty() || !options.temporal.empty() ||
+                        !options.curves_rays.empty() || options.reference != ReferenceKind::bake;
+    if (!options.gloss || !others) return;
+    throw_usage(
+        "--gloss: expected --curves, --curves-of or --curves-groups; other questions, and other "
+        "references than the bake, are about the diffuse transfer");
 }
 
 // On stderr, for options that change nothing here.
@@ -112,8 +123,10 @@ void check_picture_memory(const AnalyzeOptions& options, size_t num_lights) {
 }
 
 void analyze(const AnalyzeOptions& options) {
+    check_gloss(options);
     const ThreadLimit limit(options.num_threads);
-    const BakeReader bake(options.bake_directory);
+    const BakeReader bake = options.gloss ? BakeReader(options.bake_directory).gloss()
+                                          : BakeReader(options.bake_directory);
     if (is_bake(options.output)) {
         throw_usage("--output {}: is a bake, expected another directory", options.output.string());
     }

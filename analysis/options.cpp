@@ -207,6 +207,10 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
     app.add_option("--threads", options.num_threads, "Threads, 0 to 1024; 0 takes every core")
         ->check(cli::in_range(0, 1024))
         ->capture_default_str();
+    app.add_flag(
+        "--gloss", options.gloss,
+        "Measure the glossy transfer of the bake and of files, instead of the diffuse one: "
+        "error curves alone (--curves, --curves-of, --curves-groups)");
     app.add_flag("--json", options.json, "Write one JSON object on stdout and nothing else");
     app.add_flag("--quiet", options.quiet, "Show no progress");
     exit_code = cli::parse(app, argc, argv);

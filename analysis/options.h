@@ -16,6 +16,7 @@ namespace paim {
 struct AnalyzeOptions {
     std::filesystem::path bake_directory;  // empty: files of `compare` alone
     std::filesystem::path output;
+    bool gloss = false;                          // of the glossy transfer, not the diffuse one
     std::filesystem::path verify;                // a .paim to check instead; empty: none
     std::string band_power;                      // for --verify; empty: that of the file
     bool curves = false;                         // asked for by name

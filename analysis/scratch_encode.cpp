@@ -1,10 +1,11 @@
 // Encodes a bake into memory.
 #include "analysis/scratch_encode.h"
 
+#include "analysis/bake_file.h"
+
 #include <limits>
 
 #include "compressor/encode/encode.h"
-#include "paim/format/paim/paim_read.h"
 
 namespace paim {
 
@@ -21,7 +22,7 @@ Asset encode_in_memory(const BakeReader& bake, EncodeOptions options,
     options.name = bake.directory().stem().string();
     options.memory_bytes = std::numeric_limits<uint64_t>::max();
     encode(bake, options, file.path);
-    return read_paim(file.path);
+    return read_file_of(bake, file.path);
 }
 
 }  // namespace paim

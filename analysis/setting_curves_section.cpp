@@ -6,13 +6,13 @@
 #include <limits>
 
 #include "analysis/analysis_run.h"
+#include "analysis/bake_file.h"
 #include "analysis/setting_curves/group_curve.h"
 #include "analysis/setting_curves/ray_curve.h"
 #include "analysis/setting_curves/setting_curve_report.h"
 #include "analysis/setting_curves/vertex_component_curve.h"
 #include "paim/base/file.h"
 #include "paim/cli/progress.h"
-#include "paim/format/paim/paim_read.h"
 
 namespace paim {
 
@@ -51,7 +51,7 @@ void say_what_is_too_much(const std::vector<uint32_t>& wanted, const std::string
 }  // namespace
 
 void vertex_components_section(AnalysisRun& run) {
-    const Asset asset = read_paim(run.options.curves_of);
+    const Asset asset = read_file_of(run.bake, run.options.curves_of);
     const TransferModel& transfer = *asset.moving().transfer;
     const uint32_t all = transfer.num_vertex_components();
     const std::vector<uint32_t>& wanted = run.options.components;

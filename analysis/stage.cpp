@@ -16,6 +16,7 @@
 #include "paim/mesh/planes.h"
 #include "paim/mesh/unit_scale.h"
 #include "paim/render/render.h"
+#include "paim/shade/exit_radiance.h"
 #include "paim/shade/shade.h"
 
 namespace paim {
@@ -70,6 +71,20 @@ float scale_of(const Bounds& bounds) {
     const float largest =
         std::max(bounds.lower.cwiseAbs().maxCoeff(), bounds.upper.cwiseAbs().maxCoeff());
     return unit_scale(static_cast<double>(largest));
+}
+
+// The values of two meshes one after the other, for each outgoing coefficient.
+std::vector<Vec3f> joined(std::span<const Vec3f> first, std::span<const Vec3f> second,
+                          size_t num_outgoing) {
+    std::vector<Vec3f> all;
+    for (size_t o = 0; o < num_outgoing; ++o) {
+        for (const std::span<const Vec3f> values : {first, second}) {
+            const size_t count = values.size() / num_outgoing;
+            const std::span<const Vec3f> of_coefficient = values.subspan(o * count, count);
+            all.insert(all.end(), of_coefficient.begin(), of_coefficient.end());
+        }
+    }
+    return all;
 }
 
 std::vector<float> scaled(std::vector<float> values, float scale) {
@@ -155,7 +170,7 @@ std::vector<std::vector<Vec3f>> Stage::light(const DecodedPose& pose,
         } else {
             shade(still->layout, still->transfer, baked.albedo, kept, around);
         }
-        radiance[j].insert(radiance[j].end(), around.begin(), around.end());
+        radiance[j] = joined(radiance[j], around, pose.layout.num_outgoing());
     }
     return radiance;
 }
@@ -179,7 +194,33 @@ std::vector<Image> Stage::draw(const std::vector<VisiblePoints>& visible,
     return pictures;
 }
 
+std::vector<Image> Stage::draw_gloss(const DecodedPose& pose, const DecodedPose* still) const {
+    const std::vector<Vec3f> positions = place(pose, still);
+    const std::vector<VisiblePoints> visible = look(positions);
+    const std::vector<std::vector<Vec3f>> exits = light(pose, still);
+    const size_t num_moving = pose.positions.size() / 3;
+    const size_t num_following = std::min<size_t>(pose.num_following, num_moving);
+    std::vector<Image> pictures;
+    std::vector<Vec3f> directions(positions.size()), radiance(positions.size());
+    for (size_t view = 0; view < visible.size(); ++view) {
+        for (size_t v = 0; v < positions.size(); ++v) {
+            const Vec3f direction = (cameras_[view].eye - positions[v]).normalized();
+            // Local axes of what follows the root motion.
+            directions[v] =
+                v < num_following
+                    ? (pose.root.rotation.conjugate() * direction.cast<double>()).cast<float>()
+                    : direction;
+        }
+        for (const std::vector<Vec3f>& exit : exits) {
+            exit_towards(static_cast<int>(pose.layout.out_bands), exit, directions, radiance);
+            pictures.push_back(interpolate_image(visible[view], topology_, radiance));
+        }
+    }
+    return pictures;
+}
+
 std::vector<Image> Stage::render_pose(const DecodedPose& pose, const DecodedPose* still) const {
+    if (pose.layout.kind == TransferKind::glossy) return draw_gloss(pose, still);
     return draw(look(place(pose, still)), light(pose, still));
 }
 

@@ -70,7 +70,7 @@ class Stage {
     const Albedo& albedo() const { return albedo_; }
     // Positions of a pose, as they are drawn: in the scene, scaled. [V + S]
     std::vector<Vec3f> place(const DecodedPose& pose, const DecodedPose* still = nullptr) const;
-    // Radiance of a pose by its transfer. [lights][V + S]
+    // Radiance of a pose by its transfer, of each outgoing coefficient. [lights][num_outgoing · (V + S)]
     std::vector<std::vector<Vec3f>> light(const DecodedPose& pose,
                                           const DecodedPose* still = nullptr) const;
     // [views]
@@ -80,6 +80,8 @@ class Stage {
                             const std::vector<std::vector<Vec3f>>& radiance) const;
 
   private:
+    // Pictures of glossy transfer, whose radiance depends on the view. [pictures]
+    std::vector<Image> draw_gloss(const DecodedPose& pose, const DecodedPose* still) const;
     std::vector<Camera> make_cameras(const StageOptions& options) const;
 
     const BakeReader& bake_;

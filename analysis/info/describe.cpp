@@ -33,6 +33,20 @@ ordered_json describe_matrix(const LowRank& matrix) {
     return json;
 }
 
+ordered_json describe_gloss(const Asset& asset) {
+    const CodedMesh& mesh = asset.moving();
+    const CodedGloss& gloss = *mesh.gloss;
+    ordered_json json;
+    json["vertices"] = gloss.num_rows;
+    json["bands"] = gloss.layout.in_bands;
+    json["out_bands"] = gloss.layout.out_bands;
+    json["channels"] = gloss.layout.channels;
+    json["transfer_codec"] = gloss.transfer->codec_name();
+    for (const NamedNumber& number : gloss.transfer->numbers()) json[number.name] = *number.value;
+    json["transfer"] = describe_matrix(gloss.transfer->matrix);
+    return json;
+}
+
 ordered_json describe_paim(const std::filesystem::path& path) {
     const Asset asset = read_paim(path);
     const CodedMesh& mesh = asset.moving();
@@ -61,7 +75,24 @@ ordered_json describe_paim(const std::filesystem::path& path) {
     for (const NamedNumber& number : mesh.transfer->numbers()) json[number.name] = *number.value;
     json["geometry"] = describe_matrix(mesh.positions);
     json["transfer"] = describe_matrix(mesh.transfer->matrix);
+    if (mesh.gloss) json["gloss"] = describe_gloss(asset);
     json["provenance"] = ordered_json::parse(asset.provenance_json);
+    return json;
+}
+
+ordered_json describe_gloss(const BakeReader& bake) {
+    const GlossIdentity& gloss = *bake.identity().gloss;
+    ordered_json json;
+    json["vertices"] = bake.gloss_rows().size();
+    json["bands"] = gloss.layout.in_bands;
+    json["out_bands"] = gloss.layout.out_bands;
+    json["channels"] = gloss.layout.channels;
+    for (const GlossMaterial& material : gloss.materials) json["brdfs"].push_back(material.brdf);
+    if (bake.gloss_rows().empty()) return json;
+    const PoseStatistics total = bake.gloss().total_statistics();
+    json["relative_noise"] = total.relative_noise();
+    json["transfer_rms_by_band"] = total.transfer_rms;
+    json["noise_rms_by_band"] = total.noise_rms;
     return json;
 }
 
@@ -105,6 +136,7 @@ ordered_json describe_bake(const std::filesystem::path& path) {
     json["relative_noise"] = total.relative_noise();
     json["transfer_rms_by_band"] = total.transfer_rms;
     json["noise_rms_by_band"] = total.noise_rms;
+    if (identity.gloss) json["gloss"] = describe_gloss(bake);
     return json;
 }
 

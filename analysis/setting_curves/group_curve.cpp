@@ -7,6 +7,7 @@
 #include <memory>
 #include <utility>
 
+#include "analysis/bake_file.h"
 #include "analysis/file_poses.h"
 #include "analysis/frame_time.h"
 #include "analysis/scratch_directory.h"
@@ -16,7 +17,6 @@
 #include "paim/base/check.h"
 #include "paim/codec/frame_cost.h"
 #include "paim/codec/point_groups.h"
-#include "paim/format/paim/paim_read.h"
 
 namespace paim {
 
@@ -33,7 +33,8 @@ struct GroupedFile {
 class GroupedFiles {
   public:
     GroupedFiles(const BakeReader& bake, const std::filesystem::path& directory)
-        : path_(directory / "groups.paim"),
+        : bake_(bake),
+          path_(directory / "groups.paim"),
           spectrum_(BandPower::flat(bake.identity().layout.in_bands)),
           series_(bake, options_of(bake), spectrum_) {}
 
@@ -46,7 +47,7 @@ class GroupedFiles {
         file.encode_s = seconds_of(
             [&] { series_.encode_groups(target, grouped_encoder(), num_groups, path_); });
         file.size_bytes = std::filesystem::file_size(path_);
-        file.asset = std::make_shared<const Asset>(read_paim(path_));
+        file.asset = std::make_shared<const Asset>(read_file_of(bake_, path_));
         file.num_groups = file.asset->moving().transfer->point_groups()->num_groups;
         return file;
     }
@@ -59,6 +60,7 @@ class GroupedFiles {
         return options;
     }
 
+    const BakeReader& bake_;
     const std::filesystem::path path_;
     const BandPower spectrum_;
     TargetSeries series_;
