@@ -274,6 +274,8 @@ PanelInfo App::panel_info() {
     info.buffer_bytes = renderer.buffer_bytes();
     info.num_vertices = mesh.topology.num_vertices;
     info.num_triangles = static_cast<uint32_t>(mesh.topology.triangles.size());
+    info.has_textures = std::ranges::any_of(
+        session_->asset().parts, [](const CodedMesh& part) { return !part.texture.empty(); });
     info.frame_ms = frame_ms_;
     info.poses_per_second = session_->asset().frames_per_second;
     const auto* words = words_of_codec(mesh.transfer->codec_name());

@@ -18,7 +18,7 @@ struct ViewOptions::Raw {
     std::optional<std::string> background, exposure, key_light, surface, compare, tone_map;
     std::optional<double> pose, speed, env_rotation, env_pitch, env_roll, env_strength, turn_light,
         turn_camera, gamma, coefficient, split, instances;
-    bool ping_pong = false, whole_poses = false, edges = false;
+    bool ping_pong = false, whole_poses = false, no_textures = false, edges = false;
 };
 
 namespace {
@@ -136,6 +136,8 @@ ViewOptions::ViewOptions(CLI::App& app) : raw_(std::make_unique<Raw>()) {
     surface.add("--coefficient", raw_->coefficient, "I",
                 "The coefficient of --surface coefficient, I = l (l + 1) + m for band l and order "
                 "m, 0 to 4095 (default: 0)");
+    surface.add_flag("--no-textures", raw_->no_textures,
+                     "Show the albedo of the vertices where faces have images");
     surface.add_flag("--edges", raw_->edges, "Draw the edges of the triangles, too");
     surface.add("--compare", raw_->compare, "none|wipe|side-by-side",
                 "Show the whole file, too: to the right of --split, or in the right half (default: "
@@ -221,6 +223,7 @@ ViewChanges ViewOptions::changes() const {
             integer_in_range("--instances", raw.instances, 1, static_cast<int>(kMostInstances))) {
         changes.emplace_back([n](View& v) { v.num_instances = static_cast<uint32_t>(*n); });
     }
+    flag(raw.no_textures, [](View& v) { v.textures = false; });
     flag(raw.edges, [](View& v) { v.edges = true; });
     return changes;
 }

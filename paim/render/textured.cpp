@@ -41,6 +41,7 @@ class Coordinates {
     Coordinates(const VisiblePoints& visible, const Camera& camera)
         : width_(static_cast<float>(visible.width)),
           height_(static_cast<float>(visible.height)),
+          rows_(visible.height),
           camera_(camera) {}
 
     Footprint at(const TrianglePlane& plane, const std::array<Vec2f, 3>& corners, int x,
@@ -54,13 +55,15 @@ class Coordinates {
             return first + w[0] * (corners[1].cast<double>() - first) +
                    w[1] * (corners[2].cast<double>() - first);
         };
-        const Eigen::Vector2d here = place(x, y);
-        return {here.cast<float>(), (place(x + 1, y) - here).cast<float>(),
-                (place(x, y + 1) - here).cast<float>()};
+        // Pixels of pictures are drawn in squares of two, from the lower left corner.
+        const int left = x - x % 2, upper = y - (rows_ - y) % 2;
+        return {place(x, y).cast<float>(), (place(left + 1, y) - place(left, y)).cast<float>(),
+                (place(x, upper + 1) - place(x, upper)).cast<float>()};
     }
 
   private:
     float width_, height_;
+    int rows_;
     const Camera& camera_;
 };
 

@@ -12,7 +12,8 @@ namespace paim {
 
 // Sets the pixels that show a face with an image: the colour of the image there, times the factor of
 // the image, times the interpolated radiance of a white surface. The image is sampled at the level
-// that one pixel covers (MipPyramid::level()), as the player does it. Other pixels stay as they are.
+// that one pixel covers (MipPyramid::level()), as the player does it; steps between pixels are taken
+// within squares of two pixels, as GPUs take them. Other pixels stay as they are.
 // visible         what find_visible() found of these positions and this camera
 // texture         of the first triangles of the topology; others have no image
 // pyramids        of the images

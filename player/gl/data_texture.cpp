@@ -34,6 +34,8 @@ Format gl_format(TexelFormat format) {
     switch (format) {
         case TexelFormat::r32f:
             return {GL_R32F, GL_RED, GL_FLOAT, 1, 4};
+        case TexelFormat::rgb32f:
+            return {GL_RGB32F, GL_RGB, GL_FLOAT, 3, 12};
         case TexelFormat::rgba16f:
             return {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 4, 8};
         case TexelFormat::r16i:
@@ -146,6 +148,22 @@ void DataTexture::update(std::span<const float> values) const {
     if (rest.empty()) return;
     upload_rows(static_cast<int>(num_rows), static_cast<int>(rest.size() / texel_values), 1,
                 rest.data());
+}
+
+// In a buffer, pointers are offsets.
+void DataTexture::copy(const BufferHandle& buffer) const {
+    PAIM_CHECK(gl_format(format_).type == GL_FLOAT);
+    const auto num_rows = static_cast<int>(num_texels_ / width_);
+    const auto rest = static_cast<int>(num_texels_ % width_);
+    const size_t row_bytes =
+        static_cast<size_t>(width_) * static_cast<size_t>(bytes_per_texel(format_));
+    glBindBuffer(GL_PIXEL_UNPACK_BUFFER, buffer.id());
+    if (num_rows > 0) upload_rows(0, width_, num_rows, nullptr);
+    if (rest > 0) {
+        upload_rows(num_rows, rest, 1,
+                    reinterpret_cast<const void*>(static_cast<size_t>(num_rows) * row_bytes));
+    }
+    glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
 }
 
 void DataTexture::upload_rows(int first_row, int width, int num_rows, const void* values) const {

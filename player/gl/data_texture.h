@@ -14,6 +14,7 @@ namespace paim::player::gl {
 
 enum class TexelFormat {
     r32f,     // 1 float
+    rgb32f,   // 3 floats
     rgba32f,  // 4 floats
     rgba16f,  // 4 floats, stored as half floats
     r16i,     // 1 integer of 16 bits
@@ -48,6 +49,9 @@ class DataTexture {
     // Overwrites the first texels of a format of 32-bit floats (checked); allocates nothing.
     // values.size() is a multiple of values_per_texel.
     void update(std::span<const float> values) const;
+
+    // Overwrites all texels of a format of 32-bit floats (checked) with the first values of a buffer.
+    void copy(const BufferHandle& buffer) const;
 
     const TextureHandle& handle() const { return handle_; }
     TexelFormat format() const { return format_; }

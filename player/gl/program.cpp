@@ -54,13 +54,14 @@ class Shader {
 }  // namespace
 
 Program::Program(std::string name, std::string_view vertex_source, std::string_view fragment_source,
-                 std::string_view defines, const char* captured) {
+                 std::string_view defines, std::span<const char* const> captured) {
     const Shader vertex(name, GL_VERTEX_SHADER, defines, vertex_source);
     const Shader fragment(name, GL_FRAGMENT_SHADER, defines, fragment_source);
     glAttachShader(handle_.id(), vertex.id());
     glAttachShader(handle_.id(), fragment.id());
-    if (captured != nullptr) {
-        glTransformFeedbackVaryings(handle_.id(), 1, &captured, GL_INTERLEAVED_ATTRIBS);
+    if (!captured.empty()) {
+        glTransformFeedbackVaryings(handle_.id(), static_cast<GLsizei>(captured.size()),
+                                    captured.data(), GL_SEPARATE_ATTRIBS);
     }
     glLinkProgram(handle_.id());
     glDetachShader(handle_.id(), vertex.id());

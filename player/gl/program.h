@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include <glm/mat4x4.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -16,10 +17,9 @@ class Program {
     // The sources have no #version line: the one that fits the current context is put before them.
     // Throws Error(unsupported) with `name`, the stage and the driver's log.
     // defines   #define lines for both, each with its line end
-    // captured  the output of the vertex shader that transform feedback keeps (gl/feedback.h), or
-    //           nullptr
+    // captured  the outputs of the vertex shader that transform feedback keeps (gl/feedback.h)
     Program(std::string name, std::string_view vertex_source, std::string_view fragment_source,
-            std::string_view defines = {}, const char* captured = nullptr);
+            std::string_view defines = {}, std::span<const char* const> captured = {});
 
     void use() const { glUseProgram(handle_.id()); }
 

@@ -20,7 +20,9 @@ DecodeLimits all_of(const CodedMesh& mesh) {
 CpuVertices::CpuVertices(std::shared_ptr<const Asset> asset, const DecodeLimits& limits)
     : VertexSource(*asset),
       playback_(std::move(asset)),
-      most_(lower_of(limits, all_of(playback_.asset().moving()))) {}
+      most_(lower_of(limits, all_of(playback_.asset().moving()))) {
+    playback_.keep_white_radiance(true);
+}
 
 void CpuVertices::write(double time, const DecodeLimits& limits, const LightCoefficients* light,
                         std::span<const Changes> changes, std::span<SurfaceMesh> parts) {
@@ -33,7 +35,11 @@ void CpuVertices::write(double time, const DecodeLimits& limits, const LightCoef
     playback_.update(time, lower_of(limits, most_));
     for (size_t j = 0; j < parts.size(); ++j) {
         if (changes[j].positions) parts[j].upload_positions(playback_.local_positions(j));
-        if (changes[j].colors) parts[j].upload_colors(playback_.radiance(j));
+        if (!changes[j].colors) continue;
+        parts[j].upload_colors(playback_.radiance(j));
+        if (parts[j].has_white_radiance()) {
+            parts[j].upload_white_radiance(playback_.white_radiance(j));
+        }
     }
 }
 

@@ -53,7 +53,8 @@ struct Frame {
     LightCoefficients light;  // of the scene
     // Colours to show instead of radiance, of the pose at a time; valid until the next call.
     std::function<const PartColors&(double time)> colors;
-    bool edges = false;  // draws the edges of all triangles, too
+    bool textures = true;  // where faces have images; otherwise the albedo of their vertices
+    bool edges = false;    // draws the edges of all triangles, too
     std::vector<Instance> instances{Instance{}};
     Camera camera;
     Bounds bounds;  // hold all instances at this time; near and far planes come from them

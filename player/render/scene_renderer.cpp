@@ -21,19 +21,44 @@ void SceneRenderer::set_asset(std::shared_ptr<const Asset> asset, const DecodeLi
     std::vector<SurfaceMesh> surfaces;
     std::vector<size_t> num_following;
     for (const CodedMesh& mesh : asset->parts) {
-        surfaces.emplace_back(mesh.topology);
+        surfaces.emplace_back(mesh.topology, !mesh.texture.empty());
         num_following.push_back(mesh.topology.num_triangles_before(mesh.num_following));
+    }
+    std::vector<std::optional<TexturedFaces>> textured(surfaces.size());
+    for (size_t j = 0; j < surfaces.size(); ++j) {
+        if (!surfaces[j].has_white_radiance()) continue;
+        textured[j].emplace(asset->parts[j], surfaces[j], images_of(*asset, j));
     }
     vertices_ = std::move(vertices);
     surfaces_ = std::move(surfaces);
+    textured_ = std::move(textured);
     num_following_ = std::move(num_following);
     asset_ = std::move(asset);
     decoder_note_ = std::move(note);
 }
 
+std::shared_ptr<const ImageTextures> SceneRenderer::images_of(const Asset& asset,
+                                                              size_t part) const {
+    const Texture& texture = asset.parts[part].texture;
+    if (part < textured_.size() && textured_[part]) {
+        const Texture& before = asset_->parts[part].texture;
+        if (before.images == texture.images && before.factors == texture.factors) {
+            return textured_[part]->images();
+        }
+    }
+    return std::make_shared<const ImageTextures>(texture);
+}
+
+uint64_t SceneRenderer::texture_bytes() const {
+    uint64_t bytes = vertices_->texture_bytes();
+    for (const auto& textured : textured_) bytes += textured ? textured->texture_bytes() : 0;
+    return bytes;
+}
+
 uint64_t SceneRenderer::buffer_bytes() const {
     uint64_t bytes = 0;
     for (const SurfaceMesh& surface : surfaces_) bytes += surface.buffer_bytes();
+    for (const auto& textured : textured_) bytes += textured ? textured->buffer_bytes() : 0;
     return bytes;
 }
 
@@ -63,7 +88,10 @@ void SceneRenderer::draw_instance(const Frame& frame, const Instance& instance, 
         if (is_copy && j > 0) continue;
         const SurfacePlace place{num_following_[j], root_at(mesh.root_motion, time),
                                  instance.offset};
-        surface_renderer_.draw(surfaces_[j], mesh.topology.triangles.size(), place, frame, aspect);
+        // Colours to show instead of radiance are those of vertices.
+        const bool with_images = frame.textures && !frame.colors && textured_[j];
+        surface_renderer_.draw(surfaces_[j], mesh.topology.triangles.size(), place, frame, aspect,
+                               with_images ? &*textured_[j] : nullptr);
     }
 }
 

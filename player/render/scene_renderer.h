@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "player/render/frame.h"
 #include "player/render/surface_mesh.h"
 #include "player/render/surface_renderer.h"
+#include "player/render/textured_faces.h"
 #include "player/render/tiles.h"
 #include "player/render/vertex_source.h"
 
@@ -38,7 +40,7 @@ class SceneRenderer {
     // What can be shown at most of the part that moves.
     DecodeLimits most() const { return vertices_->most(); }
     // Of all textures that hold the asset, and of all vertices and triangles.
-    uint64_t texture_bytes() const { return vertices_->texture_bytes(); }
+    uint64_t texture_bytes() const;
     uint64_t buffer_bytes() const;
     bool decodes_on_cpu() const { return vertices_->is_on_cpu(); }
     // Why the CPU decodes although shaders were to; empty if they do, or were not to.
@@ -62,13 +64,16 @@ class SceneRenderer {
     Image render(const Frame& frame, int width, int height, int samples);
 
   private:
+    // The images of a part, those that are there already if the new asset has the same.
+    std::shared_ptr<const ImageTextures> images_of(const Asset& asset, size_t part) const;
     void draw_instance(const Frame& frame, const Instance& instance, float aspect);
 
     Decoder decoder_;
     std::string decoder_note_;
     std::shared_ptr<const Asset> asset_;
     std::unique_ptr<VertexSource> vertices_;
-    std::vector<SurfaceMesh> surfaces_;  // one for each part
+    std::vector<SurfaceMesh> surfaces_;                   // one for each part
+    std::vector<std::optional<TexturedFaces>> textured_;  // of parts that have a texture
     std::vector<size_t> num_following_;  // of each part: triangles before those of a floor
     SurfaceRenderer surface_renderer_;
     BackgroundRenderer background_renderer_;

@@ -2,6 +2,9 @@
 #include "player/render/shader_mesh.h"
 
 #include <algorithm>
+#include <array>
+
+#include "paim/base/check.h"
 
 #include "player/gl/check.h"
 #include "player/gl/feedback.h"
@@ -13,12 +16,16 @@ namespace paim::player {
 
 namespace {
 
-gl::Program make_program(const char* name, const char* captured, std::string_view defines,
+gl::Program make_program(const char* name, std::span<const char* const> captured,
+                         std::string_view defines,
                          std::initializer_list<std::string_view> sources) {
     std::string vertex(shaders::vertex_data_glsl);
     for (const std::string_view source : sources) vertex += source;
     return {name, vertex, shaders::nothing_frag, defines, captured};
 }
+
+constexpr std::array<const char*, 1> kPosition{"position"};
+constexpr std::array<const char*, 2> kRadiance{"radiance", "white_radiance"};
 
 }  // namespace
 
@@ -29,9 +36,10 @@ ShaderMesh::ShaderMesh(const CodedMesh& mesh, const DecodeLimits& limits)
                 plan_.geometry_components, plan_.width_log2),
       transfer_(find_uploader(mesh).upload(mesh, plan_)),
       position_program_(
-          make_program("positions", "position", geometry_.defines(), {shaders::position_vert})),
-      radiance_program_(make_program("radiance", "radiance", transfer_->defines(),
-                                     {transfer_->shader(), shaders::radiance_vert})),
+          make_program("positions", kPosition, geometry_.defines(), {shaders::position_vert})),
+      radiance_program_(
+          make_program("radiance", std::span(kRadiance).first(mesh.texture.empty() ? 1 : 2),
+                       transfer_->defines(), {transfer_->shader(), shaders::radiance_vert})),
       albedo_("the albedo", gl::TexelFormat::rgba32f, plan_.width_log2,
               at_least_one(static_cast<int64_t>(mesh.albedo.values.size()))) {
     upload_albedo();
@@ -59,11 +67,13 @@ void ShaderMesh::decode(double time, const DecodeLimits& limits,
     program.set("num_vertices", static_cast<int>(mesh_.topology.num_vertices));
     const LowRank& geometry = mesh_.positions;
     program.set("geometry_step", Vec3f(geometry.step(0), geometry.step(1), geometry.step(2)));
-    capture_.run(positions, 3, 0, mesh_.topology.num_vertices);
+    const gl::BufferHandle* const buffers[] = {&positions};
+    capture_.run(buffers, 3, 0, mesh_.topology.num_vertices);
 }
 
 void ShaderMesh::light(double time, const DecodeLimits& limits, const LightCoefficients& light,
-                       const gl::BufferHandle& colors) {
+                       std::span<const gl::BufferHandle* const> colors) {
+    PAIM_CHECK_EQ(colors.size(), mesh_.texture.empty() ? size_t{1} : size_t{2});
     const uint32_t num_vertices = mesh_.topology.num_vertices;
     const uint32_t num_following = std::min(num_vertices, mesh_.num_following);
     const RigidTransform root = root_at(mesh_.root_motion, time);
@@ -74,7 +84,7 @@ void ShaderMesh::light(double time, const DecodeLimits& limits, const LightCoeff
 
 void ShaderMesh::light_vertices(uint32_t first, uint32_t count, double time,
                                 const DecodeLimits& limits, const LightCoefficients& light,
-                                const gl::BufferHandle& colors) {
+                                std::span<const gl::BufferHandle* const> colors) {
     if (count == 0) return;
     const gl::Program& program = radiance_program_;
     program.use();

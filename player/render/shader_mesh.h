@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
 #include "paim/codec/asset.h"
 #include "paim/light/light.h"
@@ -31,15 +32,17 @@ class ShaderMesh {
     void decode(double time, const DecodeLimits& limits, const gl::BufferHandle& positions);
 
     // Writes radiance under a light of the scene, linear RGB; bands beyond the light's are dark.
-    // colors  [V][3] 32-bit floats
+    // colors  [V][3] 32-bit floats: radiance and, if the mesh has a texture, radiance of the same
+    //         surface in white
     void light(double time, const DecodeLimits& limits, const LightCoefficients& light,
-               const gl::BufferHandle& colors);
+               std::span<const gl::BufferHandle* const> colors);
 
   private:
     void upload_albedo() const;
     // Of vertices [first, first + count), under a light in their axes.
     void light_vertices(uint32_t first, uint32_t count, double time, const DecodeLimits& limits,
-                        const LightCoefficients& light, const gl::BufferHandle& colors);
+                        const LightCoefficients& light,
+                        std::span<const gl::BufferHandle* const> colors);
 
     const CodedMesh& mesh_;
     UploadPlan plan_;

@@ -28,7 +28,7 @@ void ShaderVertices::write(double time, const DecodeLimits& limits, const LightC
                            std::span<const Changes> changes, std::span<SurfaceMesh> parts) {
     for (size_t j = 0; j < parts.size(); ++j) {
         if (changes[j].positions) meshes_[j]->decode(time, limits, parts[j].positions());
-        if (changes[j].colors) meshes_[j]->light(time, limits, *light, parts[j].colors());
+        if (changes[j].colors) meshes_[j]->light(time, limits, *light, parts[j].lit());
     }
 }
 

@@ -9,6 +9,7 @@
 #include "paim/base/error.h"
 #include "paim/mesh/face_edges.h"
 #include "player/gl/check.h"
+#include "player/gl/index_range.h"
 
 namespace paim::player {
 
@@ -27,13 +28,6 @@ void point_at(GLuint attribute, const gl::BufferHandle& buffer) {
     glEnableVertexAttribArray(attribute);
 }
 
-template <typename Index>
-void upload_indices(const gl::BufferHandle& buffer, const std::vector<Index>& indices) {
-    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffer.id());
-    glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(Index)),
-                 indices.data(), GL_STATIC_DRAW);
-}
-
 // Replaces all of a buffer. The memory is new, so that no frame that is still drawn waits.
 void replace(const gl::BufferHandle& buffer, const Topology& topology, const void* values,
              size_t num_bytes) {
@@ -42,34 +36,31 @@ void replace(const gl::BufferHandle& buffer, const Topology& topology, const voi
     glBufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(num_bytes), values);
 }
 
-void draw_range(const gl::VertexArrayHandle& array, GLenum mode, size_t corners, size_t first,
-                size_t last) {
-    if (first == last) return;
-    glBindVertexArray(array.id());
-    glDrawElements(mode, static_cast<GLsizei>(corners * (last - first)), GL_UNSIGNED_INT,
-                   reinterpret_cast<const void*>(first * corners * sizeof(uint32_t)));
-}
-
 }  // namespace
 
-SurfaceMesh::SurfaceMesh(const Topology& topology) : topology_(topology) {
+SurfaceMesh::SurfaceMesh(const Topology& topology, bool has_white_radiance) : topology_(topology) {
     constexpr size_t kMostTriangles = std::numeric_limits<GLsizei>::max() / 6;  // 3 edges of 2 each
     if (topology.triangles.size() > kMostTriangles) {
         throw_unsupported("{} triangles, OpenGL draws at most {} at once",
                           topology.triangles.size(), kMostTriangles);
     }
-    for (const gl::BufferHandle* buffer : {&positions_, &colors_}) {
+    if (has_white_radiance) white_radiance_.emplace();
+    std::vector<const gl::BufferHandle*> attributes = lit();
+    attributes.push_back(&positions_);
+    for (const gl::BufferHandle* buffer : attributes) {
         glBindBuffer(GL_ARRAY_BUFFER, buffer->id());
         glBufferData(GL_ARRAY_BUFFER, attribute_bytes(topology), nullptr, GL_STREAM_DRAW);
     }
-    glBindVertexArray(triangle_array_.id());
-    upload_indices(indices_, topology.triangles);
-    for (const gl::VertexArrayHandle* array : {&triangle_array_, &edge_array_}) {
-        glBindVertexArray(array->id());
-        point_at(kPosition, positions_);
-        point_at(kColor, colors_);
-    }
+    attach(edge_array_);
+    attach(triangle_array_);
+    gl::upload_indices(indices_, topology.triangles);
     gl::check_errors("uploading the triangles");
+}
+
+void SurfaceMesh::attach(const gl::VertexArrayHandle& array) const {
+    glBindVertexArray(array.id());
+    point_at(kPosition, positions_);
+    point_at(kColor, colors_);
 }
 
 void SurfaceMesh::upload_positions(std::span<const float> planes) {
@@ -89,13 +80,23 @@ void SurfaceMesh::upload_colors(std::span<const Vec3f> colors) {
     replace(colors_, topology_, colors.data(), colors.size_bytes());
 }
 
+void SurfaceMesh::upload_white_radiance(std::span<const Vec3f> radiance) {
+    PAIM_CHECK_EQ(radiance.size(), size_t{topology_.num_vertices});
+    replace(*white_radiance_, topology_, radiance.data(), radiance.size_bytes());
+}
+
+std::vector<const gl::BufferHandle*> SurfaceMesh::lit() const {
+    if (!white_radiance_) return {&colors_};
+    return {&colors_, &*white_radiance_};
+}
+
 void SurfaceMesh::draw(size_t first, size_t last) const {
-    draw_range(triangle_array_, GL_TRIANGLES, 3, first, last);
+    gl::draw_range(triangle_array_, GL_TRIANGLES, 3, first, last);
 }
 
 void SurfaceMesh::draw_edges(size_t first, size_t last) {
     if (first_edge_.empty()) upload_edges();
-    draw_range(edge_array_, GL_LINES, 2, first_edge_[first], first_edge_[last]);
+    gl::draw_range(edge_array_, GL_LINES, 2, first_edge_[first], first_edge_[last]);
 }
 
 // An edge belongs to the first of its triangles.
@@ -114,13 +115,13 @@ void SurfaceMesh::upload_edges() {
     }
     for (size_t t = 1; t < first_edge_.size(); ++t) first_edge_[t] += first_edge_[t - 1];
     glBindVertexArray(edge_array_.id());
-    upload_indices(edges_, ends);
+    gl::upload_indices(edges_, ends);
     gl::check_errors("uploading the edges");
 }
 
 uint64_t SurfaceMesh::buffer_bytes() const {
     const size_t num_edges = first_edge_.empty() ? 0 : first_edge_.back();
-    return 2 * static_cast<uint64_t>(attribute_bytes(topology_)) +
+    return (1 + lit().size()) * static_cast<uint64_t>(attribute_bytes(topology_)) +
            topology_.triangles.size() * sizeof(Triangle) + num_edges * 2 * sizeof(uint32_t);
 }
 

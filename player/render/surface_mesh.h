@@ -1,8 +1,10 @@
-// The surface of a mesh as OpenGL draws it: a position and a colour for each vertex, and triangles.
+// The surface of a mesh as OpenGL draws it: a position and a colour for each vertex, and triangles; with
+// a texture (render/textured_faces.h) also the radiance of a white surface.
 // Where these come from is not its concern (render/vertex_source.h).
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,24 +19,44 @@ class SurfaceMesh {
     // Makes room for the vertices, whose positions and colours are undefined until something writes
     // them, and uploads the triangles. Keeps a reference to the topology. Errors (unsupported): more
     // triangles than OpenGL draws at once, or not enough memory.
-    explicit SurfaceMesh(const Topology& topology);
+    // has_white_radiance  makes room for it, too
+    explicit SurfaceMesh(const Topology& topology, bool has_white_radiance = false);
 
     uint32_t num_vertices() const { return topology_.num_vertices; }
 
     // [V][3] 32-bit floats each: local positions in scene units, and linear RGB.
     const gl::BufferHandle& positions() const { return positions_; }
     const gl::BufferHandle& colors() const { return colors_; }
+    bool has_white_radiance() const { return white_radiance_.has_value(); }
+    const gl::BufferHandle& white_radiance() const { return *white_radiance_; }
+    // What light changes: the colours, then the white radiance if there is one.
+    std::vector<const gl::BufferHandle*> lit() const;
 
     // planes  [3][V]: all x, then all y, then all z
     void upload_positions(std::span<const float> planes);
     void upload_colors(std::span<const Vec3f> colors);
+    void upload_white_radiance(std::span<const Vec3f> radiance);
+
+    // How often positions, and radiance, were written (VertexSource), so that copies know when they
+    // are out of date.
+    struct Writes {
+        uint64_t positions = 0, radiance = 0;
+    };
+    const Writes& writes() const { return writes_; }
+    void count_writes(bool positions, bool radiance) {
+        writes_.positions += positions ? 1 : 0;
+        writes_.radiance += radiance ? 1 : 0;
+    }
+
+    // Binds a vertex array and makes positions and colours its attributes 0 and 1.
+    void attach(const gl::VertexArrayHandle& array) const;
 
     // Draws triangles [first, last) with attribute 0, the position, and attribute 1, the colour.
     void draw(size_t first, size_t last) const;
     // Draws the edges of triangles [first, last) in the same way, each edge once.
     void draw_edges(size_t first, size_t last);
 
-    // Of both attributes and all indices.
+    // Of all attributes and indices.
     uint64_t buffer_bytes() const;
 
   private:
@@ -42,6 +64,8 @@ class SurfaceMesh {
 
     const Topology& topology_;
     gl::BufferHandle positions_, colors_, indices_, edges_;
+    std::optional<gl::BufferHandle> white_radiance_;
+    Writes writes_;
     gl::VertexArrayHandle triangle_array_, edge_array_;
     std::vector<float> scratch_;
     // [T + 1] The first of the edges that triangle t and those after it bring; empty: edges have not

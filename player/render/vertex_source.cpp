@@ -36,6 +36,7 @@ void VertexSource::update(double time, const DecodeLimits& limits, const LightCo
     if (std::none_of(changes.begin(), changes.end(), is_change)) return;
     write(time, limits, light, changes, parts);
     for (size_t j = 0; j < written_.size(); ++j) {
+        parts[j].count_writes(changes[j].positions, changes[j].colors);
         written_[j].pose = wanted[j].pose;
         if (light != nullptr) written_[j].lit = std::move(wanted[j].lit);
     }

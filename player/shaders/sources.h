@@ -12,6 +12,8 @@ extern const std::string_view radiance_vert;
 extern const std::string_view nothing_frag;
 extern const std::string_view surface_vert;
 extern const std::string_view surface_frag;
+extern const std::string_view textured_vert;
+extern const std::string_view textured_frag;
 extern const std::string_view fullscreen_vert;
 extern const std::string_view background_frag;
 extern const std::string_view tone_curve_glsl;

@@ -71,6 +71,7 @@ void visit_fields(View& view, Visitor&& visit) {
     visit.word("surface.view", view.surface, surface_view_names());
     visit.count("surface.coefficient", view.coefficient, 0, kMaxCoefficient);
     visit.count("surface.channel", view.channel, 0, kLuminance);
+    visit.flag("surface.textures", view.textures);
     visit.flag("surface.edges", view.edges);
     visit.word("comparison.kind", view.comparison, comparison_names());
     visit.number("comparison.split", view.split, 0.0, 1.0);

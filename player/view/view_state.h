@@ -70,6 +70,7 @@ struct ViewState {
     SurfaceView surface = SurfaceView::lit;
     uint32_t coefficient = 0;  // of SurfaceView::coefficient
     uint32_t channel = kLuminance;
+    bool textures = true;  // images where faces have them, instead of the albedo of vertices
     bool edges = false;
     Comparison comparison = Comparison::none;
     double split = 0.5;  // where a wipe divides the picture, 0 at the left

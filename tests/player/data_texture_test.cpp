@@ -62,10 +62,30 @@ TEST_F(DataTextureTest, KeepsEveryKindOfValue) {
     expect_round_trip<int16_t>(TexelFormat::r16i, GL_RED_INTEGER, GL_SHORT, words);
     const auto floats = [](int64_t j) { return static_cast<float>(j) * 0.1f; };
     expect_round_trip<float>(TexelFormat::rgba32f, GL_RGBA, GL_FLOAT, floats);
+    expect_round_trip<float>(TexelFormat::rgb32f, GL_RGB, GL_FLOAT, floats);
     expect_round_trip<float>(TexelFormat::r32f, GL_RED, GL_FLOAT, floats);
     // Half floats hold whole numbers up to 2048.
     expect_round_trip<float, Eigen::half>(TexelFormat::rgba16f, GL_RGBA, GL_HALF_FLOAT,
                                           [](int64_t j) { return static_cast<float>(j % 2049); });
+}
+
+// Whole rows and a part of one; fewer than a row.
+TEST_F(DataTextureTest, CopiesABuffer) {
+    for (const int64_t num_texels : {kTexels, int64_t{700}}) {
+        std::vector<float> values(3 * static_cast<size_t>(num_texels));
+        for (size_t j = 0; j < values.size(); ++j) values[j] = static_cast<float>(j);
+        const BufferHandle buffer;
+        glBindBuffer(GL_ARRAY_BUFFER, buffer.id());
+        glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(values.size() * sizeof(float)),
+                     values.data(), GL_STATIC_DRAW);
+        const DataTexture texture("the test", TexelFormat::rgb32f, kWidthLog2, num_texels);
+        texture.copy(buffer);
+        const auto held = read<float>(texture, GL_RGB, GL_FLOAT);
+        for (size_t j = 0; j < values.size(); ++j) ASSERT_EQ(held[j], values[j]) << j;
+        // Later uploads are from memory again.
+        texture.upload([](int64_t, std::span<float> out) { std::ranges::fill(out, 5.0f); });
+        EXPECT_EQ(read<float>(texture, GL_RGB, GL_FLOAT)[1], 5.0f);
+    }
 }
 
 TEST_F(DataTextureTest, UpdatesTheFirstTexelsAlone) {

@@ -42,7 +42,7 @@ class MeshRenderer {
 
     void draw(const Frame& frame, const LightCoefficients& light, float aspect) {
         decoder_.decode(frame.time, frame.limits, surface_.positions());
-        decoder_.light(frame.time, frame.limits, light, surface_.colors());
+        decoder_.light(frame.time, frame.limits, light, surface_.lit());
         const Topology& topology = mesh_.topology;
         const SurfacePlace place{topology.num_triangles_before(mesh_.num_following),
                                  root_at(mesh_.root_motion, frame.time)};

@@ -67,6 +67,7 @@ void draw_surface(const PanelInfo& info, const ViewRange& range, ViewState& view
     }
     note_text(std::string(row_of(view.surface).description));
     if (view.surface == SurfaceView::coefficient) choose_coefficient(range, view);
+    if (info.has_textures) ImGui::Checkbox("textures", &view.textures);
     ImGui::Checkbox("edges of triangles", &view.edges);
     if (info.coefficient_lobe != nullptr) {
         picture(*info.coefficient_lobe, 8.0f * ImGui::GetFontSize(), Rows::bottom_up);
