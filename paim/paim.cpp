@@ -160,7 +160,6 @@ paim_status paim_asset_get_part(const paim_asset* asset, uint32_t part, paim_par
              0,
              0};
     if (mesh.gloss) {
-        info->num_bands = std::max(info->num_bands, mesh.gloss->layout.in_bands);
         info->num_glossy = mesh.gloss->num_rows;
         info->num_out_bands = mesh.gloss->layout.out_bands;
     }

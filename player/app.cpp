@@ -274,6 +274,8 @@ PanelInfo App::panel_info() {
     info.buffer_bytes = renderer.buffer_bytes();
     info.num_vertices = mesh.topology.num_vertices;
     info.num_triangles = static_cast<uint32_t>(mesh.topology.triangles.size());
+    info.has_gloss = std::ranges::any_of(
+        session_->asset().parts, [](const CodedMesh& part) { return part.gloss.has_value(); });
     info.has_textures = std::ranges::any_of(
         session_->asset().parts, [](const CodedMesh& part) { return !part.texture.empty(); });
     info.frame_ms = frame_ms_;

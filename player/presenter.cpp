@@ -138,6 +138,7 @@ Frame Presenter::frame(const ViewState& view, const DecodeLimits& limits) {
     frame.time = time(view);
     frame.limits = limits;
     frame.light = light_of(view);
+    frame.gloss = view.gloss;
     frame.textures = view.textures;
     frame.edges = view.edges;
     frame.instances = crowd(view);

@@ -82,7 +82,7 @@ Scene make_scene(Options& options, LoadedAsset loaded) {
                                         asked->count, own ? vertex_components : 0, true);
         if (own) limits.vertex_components = limit;
     }
-    limits.bands = limit_of("--bands", "bands", wanted.bands, mesh.layout.in_bands, true);
+    limits.bands = limit_of("--bands", "bands", wanted.bands, mesh.light_bands(), true);
 
     scene.environment = load_environment(options);
     return scene;

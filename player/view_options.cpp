@@ -15,7 +15,7 @@ namespace paim::player {
 
 // As typed; checked and converted afterwards. An option that is not given holds nothing.
 struct ViewOptions::Raw {
-    std::optional<std::string> background, exposure, key_light, surface, compare, tone_map;
+    std::optional<std::string> background, exposure, key_light, surface, compare, tone_map, gloss;
     std::optional<double> pose, speed, env_rotation, env_pitch, env_roll, env_strength, turn_light,
         turn_camera, gamma, coefficient, split, instances;
     bool ping_pong = false, whole_poses = false, no_textures = false, edges = false;
@@ -136,6 +136,9 @@ ViewOptions::ViewOptions(CLI::App& app) : raw_(std::make_unique<Raw>()) {
     surface.add("--coefficient", raw_->coefficient, "I",
                 "The coefficient of --surface coefficient, I = l (l + 1) + m for band l and order "
                 "m, 0 to 4095 (default: 0)");
+    surface.add("--gloss", raw_->gloss, "pixel|vertex|off",
+                "Where gloss is computed: at each pixel, at each vertex, which is faster and blurs "
+                "narrow highlights, or not at all (default: pixel)");
     surface.add_flag("--no-textures", raw_->no_textures,
                      "Show the albedo of the vertices where faces have images");
     surface.add_flag("--edges", raw_->edges, "Draw the edges of the triangles, too");
@@ -211,6 +214,10 @@ ViewChanges ViewOptions::changes() const {
         raw.compare,
         [](const std::string& text) { return parse_word("--compare", text, comparison_names()); },
         [](View& v, Comparison comparison) { v.comparison = comparison; });
+    value(
+        raw.gloss,
+        [](const std::string& text) { return parse_word("--gloss", text, gloss_detail_names()); },
+        [](View& v, GlossDetail gloss) { v.gloss = gloss; });
     if (!auto_exposure()) {
         value(raw.exposure, parse_exposure,
               [](View& v, float exposure_ev) { v.tone_curve.exposure_ev = exposure_ev; });

@@ -56,6 +56,10 @@ struct CodedMesh {
     uint32_t num_poses() const {
         return std::max(positions.num_poses, transfer.empty() ? 0u : transfer->matrix.num_poses);
     }
+    // Bands of light that the transfer or the gloss responds to.
+    uint32_t light_bands() const {
+        return std::max(layout.in_bands, gloss ? gloss->layout.in_bands : 0u);
+    }
     bool has(Attribute which) const { return which != Attribute::gloss || gloss.has_value(); }
     // The attributes that it has, in the order of their numbers.
     std::vector<Attribute> attributes() const {

@@ -149,10 +149,7 @@ size_t Playback::num_parts() const {
 
 void Playback::set_light(const LightField& light) {
     for (Part& part : state_->parts) {
-        const CodedGloss* const gloss = part.mesh.gloss ? &*part.mesh.gloss : nullptr;
-        const uint32_t bands =
-            std::max(part.mesh.layout.in_bands, gloss != nullptr ? gloss->layout.in_bands : 0);
-        part.light = light.at(part.centre_in_scene(), static_cast<int>(bands));
+        part.light = light.at(part.centre_in_scene(), static_cast<int>(part.mesh.light_bands()));
         part.is_lit = false;
     }
 }

@@ -11,8 +11,8 @@ namespace paim::player {
 namespace {
 
 DecodeLimits all_of(const CodedMesh& mesh) {
-    return {mesh.positions.num_components, mesh.transfer->matrix.num_components,
-            mesh.layout.in_bands, mesh.transfer->num_vertex_components()};
+    return {mesh.positions.num_components, mesh.transfer->matrix.num_components, mesh.light_bands(),
+            mesh.transfer->num_vertex_components()};
 }
 
 }  // namespace
@@ -40,6 +40,7 @@ void CpuVertices::write(double time, const DecodeLimits& limits, const LightCoef
         if (parts[j].has_white_radiance()) {
             parts[j].upload_white_radiance(playback_.white_radiance(j));
         }
+        if (parts[j].gloss() != nullptr) parts[j].gloss()->upload(playback_.exit_radiance(j));
     }
 }
 

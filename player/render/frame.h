@@ -36,6 +36,11 @@ struct PictureRegion {
     }
 };
 
+// Where the radiance of gloss towards the eye is summed: at vertices, whose sums are interpolated, or at
+// pixels, for which outgoing coefficients are interpolated (vertices where this driver cannot). Narrow
+// lobes need the second.
+enum class GlossDetail { none, vertex, pixel };
+
 // One copy of the asset.
 struct Instance {
     double time_offset = 0.0;      // in poses from the time of the frame, up to ±(P−1)
@@ -53,6 +58,7 @@ struct Frame {
     LightCoefficients light;  // of the scene
     // Colours to show instead of radiance, of the pose at a time; valid until the next call.
     std::function<const PartColors&(double time)> colors;
+    GlossDetail gloss = GlossDetail::pixel;
     bool textures = true;  // where faces have images; otherwise the albedo of their vertices
     bool edges = false;    // draws the edges of all triangles, too
     std::vector<Instance> instances{Instance{}};

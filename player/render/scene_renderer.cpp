@@ -21,7 +21,7 @@ void SceneRenderer::set_asset(std::shared_ptr<const Asset> asset, const DecodeLi
     std::vector<SurfaceMesh> surfaces;
     std::vector<size_t> num_following;
     for (const CodedMesh& mesh : asset->parts) {
-        surfaces.emplace_back(mesh.topology, !mesh.texture.empty());
+        surfaces.emplace_back(mesh);
         num_following.push_back(mesh.topology.num_triangles_before(mesh.num_following));
     }
     std::vector<std::optional<TexturedFaces>> textured(surfaces.size());
@@ -52,6 +52,9 @@ std::shared_ptr<const ImageTextures> SceneRenderer::images_of(const Asset& asset
 uint64_t SceneRenderer::texture_bytes() const {
     uint64_t bytes = vertices_->texture_bytes();
     for (const auto& textured : textured_) bytes += textured ? textured->texture_bytes() : 0;
+    for (const SurfaceMesh& surface : surfaces_) {
+        bytes += surface.gloss() != nullptr ? surface.gloss()->texture_bytes() : 0;
+    }
     return bytes;
 }
 

@@ -1,6 +1,7 @@
 // One ShaderMesh for each part.
 #include "player/render/shader_vertices.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace paim::player {
@@ -9,12 +10,14 @@ ShaderVertices::ShaderVertices(std::shared_ptr<const Asset> asset, const DecodeL
     : VertexSource(*asset), asset_(std::move(asset)) {
     for (const CodedMesh& mesh : asset_->parts) {
         meshes_.push_back(std::make_unique<ShaderMesh>(mesh, limits));
+        glosses_.push_back(mesh.gloss ? std::make_unique<GlossPlayer>(*mesh.gloss) : nullptr);
     }
+    most_bands_ = std::min(limits.bands, asset_->moving().light_bands());
 }
 
 DecodeLimits ShaderVertices::most() const {
     const UploadPlan& plan = meshes_.front()->plan();
-    return {plan.geometry_components, plan.transfer_components, plan.layout.in_bands,
+    return {plan.geometry_components, plan.transfer_components, most_bands_,
             plan.vertex_components};
 }
 
@@ -28,7 +31,14 @@ void ShaderVertices::write(double time, const DecodeLimits& limits, const LightC
                            std::span<const Changes> changes, std::span<SurfaceMesh> parts) {
     for (size_t j = 0; j < parts.size(); ++j) {
         if (changes[j].positions) meshes_[j]->decode(time, limits, parts[j].positions());
-        if (changes[j].colors) meshes_[j]->light(time, limits, *light, parts[j].lit());
+        if (!changes[j].colors) continue;
+        meshes_[j]->light(time, limits, *light, parts[j].lit());
+        if (glosses_[j] == nullptr) continue;
+        // Outgoing coefficients are few, and are computed on the CPU.
+        const CodedMesh& mesh = asset_->parts[j];
+        const double own_time = mesh.num_poses() == 1 ? 0.0 : time;
+        glosses_[j]->light(own_time, limits, to_local(*light, root_at(mesh.root_motion, own_time)));
+        parts[j].gloss()->upload(glosses_[j]->exit_radiance());
     }
 }
 

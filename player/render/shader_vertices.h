@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "paim/codec/gloss_player.h"
 #include "player/render/shader_mesh.h"
 #include "player/render/vertex_source.h"
 
@@ -24,6 +25,8 @@ class ShaderVertices : public VertexSource {
 
     std::shared_ptr<const Asset> asset_;
     std::vector<std::unique_ptr<ShaderMesh>> meshes_;
+    std::vector<std::unique_ptr<GlossPlayer>> glosses_;  // [parts]; null where there is no gloss
+    uint32_t most_bands_ = 0;                            // of light
 };
 
 }  // namespace paim::player

@@ -57,6 +57,11 @@ SurfaceMesh::SurfaceMesh(const Topology& topology, bool has_white_radiance) : to
     gl::check_errors("uploading the triangles");
 }
 
+SurfaceMesh::SurfaceMesh(const CodedMesh& mesh)
+    : SurfaceMesh(mesh.topology, !mesh.texture.empty()) {
+    if (mesh.gloss) gloss_.emplace(mesh);
+}
+
 void SurfaceMesh::attach(const gl::VertexArrayHandle& array) const {
     glBindVertexArray(array.id());
     point_at(kPosition, positions_);

@@ -11,6 +11,7 @@
 #include "paim/base/vector.h"
 #include "paim/mesh/topology.h"
 #include "player/gl/handle.h"
+#include "player/render/surface_gloss.h"
 
 namespace paim::player {
 
@@ -21,6 +22,8 @@ class SurfaceMesh {
     // triangles than OpenGL draws at once, or not enough memory.
     // has_white_radiance  makes room for it, too
     explicit SurfaceMesh(const Topology& topology, bool has_white_radiance = false);
+    // The same for all that a coded mesh has: white radiance if it has a texture, and gloss.
+    explicit SurfaceMesh(const CodedMesh& mesh);
 
     uint32_t num_vertices() const { return topology_.num_vertices; }
 
@@ -29,7 +32,9 @@ class SurfaceMesh {
     const gl::BufferHandle& colors() const { return colors_; }
     bool has_white_radiance() const { return white_radiance_.has_value(); }
     const gl::BufferHandle& white_radiance() const { return *white_radiance_; }
-    // What light changes: the colours, then the white radiance if there is one.
+    // nullptr if the surface has none.
+    const SurfaceGloss* gloss() const { return gloss_ ? &*gloss_ : nullptr; }
+    // What light changes of buffers: the colours, then the white radiance if there is one.
     std::vector<const gl::BufferHandle*> lit() const;
 
     // planes  [3][V]: all x, then all y, then all z
@@ -65,6 +70,7 @@ class SurfaceMesh {
     const Topology& topology_;
     gl::BufferHandle positions_, colors_, indices_, edges_;
     std::optional<gl::BufferHandle> white_radiance_;
+    std::optional<SurfaceGloss> gloss_;
     Writes writes_;
     gl::VertexArrayHandle triangle_array_, edge_array_;
     std::vector<float> scratch_;

@@ -1,10 +1,12 @@
 // Draws surfaces in the colours of their vertices, or of the images on their faces.
 #pragma once
 
-#include <optional>
+#include <map>
+#include <string_view>
 
 #include "paim/mesh/root_motion.h"
 #include "player/render/frame.h"
+#include "player/render/gloss_shader.h"
 #include "player/render/picture_program.h"
 #include "player/render/surface_mesh.h"
 #include "player/render/textured_faces.h"
@@ -21,8 +23,6 @@ struct SurfacePlace {
 
 class SurfaceRenderer {
   public:
-    SurfaceRenderer();
-
     // Draws over what the current target holds.
     // aspect    of the whole picture
     // textured  of the surface, to draw images on their faces; nullptr: colours of vertices alone
@@ -39,10 +39,16 @@ class SurfaceRenderer {
     };
     void draw_in_place(const Faces& faces, const RigidTransform& root, const Frame& frame,
                        float aspect);
-    void draw_faces(const Faces& faces, const glm::mat4& matrix, const Frame& frame);
+    void draw_faces(const Faces& faces, const RigidTransform& root, const glm::mat4& matrix,
+                    const Frame& frame);
 
-    PictureProgram program_;
-    std::optional<PictureProgram> textured_program_;  // made when it is first used
+    // Those of surfaces without gloss and of each kind of gloss, made when they are first used.
+    using Programs = std::map<GlossShader, PictureProgram>;
+    const gl::Program& use(Programs& programs, const char* name, std::string_view vertex_source,
+                           std::string_view fragment_source, const Faces& faces,
+                           const RigidTransform& root, const Frame& frame);
+
+    Programs plain_, textured_;
 };
 
 }  // namespace paim::player

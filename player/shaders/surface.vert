@@ -1,4 +1,5 @@
-// A vertex of a surface: its position and its colour are attributes.
+// A vertex of a surface: its position and its colour are attributes. pass_gloss() is that of
+// player/render/gloss_shader.h.
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 color;
 
@@ -10,5 +11,6 @@ out vec3 vertex_color;
 
 void main() {
     vertex_color = color;
+    pass_gloss(gl_VertexID, position);
     gl_Position = clip_from_local * vec4(position, 1.0);
 }

@@ -21,4 +21,6 @@ vec3 image_color() {
                level - finer);
 }
 
-void main() { color = vec4(shown(white_radiance * factor * image_color()), 1.0); }
+void main() {
+    color = vec4(shown(white_radiance * factor * image_color() + gloss_radiance()), 1.0);
+}

@@ -15,5 +15,7 @@ out vec2 image_place;
 void main() {
     white_radiance = fetch(white_radiances, int(vertex)).rgb;
     image_place = place_in_image;
-    gl_Position = clip_from_local * vec4(fetch(positions, int(vertex)).xyz, 1.0);
+    vec3 position = fetch(positions, int(vertex)).xyz;
+    pass_gloss(int(vertex), position);
+    gl_Position = clip_from_local * vec4(position, 1.0);
 }

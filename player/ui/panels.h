@@ -40,7 +40,7 @@ struct PanelInfo {
     std::string loading;  // how much of the file is there, or empty
     uint64_t file_bytes = 0, texture_bytes = 0, buffer_bytes = 0;
     uint32_t num_vertices = 0, num_triangles = 0;
-    bool has_textures = false;
+    bool has_gloss = false, has_textures = false;
     double frame_ms = 0.0;
     float poses_per_second = 24.0f;
 

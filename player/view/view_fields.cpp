@@ -28,4 +28,9 @@ Names<SurfaceView> surface_view_names() {
     return names;
 }
 
+Names<GlossDetail> gloss_detail_names() {
+    return {
+        {"pixel", GlossDetail::pixel}, {"vertex", GlossDetail::vertex}, {"off", GlossDetail::none}};
+}
+
 }  // namespace paim::player

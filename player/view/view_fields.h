@@ -20,6 +20,7 @@ Names<CameraTarget> camera_target_names();
 Names<Comparison> comparison_names();
 Names<Background::Kind> background_names();
 Names<SurfaceView> surface_view_names();
+Names<GlossDetail> gloss_detail_names();
 
 // Calls a function of the visitor for each field of the view. Names are paths: "light.yaw_deg".
 //   numbers   visit.number(name, value, lowest, highest): double or float
@@ -71,6 +72,7 @@ void visit_fields(View& view, Visitor&& visit) {
     visit.word("surface.view", view.surface, surface_view_names());
     visit.count("surface.coefficient", view.coefficient, 0, kMaxCoefficient);
     visit.count("surface.channel", view.channel, 0, kLuminance);
+    visit.word("surface.gloss", view.gloss, gloss_detail_names());
     visit.flag("surface.textures", view.textures);
     visit.flag("surface.edges", view.edges);
     visit.word("comparison.kind", view.comparison, comparison_names());

@@ -70,6 +70,7 @@ struct ViewState {
     SurfaceView surface = SurfaceView::lit;
     uint32_t coefficient = 0;  // of SurfaceView::coefficient
     uint32_t channel = kLuminance;
+    GlossDetail gloss = GlossDetail::pixel;
     bool textures = true;  // images where faces have them, instead of the albedo of vertices
     bool edges = false;
     Comparison comparison = Comparison::none;

@@ -7,6 +7,7 @@
 #include "player/inspect/false_color.h"
 #include "player/ui/panels.h"
 #include "player/ui/widgets.h"
+#include "player/view/view_fields.h"
 
 namespace paim::player {
 
@@ -56,6 +57,16 @@ void choose_coefficient(const ViewRange& range, ViewState& view) {
     }
 }
 
+void choose_gloss(ViewState& view) {
+    const Names<GlossDetail> names = gloss_detail_names();
+    size_t chosen = 0;
+    while (names[chosen].second != view.gloss) ++chosen;
+    ImGui::SetNextItemWidth(8.0f * ImGui::GetFontSize());
+    if (choice("gloss", chosen, names.size(), [&](size_t i) { return names[i].first; })) {
+        view.gloss = names[chosen].second;
+    }
+}
+
 }  // namespace
 
 void draw_surface(const PanelInfo& info, const ViewRange& range, ViewState& view) {
@@ -67,6 +78,7 @@ void draw_surface(const PanelInfo& info, const ViewRange& range, ViewState& view
     }
     note_text(std::string(row_of(view.surface).description));
     if (view.surface == SurfaceView::coefficient) choose_coefficient(range, view);
+    if (info.has_gloss) choose_gloss(view);
     if (info.has_textures) ImGui::Checkbox("textures", &view.textures);
     ImGui::Checkbox("edges of triangles", &view.edges);
     if (info.coefficient_lobe != nullptr) {
