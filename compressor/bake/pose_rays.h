@@ -25,15 +25,11 @@ struct PoseRays {
           neighbours(own_topology),
           rounds(options, p, own_topology.num_vertices),
           num_rays(own_topology.num_vertices, 0),
-          num_occluded(own_topology.num_vertices, 0) {}
+          num_occluded(own_topology.num_vertices, 0),
+          open_around(own_topology.num_vertices, 0.0) {}
 
     size_t num_vertices() const { return topology.num_vertices; }
     bool has_normal(size_t v) const { return !pose.normals[v].isZero(0.0f); }
-
-    // The mean fraction of open rays of the neighbours.
-    double open_fraction_around(size_t v) const {
-        return paim::open_fraction_around(neighbours, v, num_rays, num_occluded);
-    }
 
     const Topology& topology;
     const Pose& pose;
@@ -43,6 +39,8 @@ struct PoseRays {
     RayRounds rounds;
     std::vector<uint64_t> num_rays;      // [V] above the horizon and traced
     std::vector<uint64_t> num_occluded;  // [V] of these
+    // [V] the factor c of an unoccluded vertex in its estimate (split_estimate.h)
+    std::vector<double> open_around;
 };
 
 }  // namespace paim

@@ -1,4 +1,4 @@
-// Diffuse shadowed transfer of one pose.
+// Shadowed transfer of one pose.
 // Based on: Sloan, Kautz and Snyder, Precomputed Radiance Transfer for Real-Time Rendering in
 //           Dynamic, Low-Frequency Lighting Environments, 2002
 #include "compressor/bake/transfer_baker.h"
@@ -9,7 +9,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "compressor/bake/gloss_pass.h"
 #include "compressor/bake/noise_target.h"
+#include "compressor/bake/pose_bounces.h"
 #include "compressor/bake/pose_rays.h"
 #include "compressor/bake/split_estimate.h"
 #include "paim/base/check.h"
@@ -57,6 +59,16 @@ uint32_t points_of_round(double wanted, uint64_t traced, uint64_t limit) {
     return points <= left ? points : 0;
 }
 
+// Turns the estimates of the halves into their mean and half their difference, scaled.
+void to_mean_and_noise(float noise_scale, std::array<std::vector<float>, 2>& halves) {
+    for (size_t r = 0; r < halves[0].size(); ++r) {
+        const float a = halves[0][r];
+        const float b = halves[1][r];
+        halves[0][r] = 0.5f * (a + b);
+        halves[1][r] = noise_scale * (a - b);
+    }
+}
+
 }  // namespace
 
 // The state of baking one pose.
@@ -64,12 +76,13 @@ class TransferBaker::PoseBake {
   public:
     // still_mesh  with still_terms, if light bounces
     PoseBake(const TransferBaker& baker, const Topology& topology, const Pose& pose, uint32_t p,
-             const Albedo& albedo, const StillMesh& still_mesh)
+             const Albedo& albedo, const Materials& materials, const StillMesh& still_mesh)
         : baker_(baker),
           options_(baker.options_),
           albedo_(albedo),
           still_mesh_(still_mesh),
           rays_(topology, pose, still_mesh, options_, p),
+          gloss_rows_(topology, materials, baker.reflections_),
           lobe_(cosine_lobe_by_coefficient(options_.bands)),
           num_points_(topology.num_vertices, 0),
           information_(topology.num_vertices, 0.0),
@@ -78,10 +91,13 @@ class TransferBaker::PoseBake {
     }
 
     // terms  receives those of the bounces, unless nullptr
-    BakedPose run(BounceTerms* terms) {
+    BakedPose run(StillTerms* terms) {
         const size_t part = std::max<size_t>(1, kMaxSums / (4 * num_coefficients()));
         for (size_t begin = 0; begin < num_vertices(); begin += part) {
             bake_part(begin, std::min<size_t>(num_vertices(), begin + part));
+        }
+        if (!gloss_rows_.vertices.empty()) {
+            gloss_ = estimate_gloss(rays_, gloss_rows_, *baker_.gloss_layout_, baker_.gloss_basis_);
         }
         if (options_.bounces > 0) bounce(terms);
         return finish();
@@ -107,6 +123,7 @@ class TransferBaker::PoseBake {
 
     size_t num_coefficients() const { return lobe_.size(); }
     size_t num_vertices() const { return rays_.num_vertices(); }
+    bool has_closed_form() const { return options_.sampler == SamplerKind::cosine; }
     double weight(const DirectionSampler& sampler) const { return rays_.rounds.weight(sampler); }
 
     // Traces another round of a vertex's rays. If it is the only one, rays that are all open or all
@@ -132,17 +149,17 @@ class TransferBaker::PoseBake {
     // Writes the estimates of both halves from their present sums.
     void estimate(const NextRound& next, size_t round, Halves& halves, Workspace& work) {
         const size_t v = next.vertex;
-        const bool has_closed_form = options_.sampler == SamplerKind::cosine;
         std::span<const double> unoccluded;
         double c = 0.0;
-        if (has_closed_form) {
+        if (has_closed_form()) {
             sh::evaluate_basis(static_cast<int>(options_.bands),
                                rays_.pose.normals[v].cast<double>(), std::span(work.unoccluded));
             for (size_t i = 0; i < num_coefficients(); ++i) work.unoccluded[i] *= lobe_[i];
             unoccluded = work.unoccluded;
-            c = rays_.open_fraction_around(v);
+            c = rays_.open_around[v] =
+                open_fraction_around(rays_.neighbours, v, rays_.num_rays, rays_.num_occluded);
         }
-        if (has_closed_form && rays_.num_occluded[v] == 0 && c == 1.0) {
+        if (has_closed_form() && rays_.num_occluded[v] == 0 && c == 1.0) {
             for (auto& half : work.estimates) half = work.unoccluded;
         } else if (rays_.num_occluded[v] == rays_.num_rays[v] && c == 0.0) {
             for (auto& half : work.estimates) std::fill(half.begin(), half.end(), 0.0);
@@ -219,58 +236,28 @@ class TransferBaker::PoseBake {
     }
 
     // Adds bounced light to the estimates of the halves, by the same rays.
-    void bounce(BounceTerms* terms) {
-        Topology topology = rays_.topology;
-        topology.append(still_mesh_.topology);
-        std::vector<Vec3f> positions = rays_.pose.positions;
-        positions.insert(positions.end(), still_mesh_.pose.positions.begin(),
-                         still_mesh_.pose.positions.end());
-        std::vector<uint32_t> num_back_hits[2];
-        for (auto& counts : num_back_hits) counts.resize(num_vertices(), 0);
-        BounceScene scene;
-        scene.layout = baker_.layout();
-        scene.num_vertices = num_vertices();
-        scene.albedo = albedo_;
-        scene.num_still_vertices = still_mesh_.topology.num_vertices;
-        scene.still_albedo = still_mesh_.albedo;
-        scene.still_terms = &baker_.still_terms_;
-        scene.make_row = [&](size_t v, size_t half, TransportRow& row) {
-            row.clear();
-            if (rays_.num_occluded[v] == 0) return;
-            const Vec3f& normal = rays_.pose.normals[v];
-            const auto vertex = static_cast<uint32_t>(v);
-            const RayStart start = rays_.starts[v];
-            HitTracer tracer(rays_.scene, topology, positions);
-            rays_.rounds.for_each(
-                v, [&](const DirectionSampler& sampler, const HalfKeys& keys, double weight) {
-                    tracer.trace(vertex, start, normal, sampler, keys, static_cast<uint32_t>(half),
-                                 weight);
-                });
-            num_back_hits[half][v] = tracer.num_back_hits();
-            tracer.end(row);
-        };
-        BounceTerms bounced = add_bounces(scene, options_.bounces, halves_, terms != nullptr);
-        if (terms != nullptr) *terms = std::move(bounced);
-        for (const auto& counts : num_back_hits) {
-            num_all_back_hits_ = std::accumulate(counts.begin(), counts.end(), num_all_back_hits_);
-        }
+    void bounce(StillTerms* terms) {
+        const GlossRows still_rows(still_mesh_.topology, still_mesh_.materials,
+                                   baker_.reflections_);
+        const PoseBounces bounces{rays_,           albedo_,
+                                  gloss_rows_,     still_mesh_,
+                                  still_rows,      baker_.still_terms_,
+                                  baker_.layout(), baker_.gloss_layout_};
+        num_back_hits_ = add_bounces(bounces, options_.bounces, halves_, gloss_, terms);
     }
 
-    // Turns the estimates of the halves into transfer (their mean) and noise (half their
-    // difference, scaled).
+    // Transfer is the mean of the halves, and noise half their difference, scaled.
     BakedPose finish() {
         BakedPose baked;
         baked.positions = to_planes(rays_.pose.positions);
         baked.normals = to_planes(rays_.pose.normals);
         const auto noise_scale = static_cast<float>(0.5 * baker_.samplers_.first().noise_scale());
-        for (size_t r = 0; r < halves_[0].size(); ++r) {
-            const float a = halves_[0][r];
-            const float b = halves_[1][r];
-            halves_[0][r] = 0.5f * (a + b);
-            halves_[1][r] = noise_scale * (a - b);
-        }
+        to_mean_and_noise(noise_scale, halves_);
         baked.transfer = std::move(halves_[0]);
         baked.noise = std::move(halves_[1]);
+        to_mean_and_noise(noise_scale, gloss_);
+        baked.gloss = std::move(gloss_[0]);
+        baked.gloss_noise = std::move(gloss_[1]);
         PoseStatistics& statistics = baked.statistics;
         statistics.rays =
             std::accumulate(rays_.num_rays.begin(), rays_.num_rays.end(), uint64_t{0});
@@ -280,7 +267,7 @@ class TransferBaker::PoseBake {
             statistics.zero_normals += rays_.has_normal(v) ? 0 : 1;
         }
         statistics.above_target = num_above_target_;
-        statistics.back_hits = num_all_back_hits_;
+        statistics.back_hits = num_back_hits_;
         const TransferLayout layout = baker_.layout();
         statistics.transfer_rms = rms_by_band(layout, baked.transfer);
         statistics.noise_rms = rms_by_band(layout, baked.noise);
@@ -292,12 +279,14 @@ class TransferBaker::PoseBake {
     const Albedo& albedo_;
     const StillMesh& still_mesh_;
     PoseRays rays_;
+    const GlossRows gloss_rows_;
     const std::vector<double> lobe_;  // [C]
     // [planes][V] the estimates of both halves; of one channel until bounced light is added
     std::array<std::vector<float>, 2> halves_;
-    std::vector<uint64_t> num_points_;  // [V] of a half
-    std::vector<double> information_;   // [V] noise_target.h
-    uint64_t num_all_back_hits_ = 0;
+    std::array<std::vector<float>, 2> gloss_;  // the same of glossy transfer, [planes][R]
+    std::vector<uint64_t> num_points_;         // [V] of a half
+    std::vector<double> information_;          // [V] noise_target.h
+    uint64_t num_back_hits_ = 0;
     std::vector<double> noise_energy_;  // [V] Σ_i noise²
     uint32_t num_above_target_ = 0;
 };
@@ -315,34 +304,52 @@ const DirectionSampler& TransferBaker::Samplers::of(uint32_t num_points) const {
     return *sampler;
 }
 
-TransferBaker::TransferBaker(const BakeOptions& options, Albedo albedo, StillMesh still_mesh)
+TransferBaker::TransferBaker(const BakeOptions& options, Albedo albedo, StillMesh still_mesh,
+                             Materials materials)
     : options_(options),
       albedo_(std::move(albedo)),
       still_mesh_(std::move(still_mesh)),
+      materials_(std::move(materials)),
+      gloss_layout_(gloss_layout(options_, albedo_, still_mesh_, materials_)),
       samplers_(options),
-      basis_(static_cast<int>(options.bands)) {
+      basis_(static_cast<int>(options.bands)),
+      gloss_basis_(gloss_layout_ ? static_cast<int>(gloss_layout_->in_bands) : 1) {
     PAIM_CHECK(options.rays >= 2 && options.rays % 2 == 0);
     PAIM_CHECK_LE(options.bounces, kMaxBounces);
+    if (gloss_layout_) {
+        reflections_ = GlossReflections(*gloss_layout_, {&materials_, &still_mesh_.materials});
+    }
 }
 
 TransferLayout TransferBaker::bake_layout(const BakeOptions& options, const Albedo& albedo,
-                                          const StillMesh& still_mesh) {
-    const bool coloured =
-        is_coloured(albedo) || (!still_mesh.empty() && is_coloured(still_mesh.albedo));
+                                          const StillMesh& still_mesh, const Materials& materials) {
+    const bool coloured = is_coloured(albedo) || is_coloured(materials) ||
+                          (!still_mesh.empty() &&
+                           (is_coloured(still_mesh.albedo) || is_coloured(still_mesh.materials)));
     return {TransferKind::diffuse, options.bands, options.bounces > 0 && coloured ? 3u : 1u};
+}
+
+std::optional<TransferLayout> TransferBaker::gloss_layout(const BakeOptions& options,
+                                                          const Albedo& albedo,
+                                                          const StillMesh& still_mesh,
+                                                          const Materials& materials) {
+    if (materials.empty() && still_mesh.materials.empty()) return {};
+    const TransferLayout diffuse = bake_layout(options, albedo, still_mesh, materials);
+    return choose_gloss_layout({&materials, &still_mesh.materials}, options.gloss_in_bands,
+                               options.gloss_out_bands, diffuse.channels);
 }
 
 BakedPose TransferBaker::bake_still_mesh() {
     const StillMesh nothing;
     return PoseBake(*this, still_mesh_.topology, still_mesh_.pose, kStillMeshPose,
-                    still_mesh_.albedo, nothing)
+                    still_mesh_.albedo, still_mesh_.materials, nothing)
         .run(&still_terms_);
 }
 
 BakedPose TransferBaker::bake(const Topology& topology, const Pose& pose, uint32_t p) const {
     PAIM_CHECK_EQ(pose.positions.size(), topology.num_vertices);
     PAIM_CHECK_EQ(pose.normals.size(), topology.num_vertices);
-    return PoseBake(*this, topology, pose, p, albedo_, still_mesh_).run(nullptr);
+    return PoseBake(*this, topology, pose, p, albedo_, materials_, still_mesh_).run(nullptr);
 }
 
 }  // namespace paim
