@@ -58,6 +58,20 @@ void move_to_local(const IsolatedAtRest& source, const RootMotion& root_motion, 
     }
 }
 
+// Adds those materials that are not there yet.
+void add_materials(const std::vector<GlossMaterial>& from, std::vector<GlossMaterial>& to) {
+    for (const GlossMaterial& material : from) {
+        if (std::ranges::find(to, material) == to.end()) to.push_back(material);
+    }
+}
+
+// Rows of glossy transfer of what moves: they are the first.
+uint32_t num_following_rows(const PoseSource& source) {
+    const std::vector<uint32_t> rows = glossy_rows(source.topology(), source.materials());
+    const auto end = std::ranges::lower_bound(rows, source.num_moving_vertices());
+    return static_cast<uint32_t>(end - rows.begin());
+}
+
 }  // namespace
 
 BakeIdentity bake_identity(const PoseSource& source, const BakeOptions& options,
@@ -65,7 +79,14 @@ BakeIdentity bake_identity(const PoseSource& source, const BakeOptions& options,
                            const RootMotion& root_motion) {
     BakeIdentity identity;
     identity.baker = baker_version(options.sampler);
-    identity.layout = TransferBaker::bake_layout(options, source.albedo(), surroundings.still_mesh);
+    const StillMesh& still_mesh = surroundings.still_mesh;
+    const Materials& materials = source.materials();
+    identity.layout = TransferBaker::bake_layout(options, source.albedo(), still_mesh, materials);
+    if (const auto layout =
+            TransferBaker::gloss_layout(options, source.albedo(), still_mesh, materials)) {
+        identity.gloss = GlossIdentity{*layout, materials.glossy};
+        add_materials(still_mesh.materials.glossy, identity.gloss->materials);
+    }
     identity.bounces = options.bounces;
     identity.sampler = sampler_name(options.sampler);
     identity.streams = streams_name(options.streams);
@@ -74,7 +95,7 @@ BakeIdentity bake_identity(const PoseSource& source, const BakeOptions& options,
     identity.seed = options.seed;
     identity.normals = normals;
     identity.floor = surroundings.floor;
-    identity.still_meshes = surroundings.still_mesh.sources;
+    identity.still_meshes = still_mesh.sources;
     identity.num_vertices = source.topology().num_vertices;
     identity.num_triangles = static_cast<uint32_t>(source.topology().triangles.size());
     identity.mesh_xxh3 = mesh_checksum(source.topology(), source.albedo());
@@ -104,7 +125,7 @@ BakeSummary bake_sequence(const PoseSource& given, const BakeOptions& options,
     const BakeIdentity identity =
         bake_identity(source, options, normals, surroundings, root_motion);
     const BakeWriter writer(directory, identity, source.topology(), source.albedo());
-    TransferBaker baker(options, source.albedo(), surroundings.still_mesh);
+    TransferBaker baker(options, source.albedo(), surroundings.still_mesh, source.materials());
     const auto lacks = [&](uint32_t p) { return !writer.has_pose(p); };
     if (const StillMesh& still_mesh = surroundings.still_mesh; !still_mesh.empty()) {
         const bool found = writer.has_still_mesh();
@@ -113,7 +134,10 @@ BakeSummary bake_sequence(const PoseSource& given, const BakeOptions& options,
         const bool needed = options.bounces > 0 && std::any_of(poses.begin(), poses.end(), lacks);
         if (!found || needed) {
             const BakedPose baked = baker.bake_still_mesh();
-            if (!found) writer.write_still_mesh({still_mesh.topology, still_mesh.albedo, baked});
+            if (!found) {
+                writer.write_still_mesh({still_mesh.topology, still_mesh.albedo, baked,
+                                         still_mesh.materials, still_mesh.texture});
+            }
         }
     }
     // Rays are traced in the coordinates of the floor and the still meshes, or else near the body.
@@ -135,6 +159,10 @@ BakeSummary bake_sequence(const PoseSource& given, const BakeOptions& options,
             if (!root_motion.empty()) {
                 const Vec3d offset = near_body ? source.pose_offset(p) : Vec3d::Zero();
                 move_to_local(source, root_motion, p, offset, identity.layout, baked);
+                if (identity.gloss) {
+                    turn_gloss(root_motion[p], identity.gloss->layout, baked,
+                               num_following_rows(source));
+                }
             }
             writer.write_pose(p, baked);
             statistics = baked.statistics;

@@ -13,25 +13,61 @@ namespace paim {
 
 namespace {
 
-// Turns the coefficients of the first vertices, in every channel.
-void turn(const sh::Rotation& rotation, const TransferLayout& layout, uint32_t num_following,
-          std::vector<float>& planes) {
-    constexpr size_t kVerticesPerPiece = 256;
-    const size_t num_vertices = planes.size() / layout.num_planes();
-    parallel_for(std::min<size_t>(num_following, num_vertices), kVerticesPerPiece,
+constexpr size_t kRowsPerPiece = 256;
+
+// Turns the coefficients of one row of every channel: those of light and, where there are several, of
+// outgoing radiance.
+class RowTurn {
+  public:
+    RowTurn(const Eigen::Matrix3d& to_local, const TransferLayout& layout)
+        : layout_(layout),
+          light_(static_cast<int>(layout.in_bands), to_local),
+          outgoing_(static_cast<int>(layout.out_bands), to_local) {}
+
+    // row  the first plane's value, which planes follow `stride` values apart
+    void apply(float* row, size_t stride) const {
+        std::vector<float> from(layout_.num_coefficients()), to(from.size());
+        for (uint32_t channel = 0; channel < layout_.channels; ++channel) {
+            for (uint32_t o = 0; o < layout_.num_outgoing(); ++o) {
+                turn(light_, row + layout_.plane(channel, 0, o) * stride, stride, from, to);
+            }
+        }
+        if (layout_.out_bands == 1) return;
+        from.resize(layout_.num_outgoing());
+        to.resize(from.size());
+        const size_t step = layout_.num_coefficients() * stride;
+        for (uint32_t channel = 0; channel < layout_.channels; ++channel) {
+            for (uint32_t i = 0; i < layout_.num_coefficients(); ++i) {
+                turn(outgoing_, row + layout_.plane(channel, i, 0) * stride, step, from, to);
+            }
+        }
+    }
+
+  private:
+    static void turn(const sh::Rotation& rotation, float* first, size_t step,
+                     std::vector<float>& from, std::vector<float>& to) {
+        for (size_t i = 0; i < from.size(); ++i) from[i] = first[i * step];
+        rotation.apply(from, to);
+        for (size_t i = 0; i < to.size(); ++i) first[i * step] = to[i];
+    }
+
+    const TransferLayout layout_;
+    const sh::Rotation light_, outgoing_;
+};
+
+// Turns the first rows of planes.
+void turn_rows(const Eigen::Matrix3d& to_local, const TransferLayout& layout, uint32_t num_turning,
+               std::vector<float>& planes) {
+    const RowTurn turn(to_local, layout);
+    const size_t num_rows = planes.size() / layout.num_planes();
+    parallel_for(std::min<size_t>(num_turning, num_rows), kRowsPerPiece,
                  [&](size_t begin, size_t end) {
-                     std::vector<float> from(layout.num_coefficients()), to(from.size());
-                     for (size_t v = begin; v < end; ++v) {
-                         for (uint32_t channel = 0; channel < layout.channels; ++channel) {
-                             float* const first =
-                                 planes.data() + layout.plane(channel, 0) * num_vertices + v;
-                             for (size_t i = 0; i < from.size(); ++i)
-                                 from[i] = first[i * num_vertices];
-                             rotation.apply(from, to);
-                             for (size_t i = 0; i < to.size(); ++i) first[i * num_vertices] = to[i];
-                         }
-                     }
+                     for (size_t r = begin; r < end; ++r) turn.apply(planes.data() + r, num_rows);
                  });
+}
+
+Eigen::Matrix3d to_local_axes(const RigidTransform& root) {
+    return root.rotation.conjugate().toRotationMatrix();
 }
 
 }  // namespace
@@ -39,14 +75,20 @@ void turn(const sh::Rotation& rotation, const TransferLayout& layout, uint32_t n
 void move_to_local(const RigidTransform& root, const Vec3d& offset, const TransferLayout& layout,
                    BakedPose& pose, uint32_t num_following) {
     PAIM_CHECK(num_following >= pose.positions.size() / 3 || offset.isZero(0.0));
-    const Eigen::Matrix3d to_local = root.rotation.conjugate().toRotationMatrix();
+    const Eigen::Matrix3d to_local = to_local_axes(root);
     transform_planes(to_local, to_local * (offset - root.translation), pose.positions,
                      num_following);
     if (!root.turns()) return;
     transform_planes(to_local, Vec3d::Zero(), pose.normals, num_following);
-    const sh::Rotation rotation(static_cast<int>(layout.in_bands), to_local);
-    turn(rotation, layout, num_following, pose.transfer);
-    turn(rotation, layout, num_following, pose.noise);
+    turn_rows(to_local, layout, num_following, pose.transfer);
+    turn_rows(to_local, layout, num_following, pose.noise);
+}
+
+void turn_gloss(const RigidTransform& root, const TransferLayout& layout, BakedPose& pose,
+                uint32_t num_following_rows) {
+    if (!root.turns()) return;
+    turn_rows(to_local_axes(root), layout, num_following_rows, pose.gloss);
+    turn_rows(to_local_axes(root), layout, num_following_rows, pose.gloss_noise);
 }
 
 }  // namespace paim

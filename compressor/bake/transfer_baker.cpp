@@ -1,4 +1,4 @@
-// Diffuse shadowed transfer of one pose.
+// Shadowed transfer of one pose.
 // Based on: Sloan, Kautz and Snyder, Precomputed Radiance Transfer for Real-Time Rendering in
 //           Dynamic, Low-Frequency Lighting Environments, 2002
 #include "compressor/bake/transfer_baker.h"
@@ -9,15 +9,15 @@
 #include <cmath>
 #include <numeric>
 
-#include "compressor/bake/neighbours.h"
+#include "compressor/bake/gloss_pass.h"
 #include "compressor/bake/noise_target.h"
-#include "compressor/bake/ray_start.h"
+#include "compressor/bake/pose_bounces.h"
+#include "compressor/bake/pose_rays.h"
 #include "compressor/bake/split_estimate.h"
 #include "paim/base/check.h"
 #include "paim/base/parallel.h"
 #include "paim/mesh/planes.h"
 #include "paim/sh/cosine_lobe.h"
-#include "paim/trace/ray_scene.h"
 
 namespace paim {
 
@@ -59,6 +59,16 @@ uint32_t points_of_round(double wanted, uint64_t traced, uint64_t limit) {
     return points <= left ? points : 0;
 }
 
+// Turns the estimates of the halves into their mean and half their difference, scaled.
+void to_mean_and_noise(float noise_scale, std::array<std::vector<float>, 2>& halves) {
+    for (size_t r = 0; r < halves[0].size(); ++r) {
+        const float a = halves[0][r];
+        const float b = halves[1][r];
+        halves[0][r] = 0.5f * (a + b);
+        halves[1][r] = noise_scale * (a - b);
+    }
+}
+
 }  // namespace
 
 // The state of baking one pose.
@@ -66,20 +76,14 @@ class TransferBaker::PoseBake {
   public:
     // still_mesh  with still_terms, if light bounces
     PoseBake(const TransferBaker& baker, const Topology& topology, const Pose& pose, uint32_t p,
-             const Albedo& albedo, const StillMesh& still_mesh)
+             const Albedo& albedo, const Materials& materials, const StillMesh& still_mesh)
         : baker_(baker),
           options_(baker.options_),
-          topology_(topology),
-          pose_(pose),
-          p_(p),
           albedo_(albedo),
           still_mesh_(still_mesh),
-          scene_(topology, pose.positions, still_mesh.topology, still_mesh.pose.positions),
-          starts_(topology, pose.positions, pose.normals),
+          rays_(topology, pose, still_mesh, options_, p),
+          gloss_rows_(topology, materials, baker.reflections_),
           lobe_(cosine_lobe_by_coefficient(options_.bands)),
-          neighbours_(topology),
-          num_rays_(topology.num_vertices, 0),
-          num_occluded_(topology.num_vertices, 0),
           num_points_(topology.num_vertices, 0),
           information_(topology.num_vertices, 0.0),
           noise_energy_(topology.num_vertices, 0.0) {
@@ -87,10 +91,13 @@ class TransferBaker::PoseBake {
     }
 
     // terms  receives those of the bounces, unless nullptr
-    BakedPose run(BounceTerms* terms) {
+    BakedPose run(StillTerms* terms) {
         const size_t part = std::max<size_t>(1, kMaxSums / (4 * num_coefficients()));
-        for (size_t begin = 0; begin < topology_.num_vertices; begin += part) {
-            bake_part(begin, std::min<size_t>(topology_.num_vertices, begin + part));
+        for (size_t begin = 0; begin < num_vertices(); begin += part) {
+            bake_part(begin, std::min<size_t>(num_vertices(), begin + part));
+        }
+        if (!gloss_rows_.vertices.empty()) {
+            gloss_ = estimate_gloss(rays_, gloss_rows_, *baker_.gloss_layout_, baker_.gloss_basis_);
         }
         if (options_.bounces > 0) bounce(terms);
         return finish();
@@ -115,34 +122,26 @@ class TransferBaker::PoseBake {
     };
 
     size_t num_coefficients() const { return lobe_.size(); }
-    bool has_normal(size_t v) const { return !pose_.normals[v].isZero(0.0f); }
-
-    double power() const { return error_power(options_.sampler); }
-
-    // Sets of N rays are averaged with weights N^power, so that each ray counts N^(power − 1).
-    double weight(const DirectionSampler& sampler) const {
-        return std::pow(2.0 * sampler.num_points(), power() - 1.0);
-    }
-
-    HalfKeys keys(size_t v, size_t round) const {
-        return half_keys(options_, p_, static_cast<uint32_t>(v), static_cast<uint32_t>(round));
-    }
+    size_t num_vertices() const { return rays_.num_vertices(); }
+    bool has_closed_form() const { return options_.sampler == SamplerKind::cosine; }
+    double weight(const DirectionSampler& sampler) const { return rays_.rounds.weight(sampler); }
 
     // Traces another round of a vertex's rays. If it is the only one, rays that are all open or all
     // occluded are not added up: mostly, nothing depends on their sums.
     void shoot(const NextRound& next, size_t round, bool is_only_round, Halves& halves,
                Workspace& work) {
         const size_t v = next.vertex;
-        const RayStart start = starts_[v];
+        const RayStart start = rays_.starts[v];
         for (uint32_t h = 0; h < 2; ++h) {
-            work.tracers[h].trace(scene_, start, pose_.normals[v], *next.sampler, keys(v, round), h,
-                                  halves[h]);
+            work.tracers[h].trace(rays_.scene, start, rays_.pose.normals[v], *next.sampler,
+                                  rays_.rounds.keys(v, round), h, halves[h]);
         }
-        num_rays_[v] = halves[0].num_rays + halves[1].num_rays;
-        num_occluded_[v] = halves[0].num_occluded + halves[1].num_occluded;
+        rays_.num_rays[v] = halves[0].num_rays + halves[1].num_rays;
+        rays_.num_occluded[v] = halves[0].num_occluded + halves[1].num_occluded;
         num_points_[v] += next.sampler->num_points();
-        information_[v] += std::pow(2.0 * next.sampler->num_points(), power());
-        const bool all_alike = num_occluded_[v] == 0 || num_occluded_[v] == num_rays_[v];
+        information_[v] += std::pow(2.0 * next.sampler->num_points(), rays_.rounds.power());
+        const bool all_alike =
+            rays_.num_occluded[v] == 0 || rays_.num_occluded[v] == rays_.num_rays[v];
         if (is_only_round && all_alike) return;
         for (size_t h = 0; h < 2; ++h) work.tracers[h].add(weight(*next.sampler), halves[h]);
     }
@@ -150,25 +149,26 @@ class TransferBaker::PoseBake {
     // Writes the estimates of both halves from their present sums.
     void estimate(const NextRound& next, size_t round, Halves& halves, Workspace& work) {
         const size_t v = next.vertex;
-        const bool has_closed_form = options_.sampler == SamplerKind::cosine;
         std::span<const double> unoccluded;
         double c = 0.0;
-        if (has_closed_form) {
-            sh::evaluate_basis(static_cast<int>(options_.bands), pose_.normals[v].cast<double>(),
-                               std::span(work.unoccluded));
+        if (has_closed_form()) {
+            sh::evaluate_basis(static_cast<int>(options_.bands),
+                               rays_.pose.normals[v].cast<double>(), std::span(work.unoccluded));
             for (size_t i = 0; i < num_coefficients(); ++i) work.unoccluded[i] *= lobe_[i];
             unoccluded = work.unoccluded;
-            c = open_fraction_around(neighbours_, v, num_rays_, num_occluded_);
+            c = rays_.open_around[v] =
+                open_fraction_around(rays_.neighbours, v, rays_.num_rays, rays_.num_occluded);
         }
-        if (has_closed_form && num_occluded_[v] == 0 && c == 1.0) {
+        if (has_closed_form() && rays_.num_occluded[v] == 0 && c == 1.0) {
             for (auto& half : work.estimates) half = work.unoccluded;
-        } else if (num_occluded_[v] == num_rays_[v] && c == 0.0) {
+        } else if (rays_.num_occluded[v] == rays_.num_rays[v] && c == 0.0) {
             for (auto& half : work.estimates) std::fill(half.begin(), half.end(), 0.0);
         } else {
             for (uint32_t h = 0; h < 2; ++h) {
                 if (halves[h].num_points == 0.0) {
-                    work.tracers[h].assume(pose_.normals[v], *next.sampler, keys(v, round), h,
-                                           num_occluded_[v] > 0);
+                    work.tracers[h].assume(rays_.pose.normals[v], *next.sampler,
+                                           rays_.rounds.keys(v, round), h,
+                                           rays_.num_occluded[v] > 0);
                     work.tracers[h].add(weight(*next.sampler), halves[h]);
                 }
                 estimate_half(halves[h], unoccluded, c, work.estimates[h]);
@@ -178,8 +178,8 @@ class TransferBaker::PoseBake {
         for (size_t i = 0; i < num_coefficients(); ++i) {
             const double a = work.estimates[0][i];
             const double b = work.estimates[1][i];
-            halves_[0][i * topology_.num_vertices + v] = static_cast<float>(a);
-            halves_[1][i * topology_.num_vertices + v] = static_cast<float>(b);
+            halves_[0][i * num_vertices() + v] = static_cast<float>(a);
+            halves_[1][i * num_vertices() + v] = static_cast<float>(b);
             energy += (a - b) * (a - b);
         }
         const double scale = 0.5 * baker_.samplers_.first().noise_scale();
@@ -191,7 +191,7 @@ class TransferBaker::PoseBake {
         const DirectionSampler* const first_sampler = &baker_.samplers_.first();
         std::vector<NextRound> next;
         for (size_t v = begin; v < end; ++v) {
-            if (has_normal(v)) next.push_back({static_cast<uint32_t>(v), first_sampler});
+            if (rays_.has_normal(v)) next.push_back({static_cast<uint32_t>(v), first_sampler});
         }
         std::vector<Halves> sums(end - begin, Halves{SplitEstimate(num_coefficients()),
                                                      SplitEstimate(num_coefficients())});
@@ -203,9 +203,7 @@ class TransferBaker::PoseBake {
             });
         };
         for (size_t round = 0; !next.empty(); ++round) {
-            rounds_.resize(std::max(rounds_.size(), round + 1));
-            rounds_[round].resize(topology_.num_vertices, nullptr);
-            for (const NextRound& n : next) rounds_[round][n.vertex] = n.sampler;
+            for (const NextRound& n : next) rays_.rounds.add(n.vertex, round, *n.sampler);
             for_each_next([&](const NextRound& n, Halves& halves, Workspace& work) {
                 shoot(n, round, !has_target, halves, work);
             });
@@ -223,8 +221,9 @@ class TransferBaker::PoseBake {
         std::vector<uint32_t> vertices(done.size());
         for (size_t j = 0; j < done.size(); ++j) vertices[j] = done[j].vertex;
         std::vector<NextRound> next;
-        for (const RayDemand& demand : above_noise_target(neighbours_, noise_energy_, information_,
-                                                          power(), target * target, vertices)) {
+        for (const RayDemand& demand :
+             above_noise_target(rays_.neighbours, noise_energy_, information_, rays_.rounds.power(),
+                                target * target, vertices)) {
             const uint32_t points =
                 points_of_round(0.5 * demand.rays, num_points_[demand.vertex], options_.rays / 2);
             if (points > 0) {
@@ -237,68 +236,38 @@ class TransferBaker::PoseBake {
     }
 
     // Adds bounced light to the estimates of the halves, by the same rays.
-    void bounce(BounceTerms* terms) {
-        Topology topology = topology_;
-        topology.append(still_mesh_.topology);
-        std::vector<Vec3f> positions = pose_.positions;
-        positions.insert(positions.end(), still_mesh_.pose.positions.begin(),
-                         still_mesh_.pose.positions.end());
-        std::vector<uint32_t> num_back_hits[2];
-        for (auto& counts : num_back_hits) counts.resize(topology_.num_vertices, 0);
-        BounceScene scene;
-        scene.layout = baker_.layout();
-        scene.num_vertices = topology_.num_vertices;
-        scene.albedo = albedo_;
-        scene.num_still_vertices = still_mesh_.topology.num_vertices;
-        scene.still_albedo = still_mesh_.albedo;
-        scene.still_terms = &baker_.still_terms_;
-        scene.make_row = [&](size_t v, size_t half, TransportRow& row) {
-            row.clear();
-            if (num_occluded_[v] == 0) return;
-            const Vec3f& normal = pose_.normals[v];
-            const auto vertex = static_cast<uint32_t>(v);
-            const RayStart start = starts_[v];
-            HitTracer tracer(scene_, topology, positions);
-            for (size_t round = 0; round < rounds_.size(); ++round) {
-                const DirectionSampler* sampler = rounds_[round][v];
-                if (sampler == nullptr) break;
-                tracer.trace(vertex, start, normal, *sampler, keys(v, round),
-                             static_cast<uint32_t>(half), weight(*sampler));
-            }
-            num_back_hits[half][v] = tracer.num_back_hits();
-            tracer.end(row);
-        };
-        BounceTerms bounced = add_bounces(scene, options_.bounces, halves_, terms != nullptr);
-        if (terms != nullptr) *terms = std::move(bounced);
-        for (const auto& counts : num_back_hits) {
-            num_all_back_hits_ = std::accumulate(counts.begin(), counts.end(), num_all_back_hits_);
-        }
+    void bounce(StillTerms* terms) {
+        const GlossRows still_rows(still_mesh_.topology, still_mesh_.materials,
+                                   baker_.reflections_);
+        const PoseBounces bounces{rays_,           albedo_,
+                                  gloss_rows_,     still_mesh_,
+                                  still_rows,      baker_.still_terms_,
+                                  baker_.layout(), baker_.gloss_layout_};
+        num_back_hits_ = add_bounces(bounces, options_.bounces, halves_, gloss_, terms);
     }
 
-    // Turns the estimates of the halves into transfer (their mean) and noise (half their
-    // difference, scaled).
+    // Transfer is the mean of the halves, and noise half their difference, scaled.
     BakedPose finish() {
         BakedPose baked;
-        baked.positions = to_planes(pose_.positions);
-        baked.normals = to_planes(pose_.normals);
+        baked.positions = to_planes(rays_.pose.positions);
+        baked.normals = to_planes(rays_.pose.normals);
         const auto noise_scale = static_cast<float>(0.5 * baker_.samplers_.first().noise_scale());
-        for (size_t r = 0; r < halves_[0].size(); ++r) {
-            const float a = halves_[0][r];
-            const float b = halves_[1][r];
-            halves_[0][r] = 0.5f * (a + b);
-            halves_[1][r] = noise_scale * (a - b);
-        }
+        to_mean_and_noise(noise_scale, halves_);
         baked.transfer = std::move(halves_[0]);
         baked.noise = std::move(halves_[1]);
+        to_mean_and_noise(noise_scale, gloss_);
+        baked.gloss = std::move(gloss_[0]);
+        baked.gloss_noise = std::move(gloss_[1]);
         PoseStatistics& statistics = baked.statistics;
-        statistics.rays = std::accumulate(num_rays_.begin(), num_rays_.end(), uint64_t{0});
+        statistics.rays =
+            std::accumulate(rays_.num_rays.begin(), rays_.num_rays.end(), uint64_t{0});
         statistics.occluded =
-            std::accumulate(num_occluded_.begin(), num_occluded_.end(), uint64_t{0});
-        for (size_t v = 0; v < topology_.num_vertices; ++v) {
-            statistics.zero_normals += has_normal(v) ? 0 : 1;
+            std::accumulate(rays_.num_occluded.begin(), rays_.num_occluded.end(), uint64_t{0});
+        for (size_t v = 0; v < num_vertices(); ++v) {
+            statistics.zero_normals += rays_.has_normal(v) ? 0 : 1;
         }
         statistics.above_target = num_above_target_;
-        statistics.back_hits = num_all_back_hits_;
+        statistics.back_hits = num_back_hits_;
         const TransferLayout layout = baker_.layout();
         statistics.transfer_rms = rms_by_band(layout, baked.transfer);
         statistics.noise_rms = rms_by_band(layout, baked.noise);
@@ -307,24 +276,17 @@ class TransferBaker::PoseBake {
 
     const TransferBaker& baker_;
     const BakeOptions& options_;
-    const Topology& topology_;
-    const Pose& pose_;
-    const uint32_t p_;
     const Albedo& albedo_;
     const StillMesh& still_mesh_;
-    const RayScene scene_;
-    const RayStarts starts_;
+    PoseRays rays_;
+    const GlossRows gloss_rows_;
     const std::vector<double> lobe_;  // [C]
-    const Neighbours neighbours_;
     // [planes][V] the estimates of both halves; of one channel until bounced light is added
     std::array<std::vector<float>, 2> halves_;
-    std::vector<uint64_t> num_rays_;      // [V]
-    std::vector<uint64_t> num_occluded_;  // [V]
-    std::vector<uint64_t> num_points_;    // [V] of a half
-    std::vector<double> information_;     // [V] noise_target.h
-    // [rounds][V] what made the directions; nullptr: the vertex needed no such round
-    std::vector<std::vector<const DirectionSampler*>> rounds_;
-    uint64_t num_all_back_hits_ = 0;
+    std::array<std::vector<float>, 2> gloss_;  // the same of glossy transfer, [planes][R]
+    std::vector<uint64_t> num_points_;         // [V] of a half
+    std::vector<double> information_;          // [V] noise_target.h
+    uint64_t num_back_hits_ = 0;
     std::vector<double> noise_energy_;  // [V] Σ_i noise²
     uint32_t num_above_target_ = 0;
 };
@@ -342,34 +304,52 @@ const DirectionSampler& TransferBaker::Samplers::of(uint32_t num_points) const {
     return *sampler;
 }
 
-TransferBaker::TransferBaker(const BakeOptions& options, Albedo albedo, StillMesh still_mesh)
+TransferBaker::TransferBaker(const BakeOptions& options, Albedo albedo, StillMesh still_mesh,
+                             Materials materials)
     : options_(options),
       albedo_(std::move(albedo)),
       still_mesh_(std::move(still_mesh)),
+      materials_(std::move(materials)),
+      gloss_layout_(gloss_layout(options_, albedo_, still_mesh_, materials_)),
       samplers_(options),
-      basis_(static_cast<int>(options.bands)) {
+      basis_(static_cast<int>(options.bands)),
+      gloss_basis_(gloss_layout_ ? static_cast<int>(gloss_layout_->in_bands) : 1) {
     PAIM_CHECK(options.rays >= 2 && options.rays % 2 == 0);
     PAIM_CHECK_LE(options.bounces, kMaxBounces);
+    if (gloss_layout_) {
+        reflections_ = GlossReflections(*gloss_layout_, {&materials_, &still_mesh_.materials});
+    }
 }
 
 TransferLayout TransferBaker::bake_layout(const BakeOptions& options, const Albedo& albedo,
-                                          const StillMesh& still_mesh) {
-    const bool coloured =
-        is_coloured(albedo) || (!still_mesh.empty() && is_coloured(still_mesh.albedo));
+                                          const StillMesh& still_mesh, const Materials& materials) {
+    const bool coloured = is_coloured(albedo) || is_coloured(materials) ||
+                          (!still_mesh.empty() &&
+                           (is_coloured(still_mesh.albedo) || is_coloured(still_mesh.materials)));
     return {TransferKind::diffuse, options.bands, options.bounces > 0 && coloured ? 3u : 1u};
+}
+
+std::optional<TransferLayout> TransferBaker::gloss_layout(const BakeOptions& options,
+                                                          const Albedo& albedo,
+                                                          const StillMesh& still_mesh,
+                                                          const Materials& materials) {
+    if (materials.empty() && still_mesh.materials.empty()) return {};
+    const TransferLayout diffuse = bake_layout(options, albedo, still_mesh, materials);
+    return choose_gloss_layout({&materials, &still_mesh.materials}, options.gloss_in_bands,
+                               options.gloss_out_bands, diffuse.channels);
 }
 
 BakedPose TransferBaker::bake_still_mesh() {
     const StillMesh nothing;
     return PoseBake(*this, still_mesh_.topology, still_mesh_.pose, kStillMeshPose,
-                    still_mesh_.albedo, nothing)
+                    still_mesh_.albedo, still_mesh_.materials, nothing)
         .run(&still_terms_);
 }
 
 BakedPose TransferBaker::bake(const Topology& topology, const Pose& pose, uint32_t p) const {
     PAIM_CHECK_EQ(pose.positions.size(), topology.num_vertices);
     PAIM_CHECK_EQ(pose.normals.size(), topology.num_vertices);
-    return PoseBake(*this, topology, pose, p, albedo_, still_mesh_).run(nullptr);
+    return PoseBake(*this, topology, pose, p, albedo_, materials_, still_mesh_).run(nullptr);
 }
 
 }  // namespace paim

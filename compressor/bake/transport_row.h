@@ -5,10 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "compressor/bake/direction_sampler.h"
-#include "compressor/bake/ray_start.h"
-#include "paim/mesh/topology.h"
-#include "paim/trace/ray_scene.h"
+#include "compressor/bake/surface_hits.h"
 
 namespace paim {
 
@@ -28,11 +25,9 @@ class HitTracer {
     // topology, positions  of all meshes of the scene, in its order
     // Keeps references to all arguments.
     HitTracer(const RayScene& scene, const Topology& topology, std::span<const Vec3f> positions)
-        : scene_(scene), topology_(topology), positions_(positions) {}
+        : hits_(scene, topology, positions) {}
 
-    // Adds a round of rays of one half of a vertex to the row, each with a weight. A triangle that
-    // is hit from behind blocks the ray and gives no light. A direction that the fan of the start
-    // hides meets the faces round the vertex at the vertex itself.
+    // Adds a round of rays of one half of a vertex to the row, each with a weight (SurfaceHits).
     void trace(uint32_t vertex, const RayStart& start, const Vec3f& normal,
                const DirectionSampler& sampler, const HalfKeys& keys, uint32_t half,
                double weight = 1.0);
@@ -40,21 +35,12 @@ class HitTracer {
     void end(TransportRow& row);
 
     // Rays of the row that hit a triangle from behind.
-    uint32_t num_back_hits() const { return num_back_hits_; }
+    uint32_t num_back_hits() const { return hits_.num_back_hits(); }
 
   private:
-    Vec3d direction(size_t ray) const;
-    void find_hits(const RayStart& start);
-    void add_hit(const Hit& hit, size_t ray, float weight);
-
-    const RayScene& scene_;
-    const Topology& topology_;
-    std::span<const Vec3f> positions_;
-    RaySet rays_;
-    std::vector<Hit> hits_;          // [rays]
+    SurfaceHits hits_;
     std::vector<HitWeight> shares_;  // of the row, in the order of the rays
     double num_points_ = 0.0;        // times their weights
-    uint32_t num_back_hits_ = 0;
 };
 
 }  // namespace paim

@@ -290,6 +290,7 @@ PosesOnFloor::PosesOnFloor(const PoseSource& source, const BodyBounds& bounds,
       floor_(bounds, options.num_vertices),
       topology_(source.topology()),
       albedo_(source.albedo()),
+      materials_(source.materials()),
       positions_xxh3_(xxh3(floor_.positions.data(), floor_.positions.size() * sizeof(Vec3f))),
       description_(fmt::format("{} vertices at y = {}, albedo {},{},{}",
                                floor_.topology.num_vertices, floor_.height, options.albedo.x(),
@@ -301,6 +302,7 @@ PosesOnFloor::PosesOnFloor(const PoseSource& source, const BodyBounds& bounds,
     }
     topology_.append(floor_.topology);
     albedo_.append({{options.albedo}}, first, num_floor);
+    materials_.append({}, first, num_floor);
 }
 
 uint64_t PosesOnFloor::pose_checksum(uint32_t p) const {

@@ -12,13 +12,21 @@ namespace paim {
 
 namespace {
 
-// Checksum of everything that changes light: faces, albedo, positions and normals.
+// Checksum of everything that changes light: faces, albedo, positions, normals and, if any vertex is
+// glossy, materials.
 uint64_t checksum(const PoseSource& source, const Pose& pose) {
     const uint64_t mesh = mesh_checksum(source.topology(), source.albedo());
     StreamingHash hash;
     hash.update(&mesh, sizeof mesh);
     hash.update(pose.positions.data(), pose.positions.size() * sizeof(Vec3f));
     hash.update(pose.normals.data(), pose.normals.size() * sizeof(Vec3f));
+    if (const Materials& materials = source.materials(); !materials.empty()) {
+        hash.update(materials.of_vertex.data(), materials.of_vertex.size() * sizeof(uint16_t));
+        for (const GlossMaterial& material : materials.glossy) {
+            hash.update(material.brdf.data(), material.brdf.size());
+            hash.update(material.tint.data(), sizeof(Vec3f));
+        }
+    }
     return hash.digest();
 }
 
@@ -37,8 +45,10 @@ void StillMesh::add(const PoseSource& given) {
     sources.push_back({std::filesystem::path(name).filename().string(), checksum(source, own)});
     if (empty()) {
         albedo = source.albedo();
+        materials = source.materials();
     } else {
         albedo.append(source.albedo(), topology.num_vertices, num_own);
+        materials.append(source.materials(), topology.num_vertices, num_own);
     }
     topology.append(source.topology());
     pose.positions.insert(pose.positions.end(), own.positions.begin(), own.positions.end());

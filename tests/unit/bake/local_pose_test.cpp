@@ -7,7 +7,9 @@
 
 #include "paim/base/seed.h"
 #include "paim/light/light.h"
+#include "paim/sh/rotate.h"
 #include "paim/shade/shade.h"
+#include "tests/gloss_light.h"
 
 namespace paim {
 namespace {
@@ -58,6 +60,33 @@ TEST(MoveToLocal, KeepsTheRadiance) {
         for (const float n : before.noise) energy_before += double{n} * n;
         for (const float n : after.noise) energy_after += double{n} * n;
         EXPECT_NEAR(energy_after, energy_before, 1e-5 * energy_before);
+    }
+}
+
+// Light and view that turn with the axes see the same glossy radiance; rows of a floor stay.
+TEST(MoveToLocal, TurnsBothSidesOfGlossyTransfer) {
+    const TransferLayout layout{TransferKind::glossy, 3, 3, 2};
+    constexpr uint32_t kFollowing = 3;
+    BakedPose before;
+    before.gloss = random_values(size_t{layout.num_planes()} * kVertices, 6);
+    before.gloss_noise = random_values(size_t{layout.num_planes()} * kVertices, 7);
+    BakedPose after = before;
+    turn_gloss(some_root(), layout, after, kFollowing);
+    const Eigen::Matrix3d to_local = some_root().rotation.conjugate().toRotationMatrix();
+    std::vector<double> light(9), turned(9);
+    for (size_t i = 0; i < 9; ++i) light[i] = static_cast<double>(before.gloss[i]);
+    sh::Rotation(3, to_local).apply(std::span<const double>(light), std::span(turned));
+    const Vec3d view = Vec3d(0.3, -0.8, 0.4).normalized();
+    for (const auto member : {&BakedPose::gloss, &BakedPose::gloss_noise}) {
+        for (size_t r = 0; r < kVertices; ++r) {
+            const bool follows = r < kFollowing;
+            const std::vector<double>& local_light = follows ? turned : light;
+            const Vec3d local_view = follows ? Vec3d(to_local * view) : view;
+            // Some 40 products of about 1, rounded to float.
+            EXPECT_NEAR(gloss_radiance(layout, after.*member, r, local_light, local_view, 2),
+                        gloss_radiance(layout, before.*member, r, light, view, 2), 1e-5)
+                << r;
+        }
     }
 }
 

@@ -1,0 +1,43 @@
+// The reflections of the glossy materials of all meshes, ready for the sums over rays.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "compressor/material/exit_functions.h"
+#include "paim/mesh/materials.h"
+#include "paim/transfer/layout.h"
+
+namespace paim {
+
+struct GlossReflection {
+    ExitFunctions functions;
+    std::vector<double> open;  // [K][C], open_gloss()
+};
+
+// One for each BRDF, which is parsed once. Errors: those of parse_brdf().
+class GlossReflections {
+  public:
+    GlossReflections() = default;
+    GlossReflections(const TransferLayout& layout, std::vector<const Materials*> meshes);
+
+    bool empty() const { return by_brdf_.empty(); }
+    // Of a BRDF in words, as the materials have it.
+    const GlossReflection& of(const std::string& brdf) const { return by_brdf_.at(brdf); }
+
+  private:
+    std::map<std::string, GlossReflection> by_brdf_;
+};
+
+// The layout of the glossy transfer of all meshes. Numbers of bands that are 0 are chosen for the
+// material that needs most.
+// materials  with at least one glossy one. Errors: those of parse_brdf()
+TransferLayout choose_gloss_layout(const std::vector<const Materials*>& meshes, uint32_t in_bands,
+                                   uint32_t out_bands, uint32_t channels);
+
+// Whether any tint is not grey.
+bool is_coloured(const Materials& materials);
+
+}  // namespace paim
