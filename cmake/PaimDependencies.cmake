@@ -16,7 +16,7 @@ endif()
 find_package(TBB REQUIRED)
 find_package(PkgConfig REQUIRED)
 find_package(CLI11 REQUIRED)
-find_path(STB_INCLUDE_DIR NAMES stb_image_write.h PATH_SUFFIXES stb REQUIRED)
+find_path(STB_INCLUDE_DIR NAMES stb_image.h PATH_SUFFIXES stb REQUIRED)
 
 # OpenEXR 3 brings a CMake package; OpenEXR 2 (Ubuntu 22.04) is found through pkg-config. Consumers of
 # the installed library find the same one, so the target is named here and linked by that name.
