@@ -53,7 +53,7 @@ install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} 
 
 # The tools' libraries with all headers.
 if(PAIM_BUILD_TOOLS)
-    install(TARGETS paim_tools paim_trace paim_bake paim_encode paim_all_tools
+    install(TARGETS paim_tools paim_trace paim_material paim_bake paim_encode paim_all_tools
         EXPORT paim-tools-targets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT tools)
     install(EXPORT paim-tools-targets NAMESPACE paim:: DESTINATION ${package_dir} COMPONENT tools)
@@ -62,7 +62,7 @@ if(PAIM_BUILD_TOOLS)
             DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/paim COMPONENT tools
             FILES_MATCHING PATTERN "*.h")
     endforeach()
-    foreach(room bake encode scene)
+    foreach(room bake encode material scene)
         install(DIRECTORY ${PROJECT_SOURCE_DIR}/compressor/${room}
             DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/compressor COMPONENT tools
             FILES_MATCHING PATTERN "*.h")

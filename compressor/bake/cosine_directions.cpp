@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "paim/base/check.h"
+#include "paim/base/orthonormal_basis.h"
 
 namespace paim {
 
@@ -54,14 +55,6 @@ void sort_by_place(std::span<DiskPoint> points) {
 }
 
 }  // namespace
-
-void orthonormal_basis(const Vec3f& normal, Vec3f& tangent, Vec3f& bitangent) {
-    const float sign = std::copysign(1.0f, normal.z());
-    const float a = -1.0f / (sign + normal.z());
-    const float b = normal.x() * normal.y() * a;
-    tangent = Vec3f(1.0f + sign * normal.x() * normal.x() * a, sign * b, -sign * normal.x());
-    bitangent = Vec3f(b, sign + normal.y() * normal.y() * a, -normal.y());
-}
 
 CosineDirections::CosineDirections(uint32_t num_points, uint32_t num_parts)
     : num_points_(num_points), count_(num_points / num_parts), parts_(num_parts) {

@@ -58,9 +58,4 @@ class CosineDirections {
     std::vector<Part> parts_;
 };
 
-// Two unit vectors that make a right-handed basis with the unit normal.
-// Based on: Duff, Burgess, Christensen, Hery, Kensler, Liani and Villemin, Building an Orthonormal
-//           Basis, Revisited, JCGT 6(1), 2017
-void orthonormal_basis(const Vec3f& normal, Vec3f& tangent, Vec3f& bitangent);
-
 }  // namespace paim

@@ -16,8 +16,8 @@ class Brdf {
     virtual std::string text() const = 0;
 
     // Reflected radiance for each unit of irradiance from `in` (1/sr), without the cosine of `in`.
-    // It is not negative, the same with both directions exchanged, and the same if both turn about
-    // the normal. 0 unless both are above the surface.
+    // It is not negative, and the same with both directions exchanged. It is the same if both turn
+    // about the normal, or are mirrored at a plane through it. 0 unless both are above the surface.
     // in, out  unit
     virtual double value(const Vec3d& in, const Vec3d& out) const = 0;
 

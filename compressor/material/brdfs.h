@@ -30,4 +30,8 @@ void add_brdf(BrdfType type);
 // that is out of range. The message says which.
 std::unique_ptr<Brdf> parse_brdf(std::string_view text);
 
+// The value of one number of a BRDF, for BrdfType::make. Error (usage) names it if it is not between
+// least and most.
+double brdf_number(std::string_view name, double value, double least, double most);
+
 }  // namespace paim

@@ -7,10 +7,10 @@
 #include <limits>
 #include <vector>
 
+#include "paim/base/gauss_legendre.h"
 #include "paim/light/environment.h"
 #include "paim/sh/basis_reference.h"
 #include "paim/sh/cosine_lobe.h"
-#include "tests/gauss_legendre.h"
 
 namespace paim::player {
 namespace {

@@ -9,6 +9,7 @@
 
 #include "compressor/bake/cosine_directions.h"
 #include "compressor/bake/sobol.h"
+#include "paim/base/orthonormal_basis.h"
 #include "paim/base/seed.h"
 #include "paim/sh/basis.h"
 #include "paim/sh/cosine_lobe.h"

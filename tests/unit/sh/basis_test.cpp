@@ -7,8 +7,8 @@
 #include <cmath>
 #include <vector>
 
+#include "paim/base/gauss_legendre.h"
 #include "paim/sh/basis_reference.h"
-#include "tests/gauss_legendre.h"
 #include "tests/unit/sh/directions.h"
 
 namespace paim::sh {

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "paim/base/gauss_legendre.h"
 #include "paim/base/vector.h"
 #include "paim/sh/index.h"
-#include "tests/gauss_legendre.h"
 
 namespace paim::sh {
 namespace {

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <vector>
 
+#include "paim/base/gauss_legendre.h"
 #include "paim/sh/basis.h"
 #include "paim/sh/zonal.h"
-#include "tests/gauss_legendre.h"
 #include "tests/unit/sh/directions.h"
 
 namespace paim::sh {

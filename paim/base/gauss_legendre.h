@@ -1,5 +1,4 @@
-// Gauss–Legendre quadrature: n nodes integrate polynomials of degree 2n − 1 exactly, so that tests
-// of closed forms compare to rounding.
+// Gauss–Legendre quadrature: n nodes integrate polynomials of degree 2n − 1 exactly.
 #pragma once
 
 #include <cmath>
