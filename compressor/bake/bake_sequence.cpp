@@ -77,7 +77,7 @@ BakeIdentity bake_identity(const PoseSource& source, const BakeOptions& options,
     identity.still_meshes = surroundings.still_mesh.sources;
     identity.num_vertices = source.topology().num_vertices;
     identity.num_triangles = static_cast<uint32_t>(source.topology().triangles.size());
-    identity.mesh_xxh3 = mesh_checksum(source.topology(), source.albedo());
+    identity.mesh_xxh3 = mesh_checksum(source.topology(), source.albedo(), source.texture());
     identity.origin = source.origin();
     identity.root_motion = root_motion;
     const uint32_t num_moving = source.num_moving_vertices();
@@ -103,7 +103,8 @@ BakeSummary bake_sequence(const PoseSource& given, const BakeOptions& options,
     const IsolatedAtRest source(given);
     const BakeIdentity identity =
         bake_identity(source, options, normals, surroundings, root_motion);
-    const BakeWriter writer(directory, identity, source.topology(), source.albedo());
+    const BakeWriter writer(directory, identity, source.topology(), source.albedo(),
+                            source.texture());
     TransferBaker baker(options, source.albedo(), surroundings.still_mesh);
     const auto lacks = [&](uint32_t p) { return !writer.has_pose(p); };
     if (const StillMesh& still_mesh = surroundings.still_mesh; !still_mesh.empty()) {
@@ -113,7 +114,10 @@ BakeSummary bake_sequence(const PoseSource& given, const BakeOptions& options,
         const bool needed = options.bounces > 0 && std::any_of(poses.begin(), poses.end(), lacks);
         if (!found || needed) {
             const BakedPose baked = baker.bake_still_mesh();
-            if (!found) writer.write_still_mesh({still_mesh.topology, still_mesh.albedo, baked});
+            if (!found) {
+                writer.write_still_mesh({still_mesh.topology, still_mesh.albedo, baked,
+                                         still_mesh.materials, still_mesh.texture});
+            }
         }
     }
     // Rays are traced in the coordinates of the floor and the still meshes, or else near the body.

@@ -67,8 +67,8 @@ bool ends_in_mtl(std::string_view word) {
 
 class LibraryReader {
   public:
-    LibraryReader(const fs::path& folder, ObjLibraries& result)
-        : folder_(folder), finder_(folder), result_(result) {}
+    LibraryReader(const fs::path& folder, bool gloss, ObjLibraries& result)
+        : folder_(folder), finder_(folder), gloss_(gloss), result_(result) {}
 
     // Reads what the line names.
     void read_line(const std::string& line) {
@@ -118,7 +118,8 @@ class LibraryReader {
             std::vector<char> text = read_file(path, kMaxMaterialBytes - num_bytes_);
             num_bytes_ += text.size();
             for (ObjMaterial& material :
-                 parse_obj_materials(path.string(), text, result_.warnings)) {
+                 parse_obj_materials(path.string(), text, gloss_, result_.warnings)) {
+                material.folder = path.parent_path();
                 result_.materials.push_back(std::move(material));
             }
         } catch (const Error& error) {
@@ -128,21 +129,12 @@ class LibraryReader {
 
     fs::path folder_;
     FileFinder finder_;
+    bool gloss_;
     ObjLibraries& result_;
     std::set<std::string> lines_, read_;
     size_t num_words_left_ = kMaxAllWords;
     uint64_t num_bytes_ = 0;
 };
-
-// Removes repeated warnings, and shortens a long list.
-void shorten_warnings(const std::string& name, std::vector<std::string>& warnings) {
-    std::set<std::string> seen;
-    std::erase_if(warnings, [&](const std::string& text) { return !seen.insert(text).second; });
-    if (warnings.size() <= kMaxWarnings) return;
-    const size_t num_more = warnings.size() - kMaxWarnings;
-    warnings.resize(kMaxWarnings);
-    warnings.push_back(fmt::format("{}: {} more warnings about material files", name, num_more));
-}
 
 void find_materials(const std::string& name, const ObjScan& scan, ObjLibraries& result) {
     std::unordered_map<std::string, int32_t> exact, plain, uncommented;
@@ -175,10 +167,19 @@ void find_materials(const std::string& name, const ObjScan& scan, ObjLibraries& 
 
 }  // namespace
 
+void shorten_warnings(const std::string& name, std::vector<std::string>& warnings) {
+    std::set<std::string> seen;
+    std::erase_if(warnings, [&](const std::string& text) { return !seen.insert(text).second; });
+    if (warnings.size() <= kMaxWarnings) return;
+    const size_t num_more = warnings.size() - kMaxWarnings;
+    warnings.resize(kMaxWarnings);
+    warnings.push_back(fmt::format("{}: {} more warnings about material files", name, num_more));
+}
+
 ObjLibraries read_obj_libraries(const std::string& name, const std::filesystem::path& folder,
-                                const ObjScan& scan) {
+                                const ObjScan& scan, bool gloss) {
     ObjLibraries result;
-    LibraryReader reader(folder, result);
+    LibraryReader reader(folder, gloss, result);
     for (const std::string& line : scan.libraries) reader.read_line(line);
     shorten_warnings(name, result.warnings);
     find_materials(name, scan, result);

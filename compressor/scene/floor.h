@@ -59,6 +59,7 @@ class PosesOnFloor : public PoseSource {
 
     const Topology& topology() const override { return topology_; }
     const Albedo& albedo() const override { return albedo_; }
+    const Texture& texture() const override { return texture_; }
     uint32_t num_poses() const override { return source_.num_poses(); }
     Vec3d origin() const override { return source_.origin(); }
     uint32_t num_moving_vertices() const override { return source_.topology().num_vertices; }
@@ -74,6 +75,7 @@ class PosesOnFloor : public PoseSource {
     Floor floor_;
     Topology topology_;
     Albedo albedo_;
+    Texture texture_;
     uint64_t positions_xxh3_;
     std::string description_;
 };

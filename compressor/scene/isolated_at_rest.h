@@ -22,6 +22,7 @@ class IsolatedAtRest : public PoseSource {
 
     const Topology& topology() const override { return source_.topology(); }
     const Albedo& albedo() const override { return source_.albedo(); }
+    const Texture& texture() const override { return source_.texture(); }
     uint32_t num_poses() const override { return source_.num_poses(); }
     Vec3d origin() const override { return source_.origin(); }
     Vec3d pose_offset(uint32_t p) const override { return source_.pose_offset(p); }

@@ -13,6 +13,7 @@
 #include "paim/format/container/metadata.h"
 #include "paim/format/container/root_numbers.h"
 #include "paim/format/container/sections.h"
+#include "paim/format/container/texture_sections.h"
 
 namespace paim {
 
@@ -94,7 +95,8 @@ BakeReader::BakeReader(std::filesystem::path directory) : directory_(std::move(d
     const ContainerReader mesh(directory_ / kMeshName, section::kKindMesh);
     topology_ = read_triangles(mesh, identity_.num_vertices);
     albedo_ = read_albedo(mesh, identity_.num_vertices);
-    if (mesh_checksum(topology_, albedo_) != identity_.mesh_xxh3) {
+    texture_ = read_texture(mesh, topology_, section::kTexture[0]);
+    if (mesh_checksum(topology_, albedo_, texture_) != identity_.mesh_xxh3) {
         throw_bad_input("{}: not the mesh that the manifest names", mesh.name());
     }
     check_floor(topology_, identity_.num_following, mesh.name());
@@ -164,6 +166,7 @@ BakedStillMesh read_bake_still_mesh(const std::filesystem::path& directory,
         read_planes(reader, section::kNoise, layout.num_planes(), num_vertices, ScalarType::f16);
     still_mesh.topology = read_triangles(reader, num_vertices);
     still_mesh.albedo = read_albedo(reader, num_vertices);
+    still_mesh.texture = read_texture(reader, still_mesh.topology, section::kTexture[0]);
     return still_mesh;
 }
 

@@ -16,6 +16,7 @@
 #include "paim/format/bake/bake_manifest.h"
 #include "paim/format/container/mesh_section_writer.h"
 #include "paim/format/container/sections.h"
+#include "paim/format/container/texture_section_writer.h"
 
 namespace paim {
 
@@ -71,20 +72,48 @@ void append_pose(ContainerWriter& writer, const std::string& metadata, const Bak
     writer.append(4, std::span<const uint16_t>(noise));
 }
 
-void write_mesh(const std::filesystem::path& path, const Topology& topology, const Albedo& albedo) {
-    ContainerWriter writer(path, section::kKindMesh,
-                           {triangles_spec(topology), albedo_spec(albedo)});
+// Adds the sections of a texture to the plans of a mesh.
+void add_texture(const Texture& texture, std::vector<SectionPlan>& plans) {
+    for (const TextureSection& section : texture_sections(texture, section::kTexture[0])) {
+        plans.emplace_back(section.spec);
+    }
+}
+
+// Fills them. They are the last of `num_plans` sections.
+void append_texture(ContainerWriter& writer, size_t num_plans, const Topology& topology,
+                    const Texture& texture) {
+    const auto sections = texture_sections(texture, section::kTexture[0]);
+    const size_t first = num_plans - sections.size();
+    for (size_t i = 0; i < sections.size(); ++i) {
+        const std::vector<uint8_t> bytes =
+            texture_bytes(texture, topology, sections[i].piece, sections[i].spec.index);
+        writer.append(first + i, bytes.data(), bytes.size());
+    }
+}
+
+void write_mesh(const std::filesystem::path& path, const Topology& topology, const Albedo& albedo,
+                const Texture& texture) {
+    std::vector<SectionPlan> plans{triangles_spec(topology), albedo_spec(albedo)};
+    add_texture(texture, plans);
+    ContainerWriter writer(path, section::kKindMesh, plans);
     append_mesh(writer, 0, 1, topology, albedo);
+    append_texture(writer, plans.size(), topology, texture);
     writer.commit();
 }
 
 }  // namespace
 
-uint64_t mesh_checksum(const Topology& topology, const Albedo& albedo) {
+uint64_t mesh_checksum(const Topology& topology, const Albedo& albedo, const Texture& texture) {
     StreamingHash hash;
     hash.update(&topology.num_vertices, sizeof(topology.num_vertices));
     hash.update(topology.triangles.data(), topology.triangles.size() * sizeof(Triangle));
     hash.update(albedo.values.data(), albedo.values.size() * sizeof(Vec3f));
+    for (const auto& [piece, spec] : texture_sections(texture, section::kTexture[0])) {
+        const std::vector<uint8_t> bytes = texture_bytes(texture, topology, piece, spec.index);
+        const uint64_t size_bytes = bytes.size();
+        hash.update(&size_bytes, sizeof size_bytes);
+        hash.update(bytes.data(), bytes.size());
+    }
     return hash.digest();
 }
 
@@ -97,7 +126,7 @@ std::filesystem::path bake_pose_file(const std::filesystem::path& directory, uin
 }
 
 BakeWriter::BakeWriter(std::filesystem::path directory, const BakeIdentity& identity,
-                       const Topology& topology, const Albedo& albedo)
+                       const Topology& topology, const Albedo& albedo, const Texture& texture)
     : directory_(std::move(directory)), identity_(identity) {
     for (auto& source : identity_.poses) source.name = as_manifest_text(source.name);
     for (auto& source : identity_.still_meshes) source.name = as_manifest_text(source.name);
@@ -117,7 +146,7 @@ BakeWriter::BakeWriter(std::filesystem::path directory, const BakeIdentity& iden
     ensure_directory(directory_);
     remove_abandoned_files(directory_);
     // The manifest is written last, so that a directory with a manifest has a mesh.
-    write_mesh(directory_ / kMeshName, topology, albedo);
+    write_mesh(directory_ / kMeshName, topology, albedo, texture);
     write_file(manifest, text);
 }
 
@@ -164,9 +193,11 @@ void BakeWriter::write_still_mesh(const BakedStillMesh& still_mesh) const {
     std::vector<SectionPlan> specs = pose_specs(metadata, num_vertices, num_planes);
     specs.push_back(triangles_spec(still_mesh.topology));
     specs.push_back(albedo_spec(still_mesh.albedo));
+    add_texture(still_mesh.texture, specs);
     ContainerWriter writer(bake_still_mesh_file(directory_), section::kKindMesh, specs);
     append_pose(writer, metadata, still_mesh.pose);
     append_mesh(writer, 5, 6, still_mesh.topology, still_mesh.albedo);
+    append_texture(writer, specs.size(), still_mesh.topology, still_mesh.texture);
     writer.commit();
 }
 
