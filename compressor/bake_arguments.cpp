@@ -2,11 +2,13 @@
 #include "compressor/bake_arguments.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <limits>
 #include <utility>
 #include <vector>
 
+#include "compressor/material/brdfs.h"
 #include "compressor/scene/root_motion.h"
 #include "paim/base/error.h"
 #include "paim/cli/help.h"
@@ -52,6 +54,10 @@ void add_input_options(CLI::App& app, CompressOptions& options, BakeArguments& a
                                  "file names an exporter that writes sRGB (Blender, MeshLab), else "
                                  "as linear. The report says which")
         ->group(kGroup);
+    app.add_flag_callback(
+           "--no-textures", [&options] { options.textures = false; },
+           "Read no images of materials (map_Kd): their faces have the Kd of the material")
+        ->group(kGroup);
     cli::add_choice<RootMotionChoice>(
         app, "--root-motion", options.root_motion,
         {{"auto", RootMotionChoice::automatic},
@@ -61,6 +67,40 @@ void add_input_options(CLI::App& app, CompressOptions& options, BakeArguments& a
         "What is taken out of the poses and played back as one transform a pose: the path of the "
         "body ('translation'), its path and turns ('rigid'), or nothing. 'auto' takes what makes "
         "the poses much more alike. A --floor keeps its place")
+        ->group(kGroup);
+}
+
+// The BRDFs, each with its numbers: "phong:ks,n, description; …".
+std::string brdf_help() {
+    std::string text;
+    for (const BrdfType& type : brdf_types()) {
+        text +=
+            fmt::format("'{}:{}', {}; ", type.name, fmt::join(type.numbers, ","), type.description);
+    }
+    return text;
+}
+
+void add_gloss_options(CLI::App& app, CompressOptions& options, BakeArguments& arguments) {
+    constexpr const char* kGroup = "Gloss";
+    app.add_flag("--gloss", options.gloss.from_libraries,
+                 "Bake the gloss of the material libraries: Pr and Pm become 'cook-torrance', Ks "
+                 "and Ns 'phong' (docs/input.md). Without it materials are matte, as many "
+                 "exporters write a Ks that nobody meant")
+        ->group(kGroup);
+    app.add_option("--material", arguments.materials,
+                   fmt::format("Gloss of the whole mesh, or with NAME= that of one of its "
+                               "materials, whatever the libraries say. SPEC is {}or 'matte'. May "
+                               "be given several times. A floor is matte, and --static meshes have "
+                               "the gloss of their libraries",
+                               brdf_help()))
+        ->allow_extra_args(false)
+        ->type_name("[NAME=]SPEC")
+        ->group(kGroup);
+    app.add_option("--gloss-bands", arguments.gloss_bands,
+                   fmt::format("Bands of glossy transfer: of the light, 1 to {}, and of the light "
+                               "that leaves, 1 to {}. Default: as many as the materials need",
+                               sh::kMaxBands, kMaxOutBands))
+        ->type_name("IN,OUT")
         ->group(kGroup);
 }
 
@@ -129,6 +169,21 @@ void add_noise_options(CLI::App& app, CompressOptions& options, BakeArguments& a
         ->group(kGroup);
 }
 
+void apply_gloss(const BakeArguments& arguments, CompressOptions& options) {
+    for (const std::string& text : arguments.materials) {
+        options.gloss.overrides.push_back(parse_gloss_override(text));
+    }
+    if (arguments.gloss_bands.empty()) return;
+    const std::vector<uint32_t> bands =
+        cli::parse_list(arguments.gloss_bands, "--gloss-bands", 1, sh::kMaxBands);
+    if (bands.size() != 2 || bands[1] > kMaxOutBands) {
+        throw_usage("--gloss-bands: expected IN,OUT with IN up to {} and OUT up to {}, got '{}'",
+                    sh::kMaxBands, kMaxOutBands, arguments.gloss_bands);
+    }
+    options.bake.gloss_in_bands = bands[0];
+    options.bake.gloss_out_bands = bands[1];
+}
+
 void apply_noise_target(const BakeArguments& arguments, CompressOptions& options) {
     const bool former = !arguments.transfer_error.empty();
     if (former && !arguments.noise_target.empty()) {
@@ -172,6 +227,7 @@ void add_everyday_bake_options(CLI::App& app, CompressOptions& options, BakeArgu
 
 void add_bake_options(CLI::App& app, CompressOptions& options, BakeArguments& arguments) {
     add_input_options(app, options, arguments);
+    add_gloss_options(app, options, arguments);
     add_surroundings_options(app, options, arguments);
     add_noise_options(app, options, arguments);
 }
@@ -186,6 +242,7 @@ void apply(const BakeArguments& arguments, CompressOptions& options) {
             options.floor->albedo = cli::parse_color(arguments.floor_albedo, "--floor-albedo");
         }
     }
+    apply_gloss(arguments, options);
     apply_noise_target(arguments, options);
     if (arguments.rays) options.bake.rays = *arguments.rays;
     if (options.bake.rays % 2 != 0) {

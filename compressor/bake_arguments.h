@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "compressor/options.h"
 
@@ -13,6 +14,8 @@ namespace paim {
 // Values whose form is checked after parsing.
 struct BakeArguments {
     std::string albedo;
+    std::vector<std::string> materials;
+    std::string gloss_bands;
     bool floor = false;
     std::string floor_albedo;
     uint32_t floor_vertices = FloorOptions().num_vertices;

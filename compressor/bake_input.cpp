@@ -34,6 +34,8 @@ ObjSequence open_sequence(const CompressOptions& options) {
     obj_options.orient = options.orient;
     obj_options.albedo = options.albedo;
     obj_options.vertex_colours = options.vertex_colours;
+    obj_options.gloss = options.gloss;
+    obj_options.textures = options.textures;
     obj_options.on_file_checked = [checking] { checking->advance(); };
     ObjSequence sequence(files, obj_options);
     checking->finish();
@@ -63,6 +65,7 @@ std::pair<uint32_t, uint32_t> parse_pose_range(const std::string& text, uint32_t
 BakeInput::BakeInput(const CompressOptions& options)
     : sequence_(open_sequence(options)), topology_(report_topology(sequence_.topology())) {
     print_warnings(sequence_.warnings());
+    print_notes(sequence_.notes());
     print_warnings(mesh_warnings(topology_));
     std::tie(first_pose_, last_pose_) = parse_pose_range(options.poses, sequence_.num_poses());
     find_motion(options);
@@ -96,8 +99,11 @@ void BakeInput::add_still_mesh(const CompressOptions& options, const std::string
     obj_options.orient = options.orient;
     obj_options.origin = sequence_.origin();
     obj_options.vertex_colours = options.vertex_colours;
+    obj_options.gloss.from_libraries = options.gloss.from_libraries;
+    obj_options.textures = options.textures;
     const ObjSequence still({file}, obj_options);
     print_warnings(still.warnings());
+    print_notes(still.notes());
     surroundings_.still_mesh.add(still);
     const Topology& mesh = still.topology();
     const auto positions =

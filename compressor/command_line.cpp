@@ -118,6 +118,11 @@ void CommandLine::define_encode() {
         ->check(cli::in_range(1, static_cast<int>(sh::kMaxBands)))
         ->type_name("B");
     add_encode_options(*encode, options, encode_arguments);
+    encode
+        ->add_flag_callback(
+            "--no-textures", [this] { options.encode.textures = false; },
+            "Leave the images of the bake out of the file. Light that they bounced stays")
+        ->group("Textures");
     add_running_options(*encode, options);
 }
 

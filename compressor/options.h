@@ -9,6 +9,7 @@
 
 #include "compressor/bake/bake_options.h"
 #include "compressor/encode/options.h"
+#include "compressor/io/obj_gloss.h"
 #include "compressor/io/vertex_colours.h"
 #include "compressor/scene/floor.h"
 #include "compressor/scene/root_motion.h"
@@ -28,6 +29,8 @@ struct CompressOptions {
     bool orient = false;
     std::optional<Vec3f> albedo;
     ColourCurve vertex_colours = ColourCurve::automatic;
+    GlossChoice gloss;
+    bool textures = true;  // of the OBJ files
     std::optional<FloorOptions> floor;
     std::vector<std::string> statics;  // OBJ files of still meshes
     RootMotionChoice root_motion = RootMotionChoice::automatic;

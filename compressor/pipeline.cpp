@@ -44,6 +44,15 @@ ordered_json tell(const CompressOptions& options, const Report& report) {
     return report_json(report);
 }
 
+// Error, before a long bake, if the disk has no room for it.
+void check_space(const CompressOptions& options, const BakeInput& input,
+                 const std::filesystem::path& directory) {
+    check_bake_space(
+        directory,
+        pose_file_bytes(input.poses().topology().num_vertices, input.layout(options.bake)),
+        input.first_pose(), input.last_pose());
+}
+
 // Error, before a long bake, if its result could not be encoded in the memory allowed.
 void check_encoding_memory(const CompressOptions& options, const BakeInput& input) {
     const PoseSource& poses = input.poses();
@@ -56,6 +65,7 @@ void check_encoding_memory(const CompressOptions& options, const BakeInput& inpu
     size.num_threads = static_cast<uint64_t>(max_parallelism());
     size.num_vertices = poses.topology().num_vertices;
     size.bands = layout.in_bands;
+    size.texture_bytes = poses.texture().size_bytes() + still_mesh.texture.size_bytes();
     size.still_mesh_bytes = still_mesh_bytes(still_mesh.topology, still_mesh.albedo, layout);
     const std::string what = options.output.string();
     choose_num_in_flight(encode_size(size, options.encode), options.encode.memory_bytes, what);
@@ -185,7 +195,9 @@ ordered_json tell_with_outliers(const CompressOptions& options, const BakeIdenti
 
 ordered_json run_bake(const CompressOptions& options) {
     check_output(options.output);
-    const BakeReport report = bake(options, BakeInput(options), options.output);
+    const BakeInput input(options);
+    check_space(options, input, options.output);
+    const BakeReport report = bake(options, input, options.output);
     warn_of_mesh(report);
     return tell(options, report);
 }
@@ -324,11 +336,13 @@ ordered_json run_both(const CompressOptions& options) {
     if (options.chooses_rays) {
         const BakeInput input(options);
         check_encoding_memory(options, input);
+        check_space(options, input, directory);
         json = run_with_chosen_rays(options, input, directory);
     } else {
         {
             const BakeInput input(options);
             check_encoding_memory(options, input);
+            check_space(options, input, directory);
             const BakeReport report = bake(options, input, directory);
             warn_of_mesh(report);
             json["bake"] = tell(options, report);

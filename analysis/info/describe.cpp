@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "analysis/info/describe_texture.h"
 #include "paim/base/json_text.h"
 #include "paim/cli/root_motion_json.h"
 #include "paim/codec/section_row.h"
@@ -70,6 +71,7 @@ ordered_json describe_paim(const std::filesystem::path& path) {
         json["scenery_vertices"] = still->topology.num_vertices;
         json["scenery_triangles"] = still->topology.triangles.size();
     }
+    for (const CodedMesh& part : asset.parts) add_texture(part.texture, json);
     json["vertex_order"] = asset.vertex_order == VertexOrder::cache ? "local" : "baked";
     json["transfer_codec"] = mesh.transfer->codec_name();
     for (const NamedNumber& number : mesh.transfer->numbers()) json[number.name] = *number.value;
@@ -123,6 +125,8 @@ ordered_json describe_bake(const std::filesystem::path& path) {
         json["scenery_vertices"] = bake.still_mesh()->topology.num_vertices;
         json["scenery_triangles"] = bake.still_mesh()->topology.triangles.size();
     }
+    add_texture(bake.texture(), json);
+    if (bake.still_mesh()) add_texture(bake.still_mesh()->texture, json);
     json["origin"] = {identity.origin.x(), identity.origin.y(), identity.origin.z()};
     cli::add_root_motion(json, identity.root_motion);
     const PoseStatistics total = bake.total_statistics();

@@ -98,7 +98,7 @@ BakeIdentity bake_identity(const PoseSource& source, const BakeOptions& options,
     identity.still_meshes = still_mesh.sources;
     identity.num_vertices = source.topology().num_vertices;
     identity.num_triangles = static_cast<uint32_t>(source.topology().triangles.size());
-    identity.mesh_xxh3 = mesh_checksum(source.topology(), source.albedo());
+    identity.mesh_xxh3 = mesh_checksum(source.topology(), source.albedo(), source.texture(), source.materials());
     identity.origin = source.origin();
     identity.root_motion = root_motion;
     const uint32_t num_moving = source.num_moving_vertices();
@@ -124,7 +124,8 @@ BakeSummary bake_sequence(const PoseSource& given, const BakeOptions& options,
     const IsolatedAtRest source(given);
     const BakeIdentity identity =
         bake_identity(source, options, normals, surroundings, root_motion);
-    const BakeWriter writer(directory, identity, source.topology(), source.albedo());
+    const BakeWriter writer(directory, identity, source.topology(), source.albedo(),
+                            source.texture(), source.materials());
     TransferBaker baker(options, source.albedo(), surroundings.still_mesh, source.materials());
     const auto lacks = [&](uint32_t p) { return !writer.has_pose(p); };
     if (const StillMesh& still_mesh = surroundings.still_mesh; !still_mesh.empty()) {

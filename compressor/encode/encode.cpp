@@ -42,12 +42,16 @@ Asset asset_shell(const BakeReader& bake, const EncodeOptions& options) {
     CodedMesh mesh;
     mesh.topology = bake.topology();
     mesh.albedo = bake.albedo();
+    mesh.texture = bake.texture();
     mesh.layout = bake.identity().layout.with_bands(options.bands);
     mesh.root_motion = bake.identity().root_motion;
     mesh.num_following = bake.identity().num_following;
     auto still = still_part(bake, mesh.layout.in_bands);
     asset.moving() = std::move(mesh);
     if (still) asset.parts.push_back(std::move(*still));
+    if (!options.textures) {
+        for (CodedMesh& part : asset.parts) part.texture = {};
+    }
     return asset;
 }
 
@@ -214,7 +218,7 @@ EncodeSummary encode_unmeasured(const BakeReader& bake, const EncodeOptions& opt
     summary.size_bytes = paim_size_bytes(asset);
     if (options.measure) {
         check_measuring_memory(summary.size_bytes, mesh.topology.num_vertices, asset.num_poses(),
-                               bake_size(bake).still_mesh_bytes, options.memory_bytes,
+                               size.still_mesh_bytes + size.texture_bytes, options.memory_bytes,
                                output.string());
     }
     PaimWriter writer(output, asset);

@@ -41,6 +41,7 @@ struct EncodeOptions {
     bool measure = false;
     float frames_per_second = 24.0f;
     std::string name;
+    bool textures = true;  // false: images on faces are left out
 };
 
 // Which of the files that meet a target is the best.

@@ -12,9 +12,10 @@ namespace paim {
 
 AssetError state_errors(const std::filesystem::path& file, const BakeReader& bake,
                         const BandPower& spectrum, uint64_t memory_bytes) {
+    const EncodeSize size = bake_size(bake);
     check_measuring_memory(std::filesystem::file_size(file), bake.identity().num_vertices,
-                           bake.num_poses(), bake_size(bake).still_mesh_bytes, memory_bytes,
-                           file.string());
+                           bake.num_poses(), size.still_mesh_bytes + size.texture_bytes,
+                           memory_bytes, file.string());
     Asset asset = read_paim(file);
     const AssetError error = measure_asset(asset, bake, spectrum);
     auto provenance = nlohmann::ordered_json::parse(asset.provenance_json);

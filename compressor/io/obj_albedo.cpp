@@ -27,21 +27,15 @@ std::vector<Vec3d> material_colors(const std::string& name,
                                    std::vector<std::string>& warnings) {
     const Vec3d none = Albedo().values[0].cast<double>();
     std::vector<Vec3d> colors;
-    size_t num_clamped = 0, num_textures = 0;
-    std::string texture;
+    size_t num_clamped = 0;
     for (const ObjMaterial& material : materials) {
-        colors.push_back(clamp_color(material.diffuse.value_or(none), num_clamped));
-        if (material.diffuse_texture.empty()) continue;
-        if (num_textures++ == 0) texture = material.diffuse_texture;
+        colors.push_back(clamp_color(material.diffuse.value_or(none), num_clamped) *
+                         material.diffuse_share);
     }
     colors.push_back(none);
     if (num_clamped > 0) {
         warnings.push_back(
             fmt::format("{}: Kd of {} materials clamped to 0..1", name, num_clamped));
-    }
-    if (num_textures > 0) {
-        warnings.push_back(fmt::format("{}: textures are not read: map_Kd of {} materials, e.g. {}",
-                                       name, num_textures, texture));
     }
     return colors;
 }
@@ -62,35 +56,45 @@ Albedo albedo_of_colours(const std::string& name, const std::vector<Vec3d>& colo
     return albedo;
 }
 
-Albedo albedo_of_materials(const std::string& name, const ObjScan& scan,
-                           const ObjLibraries& libraries, std::vector<std::string>& warnings) {
+std::vector<Vec3d> colours_of_faces(const std::string& name, const ObjScan& scan,
+                                    const ObjLibraries& libraries,
+                                    std::vector<std::string>& warnings) {
     if (libraries.materials.empty()) return {};
-    const Polygons& faces = scan.faces;
-    PAIM_CHECK_EQ(scan.face_materials.size(), faces.num_faces());
+    PAIM_CHECK_EQ(scan.face_materials.size(), scan.faces.num_faces());
     const std::vector<Vec3d> colors = material_colors(name, libraries.materials, warnings);
-    const auto color_of_face = [&](size_t i) -> const Vec3d& {
-        const int32_t named = scan.face_materials[i];
-        const int32_t material = named >= 0 ? libraries.of_name[static_cast<size_t>(named)] : -1;
-        return material >= 0 ? colors[static_cast<size_t>(material)] : colors.back();
-    };
-    bool uniform = true;
-    for (size_t i = 1; i < faces.num_faces(); ++i) {
-        uniform = uniform && color_of_face(i) == color_of_face(0);
+    std::vector<Vec3d> of_faces;
+    of_faces.reserve(scan.faces.num_faces());
+    for (const int32_t named : scan.face_materials) {
+        const ObjMaterial* const material = material_of_name(libraries, named);
+        const auto index = material != nullptr
+                               ? static_cast<size_t>(material - libraries.materials.data())
+                               : libraries.materials.size();
+        of_faces.push_back(colors[index]);
     }
-    if (uniform) return {{color_of_face(0).cast<float>()}};
+    return of_faces;
+}
+
+Albedo albedo_of_faces(const ObjScan& scan, std::span<const Vec3d> colours) {
+    if (colours.empty()) return {};
+    const Polygons& faces = scan.faces;
+    PAIM_CHECK_EQ(colours.size(), faces.num_faces());
+    const bool uniform = std::all_of(colours.begin(), colours.end(),
+                                     [&](const Vec3d& colour) { return colour == colours[0]; });
+    if (uniform) return {{colours[0].cast<float>()}};
 
     std::vector<Vec3d> sums(scan.num_vertices, Vec3d::Zero());
     std::vector<uint32_t> counts(scan.num_vertices, 0);
     size_t corner = 0;
     for (size_t i = 0; i < faces.num_faces(); ++i) {
         for (const size_t end = corner + faces.sizes[i]; corner < end; ++corner) {
-            sums[faces.corners[corner]] += color_of_face(i);
+            sums[faces.corners[corner]] += colours[i];
             ++counts[faces.corners[corner]];
         }
     }
+    const Vec3d none = Albedo().values[0].cast<double>();
     Albedo albedo{{}};
     for (size_t v = 0; v < sums.size(); ++v) {
-        const Vec3d mean = counts[v] > 0 ? Vec3d(sums[v] / counts[v]) : colors.back();
+        const Vec3d mean = counts[v] > 0 ? Vec3d(sums[v] / counts[v]) : none;
         albedo.values.push_back(mean.cast<float>());
     }
     return albedo;

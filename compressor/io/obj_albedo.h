@@ -1,6 +1,7 @@
 // The albedo of a mesh from the colours of its OBJ file.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,10 +11,11 @@
 
 namespace paim {
 
-// The albedo of a mesh is the colours of its vertices, if all that a face has have one; else the Kd
-// of materials, averaged over the faces at each vertex (each face counts once, whatever its area; a
-// face without Kd has the default albedo); else the default albedo. It is one value if all faces have
-// the same. Values are linear; Kd is taken as linear.
+// The albedo of a mesh is the colours of its vertices, if all that a face has have one; else the
+// colours of its faces, averaged over the faces at each vertex (each face counts once, whatever its
+// area); else the default albedo. It is one value if all faces have the same. The colour of a face
+// is the Kd of its material, or the default albedo without one, or the average of an image
+// (obj_texture.h). Values are linear; Kd is taken as linear.
 
 // colours   [V] of the vertices, as written
 // srgb      whether they are to be converted from sRGB, after clamping
@@ -23,9 +25,13 @@ Albedo albedo_of_colours(const std::string& name, const std::vector<Vec3d>& colo
 
 // scan       with materials
 // libraries  those of the scan
-// warnings   gets a line if values were clamped to [0, 1], and one about textures, which are not
-//            read
-Albedo albedo_of_materials(const std::string& name, const ObjScan& scan,
-                           const ObjLibraries& libraries, std::vector<std::string>& warnings);
+// warnings   gets a line if values were clamped to [0, 1]
+// returns    [faces of the scan], or nothing if the libraries have no material
+std::vector<Vec3d> colours_of_faces(const std::string& name, const ObjScan& scan,
+                                    const ObjLibraries& libraries,
+                                    std::vector<std::string>& warnings);
+
+// colours  [faces of the scan], or nothing: the default albedo
+Albedo albedo_of_faces(const ObjScan& scan, std::span<const Vec3d> colours);
 
 }  // namespace paim

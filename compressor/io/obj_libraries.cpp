@@ -4,13 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <optional>
 #include <set>
 #include <string_view>
-#include <system_error>
 #include <unordered_map>
 
+#include "compressor/io/file_finder.h"
 #include "compressor/io/lower_case.h"
 #include "compressor/io/obj_text.h"
 #include "paim/base/error.h"
@@ -30,12 +29,6 @@ constexpr size_t kMaxAllWords = 4096;  // of all mtllib lines; each takes some l
 
 bool is_space(char c) {
     return c == ' ' || c == '\t';
-}
-
-std::string_view without_quotes(std::string_view text) {
-    const bool quoted =
-        text.size() >= 2 && (text[0] == '"' || text[0] == '\'') && text.back() == text[0];
-    return quoted ? text.substr(1, text.size() - 2) : text;
 }
 
 std::vector<std::string_view> words_of(std::string_view text) {
@@ -59,16 +52,6 @@ std::string plain_name(std::string_view text) {
     return name;
 }
 
-// Without backslashes before spaces, as shells and some exporters write names.
-std::string without_escapes(std::string_view text) {
-    std::string name;
-    for (size_t i = 0; i < text.size(); ++i) {
-        const bool escapes = text[i] == '\\' && i + 1 < text.size() && is_space(text[i + 1]);
-        if (!escapes) name += text[i];
-    }
-    return name;
-}
-
 // Without a comment, which begins with a '#' after a space.
 std::string_view without_comment(std::string_view text) {
     for (size_t i = 1; i < text.size(); ++i) {
@@ -82,54 +65,10 @@ bool ends_in_mtl(std::string_view word) {
     return word.size() >= 4 && in_lower_case(word.substr(word.size() - 4)) == ".mtl";
 }
 
-// Finds files by names that differ from theirs in case only.
-class OtherCase {
-  public:
-    // The file of this name in the folder: of each part of the path as it is written, or else of the
-    // only one that differs from it in case only. Nothing if there is no regular file, or if `name`
-    // is absolute.
-    std::optional<fs::path> find(const fs::path& folder, const fs::path& name) {
-        if (name.empty() || name.is_absolute()) return std::nullopt;
-        fs::path path = folder;
-        std::error_code failure;
-        for (const fs::path& part : name) {
-            fs::path next = path / part;
-            if (!fs::exists(next, failure)) {
-                const std::string* const only = only_entry(path, part.native());
-                if (only == nullptr) return std::nullopt;
-                next = path / *only;
-            }
-            path = std::move(next);
-        }
-        return fs::is_regular_file(path, failure) ? std::optional(path) : std::nullopt;
-    }
-
-  private:
-    using Entries = std::map<std::string, std::vector<std::string>>;  // by name in lower case
-
-    const std::string* only_entry(const fs::path& folder, const std::string& name) {
-        const auto [known, is_new] = folders_.try_emplace(folder.native());
-        if (is_new) {
-            // "" is the folder of "x.obj". A folder that cannot be read is empty.
-            std::error_code failure;
-            fs::directory_iterator at(folder.empty() ? fs::path(".") : folder, failure);
-            for (; !failure && at != fs::directory_iterator(); at.increment(failure)) {
-                std::string entry = at->path().filename().native();
-                known->second[in_lower_case(entry)].push_back(std::move(entry));
-            }
-        }
-        const auto found = known->second.find(in_lower_case(name));
-        if (found == known->second.end() || found->second.size() != 1) return nullptr;
-        return &found->second[0];
-    }
-
-    std::map<std::string, Entries> folders_;
-};
-
 class LibraryReader {
   public:
-    LibraryReader(const fs::path& folder, ObjLibraries& result)
-        : folder_(folder), result_(result) {}
+    LibraryReader(const fs::path& folder, bool gloss, ObjLibraries& result)
+        : folder_(folder), finder_(folder), gloss_(gloss), result_(result) {}
 
     // Reads what the line names.
     void read_line(const std::string& line) {
@@ -149,7 +88,7 @@ class LibraryReader {
         for (size_t i = 0; i < words.size();) {
             std::optional<fs::path> path;
             size_t last = std::min(words.size(), i + kMaxWords);
-            while (!path && last-- > i) path = find(join(i, last));
+            while (!path && last-- > i) path = finder_.find(join(i, last));
             if (!path) {
                 if (i > 0 && words[i][0] == '#') return;
                 const size_t end = std::min(words.size(), i + kMaxWords) - 1;
@@ -162,50 +101,15 @@ class LibraryReader {
     }
 
   private:
-    std::optional<fs::path> existing(const std::string& name) const {
-        std::error_code failure;
-        fs::path path = folder_ / name;
-        if (name.empty() || !fs::exists(path, failure)) return std::nullopt;
-        return path;
-    }
-
-    // The first file that look_up() knows one of the forms of the name of.
-    template <typename LookUp>
-    static std::optional<fs::path> find_form(std::string_view name, const LookUp& look_up) {
-        std::string last_tried;
-        for (const std::string_view form : {name, without_quotes(name)}) {
-            std::string slashes(form);
-            std::replace(slashes.begin(), slashes.end(), '\\', '/');
-            for (const std::string& tried : {std::string(form), slashes, without_escapes(form)}) {
-                if (tried == last_tried) continue;
-                if (auto path = look_up(tried)) return path;
-                last_tried = tried;
-            }
-        }
-        return std::nullopt;
-    }
-
-    std::optional<fs::path> find(std::string_view name) const {
-        return find_form(name, [this](const std::string& form) { return existing(form); });
-    }
-
-    // For a name that is no file: one in other case, or one of its last part next to the OBJ file.
+    // For a name that find() does not know. Reading a file that is not there warns.
     fs::path find_elsewhere(std::string_view name) {
-        const auto in_other_case = [&](const std::string& form) {
-            auto path = other_case_.find(folder_, form);
-            if (path) {
-                result_.warnings.push_back(fmt::format("{}: taken for the material library '{}'",
-                                                       path->string(), printable(name)));
-            }
-            return path;
-        };
-        if (auto path = find_form(name, in_other_case)) return *path;
-        std::string_view last_part = without_quotes(name);
-        const size_t separator = last_part.find_last_of("/\\");
-        if (separator == std::string_view::npos) return folder_ / name;
-        last_part.remove_prefix(separator + 1);
-        if (auto path = existing(std::string(last_part))) return *path;
-        return in_other_case(std::string(last_part)).value_or(folder_ / name);
+        const auto found = finder_.find_elsewhere(name);
+        if (!found) return folder_ / name;
+        if (found->in_other_case) {
+            result_.warnings.push_back(fmt::format("{}: taken for the material library '{}'",
+                                                   found->path.string(), printable(name)));
+        }
+        return found->path;
     }
 
     void read(const fs::path& path) {
@@ -214,7 +118,8 @@ class LibraryReader {
             std::vector<char> text = read_file(path, kMaxMaterialBytes - num_bytes_);
             num_bytes_ += text.size();
             for (ObjMaterial& material :
-                 parse_obj_materials(path.string(), text, result_.warnings)) {
+                 parse_obj_materials(path.string(), text, gloss_, result_.warnings)) {
+                material.folder = path.parent_path();
                 result_.materials.push_back(std::move(material));
             }
         } catch (const Error& error) {
@@ -223,22 +128,13 @@ class LibraryReader {
     }
 
     fs::path folder_;
+    FileFinder finder_;
+    bool gloss_;
     ObjLibraries& result_;
-    OtherCase other_case_;
     std::set<std::string> lines_, read_;
     size_t num_words_left_ = kMaxAllWords;
     uint64_t num_bytes_ = 0;
 };
-
-// Removes repeated warnings, and shortens a long list.
-void shorten_warnings(const std::string& name, std::vector<std::string>& warnings) {
-    std::set<std::string> seen;
-    std::erase_if(warnings, [&](const std::string& text) { return !seen.insert(text).second; });
-    if (warnings.size() <= kMaxWarnings) return;
-    const size_t num_more = warnings.size() - kMaxWarnings;
-    warnings.resize(kMaxWarnings);
-    warnings.push_back(fmt::format("{}: {} more warnings about material files", name, num_more));
-}
 
 void find_materials(const std::string& name, const ObjScan& scan, ObjLibraries& result) {
     std::unordered_map<std::string, int32_t> exact, plain, uncommented;
@@ -271,10 +167,19 @@ void find_materials(const std::string& name, const ObjScan& scan, ObjLibraries& 
 
 }  // namespace
 
+void shorten_warnings(const std::string& name, std::vector<std::string>& warnings) {
+    std::set<std::string> seen;
+    std::erase_if(warnings, [&](const std::string& text) { return !seen.insert(text).second; });
+    if (warnings.size() <= kMaxWarnings) return;
+    const size_t num_more = warnings.size() - kMaxWarnings;
+    warnings.resize(kMaxWarnings);
+    warnings.push_back(fmt::format("{}: {} more warnings about material files", name, num_more));
+}
+
 ObjLibraries read_obj_libraries(const std::string& name, const std::filesystem::path& folder,
-                                const ObjScan& scan) {
+                                const ObjScan& scan, bool gloss) {
     ObjLibraries result;
-    LibraryReader reader(folder, result);
+    LibraryReader reader(folder, gloss, result);
     for (const std::string& line : scan.libraries) reader.read_line(line);
     shorten_warnings(name, result.warnings);
     find_materials(name, scan, result);

@@ -17,6 +17,18 @@ struct ObjLibraries {
     std::vector<std::string> warnings;
 };
 
+// Removes repeated warnings, and shortens a long list to 8 and the number of the others.
+// name  of the OBJ file
+void shorten_warnings(const std::string& name, std::vector<std::string>& warnings);
+
+// The material of a name of the scan (an index, or -1), or nullptr.
+inline const ObjMaterial* material_of_name(const ObjLibraries& libraries, int32_t named) {
+    const int32_t material = named >= 0 && !libraries.of_name.empty()
+                                 ? libraries.of_name[static_cast<size_t>(named)]
+                                 : -1;
+    return material >= 0 ? &libraries.materials[static_cast<size_t>(material)] : nullptr;
+}
+
 // Reads the libraries of all mtllib lines, 4 MiB at most together.
 //
 // A line may name several libraries with spaces between, and a name may have spaces. So from each
@@ -32,8 +44,9 @@ struct ObjLibraries {
 // name    of the OBJ file, for messages
 // folder  of the OBJ file; its names are relative to it
 // scan    with materials
+// gloss   whether the glossy part of materials will be used; if not, oddities of it give no warnings
 // Unreadable libraries and unknown materials give warnings.
 ObjLibraries read_obj_libraries(const std::string& name, const std::filesystem::path& folder,
-                                const ObjScan& scan);
+                                const ObjScan& scan, bool gloss = false);
 
 }  // namespace paim

@@ -1,9 +1,10 @@
-// The diffuse part of material libraries.
+// The diffuse and the glossy part of material libraries.
 #include "compressor/io/obj_materials.h"
 
 #include <fmt/format.h>
 
-#include <charconv>
+#include <algorithm>
+#include <iterator>
 
 #include "compressor/io/obj_text.h"
 #include "paim/base/error.h"
@@ -13,40 +14,71 @@ namespace paim {
 namespace {
 
 // "r g b", or one number for all three.
-Vec3d read_color(ObjText& text) {
+Vec3d read_color(ObjText& text, const char* keyword) {
     Vec3d color = Vec3d::Zero();
     int num_values = 0;
     for (; num_values < 3 && text.find_word(); ++num_values) {
-        const char* start = text.position();
-        text.skip_number("Kd");
-        if (*start == '+') ++start;
-        std::from_chars(start, text.position(), color[num_values]);
+        color[num_values] = text.read_number(keyword);
     }
     if (num_values == 1) color.setConstant(color[0]);
     if (num_values == 0 || num_values == 2) {
-        text.fail(fmt::format("Kd: expected 3 numbers, got {}", num_values));
+        text.fail(fmt::format("{}: expected 3 numbers, got {}", keyword, num_values));
     }
     return color;
+}
+
+double read_one_number(ObjText& text, const char* keyword) {
+    if (!text.find_word()) text.fail(fmt::format("{}: expected a number, got none", keyword));
+    return text.read_number(keyword);
+}
+
+struct ColorLine {
+    const char* keyword;
+    std::optional<Vec3d> ObjMaterial::*value;
+};
+constexpr ColorLine kColors[] = {{"Kd", &ObjMaterial::diffuse}, {"Ks", &ObjMaterial::specular}};
+
+struct NumberLine {
+    const char* keyword;
+    std::optional<double> ObjMaterial::*value;
+};
+constexpr NumberLine kNumbers[] = {{"Ns", &ObjMaterial::exponent},
+                                   {"illum", &ObjMaterial::illumination},
+                                   {"Pr", &ObjMaterial::roughness},
+                                   {"Pm", &ObjMaterial::metallic}};
+
+bool is_glossy(std::string_view keyword) {
+    const auto has_keyword = [&](const NumberLine& line) { return keyword == line.keyword; };
+    return keyword == "Ks" || std::any_of(std::begin(kNumbers), std::end(kNumbers), has_keyword);
+}
+
+// Reads the rest of a line within a material.
+void read_line(std::string_view keyword, ObjText& text, ObjMaterial& material) {
+    for (const ColorLine& line : kColors) {
+        if (keyword == line.keyword) material.*line.value = read_color(text, line.keyword);
+    }
+    for (const NumberLine& line : kNumbers) {
+        if (keyword == line.keyword) material.*line.value = read_one_number(text, line.keyword);
+    }
+    if (keyword == "map_Kd") material.map = parse_texture_map(text.read_rest_of_line());
 }
 
 }  // namespace
 
 std::vector<ObjMaterial> parse_obj_materials(const std::string& name, std::span<char> data,
-                                             std::vector<std::string>& warnings) {
+                                             bool gloss, std::vector<std::string>& warnings) {
     std::vector<ObjMaterial> materials;
     ObjText text(name, data);
     for (; !text.at_end(); text.next_line()) {
         const std::string_view keyword = text.read_keyword();
         if (keyword == "newmtl") {
-            materials.push_back({std::string(text.read_rest_of_line()), std::nullopt, {}});
-        } else if (keyword == "Kd" && !materials.empty()) {
+            materials.emplace_back().name = text.read_rest_of_line();
+        } else if (!materials.empty()) {
             try {
-                materials.back().diffuse = read_color(text);
+                read_line(keyword, text, materials.back());
             } catch (const Error& error) {
-                warnings.emplace_back(error.what());
+                if (gloss || !is_glossy(keyword)) warnings.emplace_back(error.what());
             }
-        } else if (keyword == "map_Kd" && !materials.empty()) {
-            materials.back().diffuse_texture = printable(text.read_rest_of_line());
         }
     }
     return materials;

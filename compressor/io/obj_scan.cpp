@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cstring>
 #include <limits>
 #include <optional>
@@ -60,6 +61,19 @@ struct IndexRange {
     }
 };
 
+// The first two numbers of the text; the second is 0 if there is none. Zero if one is not finite.
+Vec2f parse_coordinate(std::string_view text) {
+    Vec2f coordinate = Vec2f::Zero();
+    for (int axis = 0; axis < 2; ++axis) {
+        text.remove_prefix(std::min(text.find_first_not_of(" \t+"), text.size()));
+        const auto [end, failure] =
+            std::from_chars(text.data(), text.data() + text.size(), coordinate[axis]);
+        if (failure != std::errc()) break;
+        text.remove_prefix(static_cast<size_t>(end - text.data()));
+    }
+    return coordinate.allFinite() ? coordinate : Vec2f(Vec2f::Zero());
+}
+
 class Scanner {
   public:
     Scanner(const std::string& name, std::span<char> text, const ObjScanOptions& options)
@@ -75,8 +89,7 @@ class Scanner {
             } else if (keyword == "vn") {
                 normal();
             } else if (keyword == "vt") {
-                text_.blank_rest_of_line();
-                ++texture_coordinates_.num_elements;
+                texture_coordinate();
             } else if (!keyword.empty() && keyword[0] != '#') {
                 other_line(keyword);
             }
@@ -133,6 +146,16 @@ class Scanner {
             text_.fail(fmt::format("normal: expected 3 numbers, got {}", num_values));
     }
 
+    // Nothing is said about coordinates that are no numbers: most files are read without them.
+    void texture_coordinate() {
+        ++texture_coordinates_.num_elements;
+        if (options_.read_coordinates) {
+            scan_.coordinates.push_back(parse_coordinate(text_.read_rest_of_line()));
+            return text_.comment_out_line();
+        }
+        text_.blank_rest_of_line();
+    }
+
     void other_line(std::string_view keyword) {
         if (keyword == "p" || keyword == "l") ++scan_.num_other_shapes;
         if (keyword == "o" || keyword == "g") name(keyword == "o");
@@ -163,11 +186,14 @@ class Scanner {
         }
         if (num_corners < 3) {
             scan_.faces.corners.resize(first_corner);
+            scan_.corner_coordinates.resize(
+                std::min(first_corner, scan_.corner_coordinates.size()));
             if (options_.check_normals) corner_has_normal_.resize(first_corner);
             text_.comment_out_line();
             ++scan_.num_small_faces;
             return;
         }
+        if (!scan_.corner_coordinates.empty()) pad_corner_coordinates();
         scan_.faces.sizes.push_back(num_corners);
         face_lines_.push_back(line);
         if (options_.read_materials) scan_.face_materials.push_back(material_);
@@ -199,7 +225,8 @@ class Scanner {
             if (text_.skip('/')) {
                 has_normal = true;
             } else {
-                read_index(texture_coordinates_);
+                const int64_t index = read_index(texture_coordinates_);
+                if (options_.read_coordinates) set_corner_coordinate(static_cast<uint32_t>(index));
                 has_normal = text_.skip('/');
             }
             if (has_normal) read_index(normals_);
@@ -209,6 +236,24 @@ class Scanner {
                                    printable(text_.word_from(word))));
         }
         if (options_.check_normals) corner_has_normal_.push_back(has_normal);
+    }
+
+    // Of the corner that was added last.
+    void set_corner_coordinate(uint32_t index) {
+        pad_corner_coordinates();
+        scan_.corner_coordinates.back() = index;
+    }
+
+    void pad_corner_coordinates() {
+        scan_.corner_coordinates.resize(scan_.faces.corners.size(), kNoCoordinate);
+    }
+
+    // Corners may name coordinates that follow them, or none that the file has.
+    void check_corner_coordinates() {
+        if (scan_.corner_coordinates.empty()) scan_.coordinates = {};
+        for (uint32_t& index : scan_.corner_coordinates) {
+            if (index >= scan_.coordinates.size()) index = kNoCoordinate;
+        }
     }
 
     void check_whole() {
@@ -223,6 +268,7 @@ class Scanner {
         if (scan_.faces.num_faces() == 0) throw_bad_input("{}: no faces", name_);
         if (reference != nullptr) check_faces(*reference);
         find_colors();
+        check_corner_coordinates();
         if (options_.check_normals) {
             normals_.check(name_);
             check_corner_normals();

@@ -22,6 +22,8 @@ struct ObjName {
     size_t first_face = 0;  // the faces from here to that of the next name are its own
 };
 
+constexpr uint32_t kNoCoordinate = UINT32_MAX;
+
 struct ObjScan {
     uint32_t num_vertices = 0;
     Polygons faces;                // in the order of the file, all objects and groups together
@@ -41,6 +43,10 @@ struct ObjScan {
     std::vector<std::string> libraries;   // what follows each mtllib
     std::vector<std::string> materials;   // the names that follow usemtl, each once
     std::vector<int32_t> face_materials;  // per face: index into materials, or -1
+    // Empty unless read_coordinates, and unless a corner of a face has a texture coordinate.
+    std::vector<uint32_t>
+        corner_coordinates;          // per corner: index into coordinates, or kNoCoordinate
+    std::vector<Vec2f> coordinates;  // u v of the vt lines; zero where one is not finite
     // For messages, without a reference only: objects, or groups before the first object.
     std::vector<ObjName> names;
 };
@@ -59,6 +65,7 @@ struct ObjScanOptions {
     bool read_positions = false;  // to the nearest double
     bool read_materials = false;
     bool read_colors = false;
+    bool read_coordinates = false;  // of textures; vt lines become comments, and are not checked
 };
 
 // name  of the file, for messages

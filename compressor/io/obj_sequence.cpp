@@ -9,8 +9,6 @@
 #include <limits>
 #include <utility>
 
-#include "compressor/io/obj_albedo.h"
-#include "compressor/io/obj_libraries.h"
 #include "compressor/io/obj_normals.h"
 #include "compressor/io/obj_parse.h"
 #include "paim/base/check.h"
@@ -58,11 +56,12 @@ Triangulation ObjSequence::check_files() {
         std::vector<char> text = read_file(files_[i], kMaxFileBytes);
         checksums_[i] = xxh3(text.data(), text.size());
         const ObjReference reference{reference_name(files_[0], files_[i]), first_};
-        const bool finds_albedo = i == 0 && !options_.albedo;
-        if (finds_albedo) vertex_colours_.exporter = srgb_exporter(text);
+        const bool finds_colours = i == 0 && !options_.albedo;
+        if (finds_colours) exporter_ = srgb_exporter(text);
         ObjScan scan = scan_obj(files_[i].string(), text,
                                 {options_.normals_from_file, i > 0 ? &reference : nullptr, true,
-                                 finds_albedo, finds_albedo});
+                                 i == 0 && needs_materials(options_), finds_colours,
+                                 finds_colours && options_.textures});
         for (const uint32_t v : scan.faces.corners) bounds[i].extend(scan.positions[v]);
         const UsualBounds most = usual_bounds(scan.positions, scan.faces.corners, bounds[i]);
         usual[i] = most.bounds;
@@ -199,30 +198,12 @@ std::vector<char> ObjSequence::read_unchanged(uint32_t p) const {
     return text;
 }
 
-// The albedo from the first file: that of the options, else vertex colours, else materials.
-Albedo ObjSequence::find_albedo() {
-    if (options_.albedo) return {{*options_.albedo}};
-    const std::string name = pose_name(0);
-    const std::string exporter = std::exchange(vertex_colours_.exporter, {});
-    if (!first_.has_colors) {
-        ObjLibraries libraries = read_obj_libraries(name, files_[0].parent_path(), first_);
-        warnings_ = std::move(libraries.warnings);
-        return albedo_of_materials(name, first_, libraries, warnings_);
-    }
-    const ColourCurve curve = options_.vertex_colours;
-    const bool is_automatic = curve == ColourCurve::automatic;
-    const bool srgb = is_automatic ? !exporter.empty() : curve == ColourCurve::srgb;
-    vertex_colours_ = {true, srgb, !is_automatic, exporter};
-    return albedo_of_colours(name, std::exchange(first_.colors, {}), srgb, warnings_);
-}
-
 void ObjSequence::build(Triangulation cut) {
     const std::string name = pose_name(0);
     if (cut.triangles.empty()) {
         throw_bad_input("{}: no faces with three different vertices", name);
     }
     topology_ = {first_.num_vertices, std::move(cut.triangles)};
-    albedo_ = find_albedo();
     std::vector<std::vector<Vec3f>> poses;
     const std::vector<uint32_t> numbers = reference_poses(num_poses());
     for (size_t r = 0; r < references_.size(); ++r) {
@@ -230,6 +211,9 @@ void ObjSequence::build(Triangulation cut) {
         references_[r] = {};
     }
     check_orientation(poses);
+    surface_ =
+        read_surface(files_[0], first_, exporter_, options_, topology_, cut.polygons, poses[0]);
+    warnings_.insert(warnings_.begin(), surface_.warnings.begin(), surface_.warnings.end());
     distinct_ = without_duplicate_faces(topology_);
     seams_ = find_seams(distinct_, places_, poses[0], longest_edge_);
     references_.clear();

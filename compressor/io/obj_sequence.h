@@ -9,37 +9,33 @@
 #include <vector>
 
 #include "compressor/io/obj_scan.h"
+#include "compressor/io/obj_surface.h"
 #include "compressor/io/triangulate.h"
-#include "compressor/io/vertex_colours.h"
 #include "paim/mesh/bounds.h"
 #include "paim/mesh/pose_source.h"
 #include "paim/mesh/sequence_places.h"
 
 namespace paim {
 
-struct ObjOptions {
+struct ObjOptions : ObjSurfaceOptions {
     // False: normals are computed from the faces (mesh/normals.h), and vertices on both sides of a
     // seam share them (mesh/seams.h).
     // True: they are averaged from the file's vn (obj_normals.h).
     bool normals_from_file = false;
     // Whether closed parts that face inwards (mesh/orientation.h) are turned.
     bool orient = false;
-    // Overrides the colours and materials of the file; linear, 0..1.
-    std::optional<Vec3f> albedo;
-    // What the colours of vertices are taken as.
-    ColourCurve vertex_colours = ColourCurve::automatic;
     // Origin of positions, instead of the one that mesh/origin.h chooses.
     std::optional<Vec3d> origin;
     // Called whenever a file has been checked, by several threads at once.
     std::function<void()> on_file_checked;
 };
 
-// All files must hold the same vertices and faces in the same order. Texture coordinates, objects,
-// groups, smoothing, points and lines are ignored.
+// All files must hold the same vertices and faces in the same order. Objects, groups, smoothing,
+// points and lines are ignored. Texture coordinates are those of the first.
 class ObjSequence : public PoseSource {
   public:
-    // Checks all files (obj_scan.h) first, in parallel. The first one gives the albedo
-    // (obj_albedo.h), and the cuts of polygons where they are right in all poses (triangulate.h).
+    // Checks all files (obj_scan.h) first, in parallel. The first one gives the surface
+    // (obj_surface.h), and the cuts of polygons where they are right in all poses (triangulate.h).
     // files  at least one; find_obj_files() gives them. The same file may be several poses.
     // Errors (bad input): any file unreadable, above 4 GiB, damaged, unlike the first, or with a
     // vertex of a face whose coordinates are no finite floats relative to the origin; or a mesh
@@ -48,7 +44,9 @@ class ObjSequence : public PoseSource {
     explicit ObjSequence(std::vector<std::filesystem::path> files, const ObjOptions& options = {});
 
     const Topology& topology() const override { return topology_; }
-    const Albedo& albedo() const override { return albedo_; }
+    const Albedo& albedo() const override { return surface_.albedo; }
+    const Materials& materials() const override { return surface_.materials; }
+    const Texture& texture() const override { return surface_.texture; }
     uint32_t num_poses() const override { return static_cast<uint32_t>(files_.size()); }
     // The origin of the options, or one chosen from the bounds of all poses (mesh/origin.h).
     Vec3d origin() const override { return origin_; }
@@ -66,8 +64,10 @@ class ObjSequence : public PoseSource {
 
     // Oddities that are not errors: lines, each with the name of the file.
     const std::vector<std::string>& warnings() const { return warnings_; }
+    // The same for what may well be meant.
+    const std::vector<std::string>& notes() const { return surface_.notes; }
     // Of the first file.
-    const VertexColours& vertex_colours() const { return vertex_colours_; }
+    const VertexColours& vertex_colours() const { return surface_.vertex_colours; }
 
   private:
     Triangulation check_files();
@@ -79,7 +79,6 @@ class ObjSequence : public PoseSource {
     void build(Triangulation cut);
     void check_orientation(std::span<const std::vector<Vec3f>> poses);
     std::string part_name(uint32_t vertex) const;
-    Albedo find_albedo();
     std::vector<char> read_unchanged(uint32_t p) const;
     std::vector<Vec3f> local(size_t file, const std::vector<Vec3d>& positions) const;
     void choose_offsets(const std::vector<BoundsD>& bounds);
@@ -98,8 +97,8 @@ class ObjSequence : public PoseSource {
     std::vector<uint32_t> first_places_, places_;
     double longest_edge_ = 0.0;    // that is none of an outlier in the first pose
     std::vector<uint32_t> seams_;  // vertices that share normals (mesh/seams.h)
-    Albedo albedo_;
-    VertexColours vertex_colours_;
+    std::string exporter_;         // of the first file, if it writes sRGB colours
+    ObjSurface surface_;
     size_t num_inward_ = 0;
     std::vector<std::string> warnings_;
 };

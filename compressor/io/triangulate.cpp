@@ -75,7 +75,8 @@ Triangulator::Triangulator(const Polygons& polygons, std::span<const Vec3f> posi
     PolygonCutter cutter;
     Shape shape;
     size_t first_corner = 0;
-    for (const uint32_t size : polygons.sizes) {
+    for (uint32_t polygon = 0; polygon < polygons.num_faces(); ++polygon) {
+        const uint32_t size = polygons.sizes[polygon];
         const auto from = std::span(polygons.corners).subspan(first_corner, size);
         for (const uint32_t v : from) PAIM_CHECK_LT(v, positions.size());
         const bool is_polygon = shape.take(from);
@@ -90,8 +91,9 @@ Triangulator::Triangulator(const Polygons& polygons, std::span<const Vec3f> posi
             const bool whole = cutter.cut(triangles);
             if (!whole) ++result_.num_degenerate;
             if (shape.repeats) drop_repeating(triangles, first_triangle);
+            number_triangles(polygon);
             if (shape.corners.size() > 3) {
-                cuts_.push_back({static_cast<uint32_t>(first_corner), size,
+                cuts_.push_back({polygon, static_cast<uint32_t>(first_corner), size,
                                  static_cast<uint32_t>(first_triangle),
                                  static_cast<uint32_t>(triangles.size() - first_triangle),
                                  whole ? static_cast<float>(cutter.area()) : 0.0f,
@@ -100,6 +102,11 @@ Triangulator::Triangulator(const Polygons& polygons, std::span<const Vec3f> posi
         }
         first_corner += size;
     }
+}
+
+// Gives the triangles that have no number this one.
+void Triangulator::number_triangles(uint32_t polygon) {
+    result_.polygons.resize(result_.triangles.size(), polygon);
 }
 
 // The area of the polygon for its extent, as PolygonCutter::area().
@@ -178,18 +185,28 @@ void Triangulator::try_pose(size_t index, uint32_t pose, std::span<const Vec3d> 
 Triangulation Triangulator::finish() {
     if (better_.empty()) return std::move(result_);
     const std::vector<Triangle> old = std::move(result_.triangles);
+    const std::vector<uint32_t> old_polygons = std::move(result_.polygons);
     std::vector<Triangle>& triangles = result_.triangles;
+    std::vector<uint32_t>& polygons = result_.polygons;
     triangles.clear();
+    polygons.clear();
     size_t copied = 0;
+    // Those of the first pose.
+    const auto copy = [&](size_t end) {
+        const auto first = static_cast<std::ptrdiff_t>(copied);
+        const auto last = static_cast<std::ptrdiff_t>(end);
+        triangles.insert(triangles.end(), old.begin() + first, old.begin() + last);
+        polygons.insert(polygons.end(), old_polygons.begin() + first, old_polygons.begin() + last);
+    };
     for (const auto& [index, better] : better_) {
         const Cut& cut = cuts_[index];
-        const auto at = [&](size_t i) { return old.begin() + static_cast<std::ptrdiff_t>(i); };
-        triangles.insert(triangles.end(), at(copied), at(cut.first_triangle));
+        copy(cut.first_triangle);
         triangles.insert(triangles.end(), better.triangles.begin(), better.triangles.end());
+        number_triangles(cut.polygon);
         copied = cut.first_triangle + cut.num_triangles;
         if (cut.degenerate) --result_.num_degenerate;
     }
-    triangles.insert(triangles.end(), old.begin() + static_cast<std::ptrdiff_t>(copied), old.end());
+    copy(old.size());
     return std::move(result_);
 }
 

@@ -15,6 +15,7 @@ namespace paim {
 
 struct Triangulation {
     std::vector<Triangle> triangles;  // in the order of the polygons, with their winding
+    std::vector<uint32_t> polygons;   // [triangles] the number of the polygon that each is of
     // Polygons that name a vertex twice. Corners that repeat their neighbour are merged first;
     // triangles that still name one twice are dropped.
     uint64_t num_repeating = 0;
@@ -50,7 +51,7 @@ class Triangulator {
     // A polygon that was cut, which is none of three corners. Small, because there are as many as
     // quads. Files are too small for more than 2^32 corners.
     struct Cut {
-        uint32_t first_corner, num_corners;
+        uint32_t polygon, first_corner, num_corners;
         uint32_t first_triangle, num_triangles;
         float area, score;  // in the first pose; 0 if degenerate
         bool degenerate;    // in the first pose
@@ -61,6 +62,7 @@ class Triangulator {
         std::vector<Triangle> triangles;
     };
 
+    void number_triangles(uint32_t polygon);
     double relative_area(const Cut& cut, std::span<const Vec3d> positions) const;
     bool is_right(const Cut& cut, std::span<const Vec3d> positions) const;
     void try_pose(size_t cut, uint32_t pose, std::span<const Vec3d> positions, const Vec3d& origin);

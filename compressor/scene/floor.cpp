@@ -291,6 +291,7 @@ PosesOnFloor::PosesOnFloor(const PoseSource& source, const BodyBounds& bounds,
       topology_(source.topology()),
       albedo_(source.albedo()),
       materials_(source.materials()),
+      texture_(source.texture()),
       positions_xxh3_(xxh3(floor_.positions.data(), floor_.positions.size() * sizeof(Vec3f))),
       description_(fmt::format("{} vertices at y = {}, albedo {},{},{}",
                                floor_.topology.num_vertices, floor_.height, options.albedo.x(),
@@ -300,6 +301,7 @@ PosesOnFloor::PosesOnFloor(const PoseSource& source, const BodyBounds& bounds,
     if (first > std::numeric_limits<int32_t>::max() - num_floor) {
         throw_bad_input("floor: {} vertices are too many to add {}", first, num_floor);
     }
+    texture_.append({}, topology_.triangles.size(), floor_.topology.triangles.size());
     topology_.append(floor_.topology);
     albedo_.append({{options.albedo}}, first, num_floor);
     materials_.append({}, first, num_floor);

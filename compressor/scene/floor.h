@@ -60,6 +60,7 @@ class PosesOnFloor : public PoseSource {
     const Topology& topology() const override { return topology_; }
     const Albedo& albedo() const override { return albedo_; }
     const Materials& materials() const override { return materials_; }
+    const Texture& texture() const override { return texture_; }
     uint32_t num_poses() const override { return source_.num_poses(); }
     Vec3d origin() const override { return source_.origin(); }
     uint32_t num_moving_vertices() const override { return source_.topology().num_vertices; }
@@ -76,6 +77,7 @@ class PosesOnFloor : public PoseSource {
     Topology topology_;
     Albedo albedo_;
     Materials materials_;  // the floor is matte
+    Texture texture_;
     uint64_t positions_xxh3_;
     std::string description_;
 };

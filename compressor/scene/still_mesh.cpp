@@ -12,10 +12,10 @@ namespace paim {
 
 namespace {
 
-// Checksum of everything that changes light: faces, albedo, positions, normals and, if any vertex is
+// Checksum of everything that is seen: faces, albedo, texture, positions, normals and, if any vertex is
 // glossy, materials.
 uint64_t checksum(const PoseSource& source, const Pose& pose) {
-    const uint64_t mesh = mesh_checksum(source.topology(), source.albedo());
+    const uint64_t mesh = mesh_checksum(source.topology(), source.albedo(), source.texture());
     StreamingHash hash;
     hash.update(&mesh, sizeof mesh);
     hash.update(pose.positions.data(), pose.positions.size() * sizeof(Vec3f));
@@ -28,6 +28,17 @@ uint64_t checksum(const PoseSource& source, const Pose& pose) {
         }
     }
     return hash.digest();
+}
+
+// Error if both textures together are too much for one.
+void check_sum(const Texture& there, const Texture& added, const std::string& name) {
+    const size_t num_images = there.images.size() + added.images.size();
+    const size_t num_coordinates = there.coordinates.size() + added.coordinates.size();
+    if (num_images <= kMaxImages && num_coordinates <= kMaxCoordinates) return;
+    throw_bad_input(
+        "{}: with it, still meshes have {} images and {} texture coordinates, expected "
+        "at most {} and {}",
+        name, num_images, num_coordinates, kMaxImages, kMaxCoordinates);
 }
 
 }  // namespace
@@ -50,6 +61,8 @@ void StillMesh::add(const PoseSource& given) {
         albedo.append(source.albedo(), topology.num_vertices, num_own);
         materials.append(source.materials(), topology.num_vertices, num_own);
     }
+    check_sum(texture, source.texture(), name);
+    texture.append(source.texture(), topology.triangles.size(), source.topology().triangles.size());
     topology.append(source.topology());
     pose.positions.insert(pose.positions.end(), own.positions.begin(), own.positions.end());
     pose.normals.insert(pose.normals.end(), own.normals.begin(), own.normals.end());

@@ -21,7 +21,7 @@ struct StillMesh {
     bool empty() const { return topology.num_vertices == 0; }
 
     // Adds the source's first pose, whose positions are relative to the origin of the poses.
-    // Error (bad input) if that makes more than 2^31 - 1 vertices.
+    // Error (bad input) if that makes more than 2^31 - 1 vertices, or a texture that is too large.
     void add(const PoseSource& source);
 };
 

@@ -16,6 +16,7 @@ std::optional<CodedMesh> still_part(const BakeReader& bake, uint32_t bands) {
     CodedMesh mesh;
     mesh.topology = baked.topology;
     mesh.albedo = baked.albedo;
+    mesh.texture = baked.texture;
     mesh.layout = layout.with_bands(bands);
     mesh.positions = LowRank::still(3, baked.pose.positions);
     const size_t num_vertices = baked.topology.num_vertices;

@@ -47,9 +47,10 @@ void check_measuring_memory(const EncodeSize& bake, const TransferLayout& layout
     const uint64_t value = options.precision == Precision::f16 ? 2 : 4;
     const uint64_t of_vertex = 3 * (4 + value * counted(options.geometry, 0)) +
                                kept.num_planes() * (4 + value * counted(options.transfer, most));
-    check_measuring_memory(bake.num_vertices * of_vertex + bake.still_mesh_bytes / 2,
-                           bake.num_vertices, bake.num_poses, bake.still_mesh_bytes,
-                           options.memory_bytes, what);
+    check_measuring_memory(
+        bake.num_vertices * of_vertex + bake.still_mesh_bytes / 2 + bake.texture_bytes,
+        bake.num_vertices, bake.num_poses, bake.still_mesh_bytes + bake.texture_bytes,
+        options.memory_bytes, what);
 }
 
 }  // namespace paim

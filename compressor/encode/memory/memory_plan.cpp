@@ -48,9 +48,11 @@ EncodeSize bake_size(const BakeReader& bake) {
     size.num_threads = static_cast<uint64_t>(max_parallelism());
     size.num_vertices = bake.identity().num_vertices;
     size.bands = layout.in_bands;
+    size.texture_bytes = bake.texture().size_bytes();
     if (bake.still_mesh()) {
         size.still_mesh_bytes =
             still_mesh_bytes(bake.still_mesh()->topology, bake.still_mesh()->albedo, layout);
+        size.texture_bytes += bake.still_mesh()->texture.size_bytes();
     }
     return size;
 }
@@ -83,10 +85,10 @@ uint64_t encode_memory_bytes(const EncodeSize& size, uint32_t num_in_flight) {
     // P and K are below 2^20 and threads below 2^10, so that nothing here overflows.
     const uint64_t poses = size.num_poses, components = size.num_components;
     // The bake and the model hold the mesh and the still mesh; each part keeps its V and its
-    // weights.
+    // weights. A section of a texture is copied once more while it is written.
     const uint64_t held =
         2 * mesh_bytes(size.num_triangles, size.num_colours) + 2 * size.still_mesh_bytes +
-        kPoseNameBytes * poses +
+        3 * size.texture_bytes + kPoseNameBytes * poses +
         2 * (principal_components_bytes(poses) + poses * components * sizeof(float)) +
         component_noise_bytes(size.num_vertices, size.bands) +
         Shrinkage::held_bytes(size.num_vertices, size.bands) + 4 * size.outlier_bytes +

@@ -24,6 +24,7 @@ struct EncodeSize {
     uint64_t num_vertices = 0;
     uint64_t bands = 1;
     uint64_t still_mesh_bytes = 0;  // still_mesh_bytes() of the bake
+    uint64_t texture_bytes = 0;     // of the images and coordinates of all parts
     uint64_t outlier_bytes = 0;     // of those that were found (mesh/outliers.h)
     uint64_t num_exceptions = 0;    // components that they take, at most
 };

@@ -69,12 +69,14 @@ struct Need {
 
     // Four copies of the mesh: in the order of the bake and of the file, in the problem and in a
     // model. Each vertex has its number and the vertices that predict it, twice, and its place in
-    // the bake.
+    // the bake. Textures are in the bake and in the problem, and in a file and its sections, of which
+    // the best and the one that is tried are held.
     uint64_t mesh() const {
         constexpr uint64_t kPredicting = PlanePredictor::kBytesAVertex + sizeof(uint32_t);
         return 4 * mesh_bytes(size.streamed.num_triangles, size.streamed.num_colours) +
                vertices() * (2 * kPredicting + 3 * sizeof(uint32_t)) +
-               4 * size.streamed.still_mesh_bytes + kPoseNameBytes * poses();
+               4 * size.streamed.still_mesh_bytes + 6 * size.streamed.texture_bytes +
+               kPoseNameBytes * poses();
     }
 
     // Integers of both parts, twice: the best model and the one that is tried. Positions are there

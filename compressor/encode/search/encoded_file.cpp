@@ -58,6 +58,7 @@ uint64_t EncodedFiles::overhead_bytes(double transfer_error) {
     };
     mesh.positions = nothing(3);
     mesh.transfer = plain_transfer(nothing(mesh.layout.num_planes()));
+    problem_.add_textures(shell);
     shell.provenance_json = bake_provenance(problem_.bake.identity(), problem_.statistics);
     return PackedFile(shell, Effort::fast).size_bytes();
 }
@@ -198,6 +199,7 @@ std::optional<EncodedFile> EncodedFiles::pack(const Targets& targets,
     provenance["measured"] =
         nlohmann::ordered_json::parse(error_statement_json(refined.error, target_.spectrum));
     asset.provenance_json = json_text(provenance);
+    problem_.add_textures(asset);
     return EncodedFile{PackedFile(asset),
                        refined.error,
                        targets,

@@ -41,6 +41,7 @@ void write_grouped_file(const EncodeProblem& problem, const EncodeOptions& optio
     mesh.transfer = type.code_groups(
         {problem, options, target, memo.codecs ? &*memo.codecs : nullptr}, num_groups);
     asset.provenance_json = bake_provenance(problem.bake.identity(), problem.statistics);
+    problem.add_textures(asset);
     PackedFile(asset).write(output);
 }
 

@@ -8,6 +8,7 @@
 #include "compressor/encode/search/problem_reader.h"
 #include "compressor/encode/search/transfer_encoder.h"
 #include "paim/mesh/face_vertices.h"
+#include "paim/mesh/texture_order.h"
 #include "paim/metrics/vertex_match.h"
 
 namespace paim {
@@ -33,6 +34,7 @@ CodedMesh in_cache_order(CodedMesh mesh) {
     reorder(mesh.positions);
     reorder(mesh.transfer->matrix);
     mesh.albedo = in_order(mesh.albedo, order.old_vertex);
+    mesh.texture = reordered(mesh.texture, mesh.topology, order.topology, order.old_vertex);
     mesh.topology = std::move(order.topology);
     return mesh;
 }
@@ -49,6 +51,7 @@ Asset make_shell(const BakeReader& bake, const EncodeOptions& options, const Tra
     CodedMesh& mesh = shell.moving();
     mesh.topology = std::move(order.topology);
     mesh.albedo = in_order(bake.albedo(), order.old_vertex);
+    mesh.texture = reordered(bake.texture(), bake.topology(), mesh.topology, order.old_vertex);
     mesh.layout = layout;
     mesh.positions.num_poses = bake.num_poses();
     mesh.root_motion = bake.identity().root_motion;
@@ -79,6 +82,10 @@ EncodeProblem start_problem(const BakeReader& bake, const EncodeOptions& options
                           .statistics = bake.total_statistics(),
                           .progress = std::move(progress)};
     problem.shell = make_shell(bake, options, problem.layout, order);
+    for (CodedMesh& part : problem.shell.parts) {
+        Texture texture = std::exchange(part.texture, {});
+        if (options.textures) problem.textures.push_back(std::move(texture));
+    }
     problem.predictor = PlanePredictor(problem.shell.moving().topology);
     problem.plane_weight = plane_weights(problem.layout, problem.spectrum);
     problem.smoother.emplace(problem.shell.moving().topology);

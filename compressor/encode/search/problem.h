@@ -22,8 +22,12 @@ struct EncodeProblem {
     TransferLayout layout;  // bands as asked for
     BandPower spectrum;
     PoseStatistics statistics;
-    // Everything but positions and transfer of the part that moves; vertices in cache order.
+    // Everything but textures, and but positions and transfer of the part that moves; vertices in
+    // cache order.
     Asset shell = {};
+    // [parts] They are large, and no candidate needs them: add_textures() is for files that are
+    // written or whose size counts.
+    std::vector<Texture> textures = {};
     PlanePredictor predictor = {};  // of the part that moves
     // What the parts are smoothed and measured on, made once.
     std::optional<SurfaceSmoother> smoother = {};  // of the part that moves
@@ -43,6 +47,12 @@ struct EncodeProblem {
     uint64_t unneeded_bytes = 0;     // of these, without all that can be needed
     // Of all that is done with it; always there.
     std::shared_ptr<SearchProgress> progress = {};
+
+    void add_textures(Asset& asset) const {
+        for (size_t part = 0; part < textures.size(); ++part) {
+            asset.parts[part].texture = textures[part];
+        }
+    }
 
     // Transfer error that noise and bands of the bake leave at best, in the part where it is
     // larger.

@@ -42,7 +42,7 @@ struct BakeIdentity {
     std::string floor;            // description of the ground under the poses; empty if none
     uint32_t num_vertices = 0;
     uint32_t num_triangles = 0;
-    uint64_t mesh_xxh3 = 0;        // of triangles and albedo
+    uint64_t mesh_xxh3 = 0;        // of triangles, albedo and texture
     Vec3d origin = Vec3d::Zero();  // origin of the scene's coordinates, scene units
     RootMotion root_motion;        // [P] or empty: poses are in local coordinates
     // How many vertices, from the first, follow the root motion. The others are a floor.
@@ -60,8 +60,9 @@ struct BakeIdentity {
     bool operator==(const BakeIdentity&) const = default;
 };
 
-// Checksum of what all poses share: the triangles, the albedo, and the materials if any is glossy.
-uint64_t mesh_checksum(const Topology& topology, const Albedo& albedo,
+// Checksum of what all poses share: the triangles, the albedo, the texture, and the materials if any is
+// glossy.
+uint64_t mesh_checksum(const Topology& topology, const Albedo& albedo, const Texture& texture = {},
                        const Materials& materials = {});
 
 // One baked pose, in its local coordinates and axes where the bake has a root motion. Planes as in
@@ -84,6 +85,12 @@ struct BakedPose {
 // Memory of the arrays of a baked pose.
 inline uint64_t baked_pose_bytes(uint64_t num_vertices, const TransferLayout& layout) {
     return (6 + 2 * uint64_t{layout.num_planes()}) * num_vertices * sizeof(float);
+}
+
+// Size of the file of a pose, but for its header and statistics.
+inline uint64_t pose_file_bytes(uint64_t num_vertices, const TransferLayout& layout) {
+    const uint64_t planes = layout.num_planes();
+    return num_vertices * (6 * sizeof(float) + planes * (sizeof(float) + sizeof(uint16_t)));
 }
 
 // The pose number of the still meshes in random streams and in metadata.
@@ -117,7 +124,8 @@ class BakeWriter {
     // Errors: bad input if it holds a bake of
     // another identity (the first difference is named) or other files; output failed.
     BakeWriter(std::filesystem::path directory, const BakeIdentity& identity,
-               const Topology& topology, const Albedo& albedo, const Materials& materials = {});
+               const Topology& topology, const Albedo& albedo, const Texture& texture = {},
+               const Materials& materials = {});
 
     // Whether the bake has the whole pose p, of this identity.
     bool has_pose(uint32_t p) const;

@@ -275,7 +275,8 @@ std::string first_difference(const BakeIdentity& there, const BakeIdentity& want
           differ("vertices that follow the root motion", count_or_all(there.num_following),
                  count_or_all(wanted.num_following)),
           differ("static files", there.still_meshes.size(), wanted.still_meshes.size()),
-          differ("checksum of faces and albedo", hex(there.mesh_xxh3), hex(wanted.mesh_xxh3))}) {
+          differ("checksum of faces, albedo and texture", hex(there.mesh_xxh3),
+                 hex(wanted.mesh_xxh3))}) {
         if (!difference.empty()) return difference;
     }
     const std::string difference = first_difference("pose", there.poses, wanted.poses);

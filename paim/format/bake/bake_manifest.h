@@ -10,7 +10,7 @@
 namespace paim {
 
 inline constexpr const char* kManifestName = "manifest.json";
-inline constexpr const char* kMeshName = "mesh.bin";  // triangles and albedo
+inline constexpr const char* kMeshName = "mesh.bin";  // triangles, albedo and texture
 
 // The text after it was written to a manifest and read from it: bytes that are not UTF-8, which
 // file names may have, are replaced.

@@ -14,6 +14,7 @@
 #include "paim/format/container/metadata.h"
 #include "paim/format/container/root_numbers.h"
 #include "paim/format/container/sections.h"
+#include "paim/format/container/texture_sections.h"
 
 namespace paim {
 
@@ -123,7 +124,8 @@ BakeReader::BakeReader(std::filesystem::path directory) : directory_(std::move(d
     albedo_ = read_albedo(mesh, identity_.num_vertices);
     materials_ = read_materials(mesh, identity_, identity_.num_vertices);
     if (identity_.gloss) gloss_rows_ = glossy_rows(topology_, materials_);
-    if (mesh_checksum(topology_, albedo_, materials_) != identity_.mesh_xxh3) {
+    texture_ = read_texture(mesh, topology_, section::kTexture[0]);
+    if (mesh_checksum(topology_, albedo_, texture_, materials_) != identity_.mesh_xxh3) {
         throw_bad_input("{}: not the mesh that the manifest names", mesh.name());
     }
     check_floor(topology_, identity_.num_following, mesh.name());
@@ -179,6 +181,7 @@ BakedStillMesh read_bake_still_mesh(const std::filesystem::path& directory,
     pose.noise = read_planes(reader, section::kNoise, num_planes, num_vertices, ScalarType::f16);
     still_mesh.topology = read_triangles(reader, num_vertices);
     still_mesh.albedo = read_albedo(reader, num_vertices);
+    still_mesh.texture = read_texture(reader, still_mesh.topology, section::kTexture[0]);
     still_mesh.materials = read_materials(reader, identity, num_vertices);
     if (!identity.gloss) return still_mesh;
     const auto num_rows =

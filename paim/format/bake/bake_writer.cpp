@@ -16,6 +16,7 @@
 #include "paim/format/bake/bake_manifest.h"
 #include "paim/format/container/mesh_section_writer.h"
 #include "paim/format/container/sections.h"
+#include "paim/format/container/texture_section_writer.h"
 
 namespace paim {
 
@@ -112,24 +113,42 @@ void append_pose(ContainerWriter& writer, const std::string& metadata, const Bak
     append_halves(writer, 6, pose.gloss_noise);
 }
 
+// What poses share, or a still mesh has.
+struct MeshParts {
+    const Topology& topology;
+    const Albedo& albedo;
+    const Texture& texture;
+    const Materials* materials;  // of bakes with gloss, as the identity lists them; else nullptr
+};
+
 // Adds the sections of a mesh behind others.
-void add_mesh_specs(const Topology& topology, const Albedo& albedo, const Materials& materials,
-                    bool has_gloss, std::vector<SectionPlan>& specs) {
-    specs.push_back(triangles_spec(topology));
-    specs.push_back(albedo_spec(albedo));
-    if (!has_gloss) return;
-    const auto count = static_cast<uint32_t>(materials.of_vertex.size());
-    specs.push_back(SectionSpec{section::kMaterials, ScalarType::u32, 0, {1, count, 1}});
+void add_mesh_specs(const MeshParts& mesh, std::vector<SectionPlan>& specs) {
+    specs.push_back(triangles_spec(mesh.topology));
+    specs.push_back(albedo_spec(mesh.albedo));
+    if (mesh.materials != nullptr) {
+        const auto count = static_cast<uint32_t>(mesh.materials->of_vertex.size());
+        specs.push_back(SectionSpec{section::kMaterials, ScalarType::u32, 0, {1, count, 1}});
+    }
+    for (const TextureSection& section : texture_sections(mesh.texture, section::kTexture[0])) {
+        specs.emplace_back(section.spec);
+    }
 }
 
 // Fills them.
 // first  their first section
-void append_mesh(ContainerWriter& writer, size_t first, const Topology& topology,
-                 const Albedo& albedo, const Materials& materials, bool has_gloss) {
-    append_mesh(writer, first, first + 1, topology, albedo);
-    if (!has_gloss) return;
-    const std::vector<uint32_t> numbers(materials.of_vertex.begin(), materials.of_vertex.end());
-    writer.append(first + 2, std::span(numbers));
+void append_mesh(ContainerWriter& writer, size_t first, const MeshParts& mesh) {
+    append_mesh(writer, first, first + 1, mesh.topology, mesh.albedo);
+    first += 2;
+    if (mesh.materials != nullptr) {
+        const std::vector<uint16_t>& listed = mesh.materials->of_vertex;
+        const std::vector<uint32_t> numbers(listed.begin(), listed.end());
+        writer.append(first++, std::span(numbers));
+    }
+    for (const auto& [piece, spec] : texture_sections(mesh.texture, section::kTexture[0])) {
+        const std::vector<uint8_t> bytes =
+            texture_bytes(mesh.texture, mesh.topology, piece, spec.index);
+        writer.append(first++, bytes.data(), bytes.size());
+    }
 }
 
 // The same materials by their numbers in the identity's list.
@@ -148,13 +167,21 @@ Materials as_listed(const Materials& materials, const BakeIdentity& identity) {
 
 }  // namespace
 
-uint64_t mesh_checksum(const Topology& topology, const Albedo& albedo, const Materials& materials) {
+uint64_t mesh_checksum(const Topology& topology, const Albedo& albedo, const Texture& texture,
+                       const Materials& materials) {
     StreamingHash hash;
     hash.update(&topology.num_vertices, sizeof(topology.num_vertices));
     hash.update(topology.triangles.data(), topology.triangles.size() * sizeof(Triangle));
     hash.update(albedo.values.data(), albedo.values.size() * sizeof(Vec3f));
-    if (!materials.empty()) {
+    const auto is_glossy = [](uint16_t number) { return number > 0; };
+    if (std::any_of(materials.of_vertex.begin(), materials.of_vertex.end(), is_glossy)) {
         hash.update(materials.of_vertex.data(), materials.of_vertex.size() * sizeof(uint16_t));
+    }
+    for (const auto& [piece, spec] : texture_sections(texture, section::kTexture[0])) {
+        const std::vector<uint8_t> bytes = texture_bytes(texture, topology, piece, spec.index);
+        const uint64_t size_bytes = bytes.size();
+        hash.update(&size_bytes, sizeof size_bytes);
+        hash.update(bytes.data(), bytes.size());
     }
     return hash.digest();
 }
@@ -168,7 +195,8 @@ std::filesystem::path bake_pose_file(const std::filesystem::path& directory, uin
 }
 
 BakeWriter::BakeWriter(std::filesystem::path directory, const BakeIdentity& identity,
-                       const Topology& topology, const Albedo& albedo, const Materials& materials)
+                       const Topology& topology, const Albedo& albedo, const Texture& texture,
+                       const Materials& materials)
     : directory_(std::move(directory)), identity_(identity) {
     const Materials listed = as_listed(materials, identity_);
     num_gloss_rows_ = pose_shape(identity_, topology, listed).num_rows;
@@ -190,10 +218,11 @@ BakeWriter::BakeWriter(std::filesystem::path directory, const BakeIdentity& iden
     ensure_directory(directory_);
     remove_abandoned_files(directory_);
     // The manifest is written last, so that a directory with a manifest has a mesh.
+    const MeshParts parts{topology, albedo, texture, identity_.gloss ? &listed : nullptr};
     std::vector<SectionPlan> specs;
-    add_mesh_specs(topology, albedo, listed, identity_.gloss.has_value(), specs);
+    add_mesh_specs(parts, specs);
     ContainerWriter mesh(directory_ / kMeshName, section::kKindMesh, specs);
-    append_mesh(mesh, 0, topology, albedo, listed, identity_.gloss.has_value());
+    append_mesh(mesh, 0, parts);
     mesh.commit();
     write_file(manifest, text);
 }
@@ -241,11 +270,12 @@ void BakeWriter::write_still_mesh(const BakedStillMesh& still_mesh) const {
         pose_metadata(identity_checksum_, kStillMeshPose, still_mesh.pose.statistics);
     std::vector<SectionPlan> specs = pose_specs(metadata, shape);
     const size_t first = specs.size();
-    const bool has_gloss = identity_.gloss.has_value();
-    add_mesh_specs(still_mesh.topology, still_mesh.albedo, listed, has_gloss, specs);
+    const MeshParts parts{still_mesh.topology, still_mesh.albedo, still_mesh.texture,
+                          identity_.gloss ? &listed : nullptr};
+    add_mesh_specs(parts, specs);
     ContainerWriter writer(bake_still_mesh_file(directory_), section::kKindMesh, specs);
     append_pose(writer, metadata, still_mesh.pose);
-    append_mesh(writer, first, still_mesh.topology, still_mesh.albedo, listed, has_gloss);
+    append_mesh(writer, first, parts);
     writer.commit();
 }
 

@@ -31,6 +31,10 @@ const Albedo& BakedPart::albedo() const {
     return still_ == nullptr ? bake_.albedo() : still_->albedo;
 }
 
+const Texture& BakedPart::texture() const {
+    return still_ == nullptr ? bake_.texture() : still_->texture;
+}
+
 const RootMotion& BakedPart::root_motion() const {
     static const RootMotion none;
     return still_ == nullptr ? bake_.identity().root_motion : none;

@@ -17,6 +17,7 @@ class BakedPart {
 
     const Topology& topology() const;
     const Albedo& albedo() const;
+    const Texture& texture() const;
     const RootMotion& root_motion() const;  // empty: none
     uint32_t num_following() const;         // of the vertices, from the first; kAllVertices: all
     uint32_t num_vertices() const { return topology().num_vertices; }

@@ -46,6 +46,20 @@ constexpr Tag kStillGlossSteps("SGST");     // f32 [planes of gloss]
 constexpr Tag kStillGlossTint("SGTN");      // f32 [1 or R][3]
 constexpr Tag kStillGlossVertices("SGVX");  // u32 [R][1]
 
+// Only if faces have images: the texture of a mesh (texture_sections.h). In a .paim the second is of
+// the still part.
+struct TextureTags {
+    Tag names;        // u8 [n]: the name of each image, and a zero byte after each
+    Tag image;        // u8 [n], index i: a PNG or JPEG file
+    Tag coordinates;  // f32 [T][2]
+    Tag corners;      // u32 [F][3]
+    Tag of_face;      // u32 [F]: 0: none; i + 1: image i
+    Tag factors;      // f32 [images][3]
+};
+constexpr TextureTags kTexture[2] = {
+    {Tag("TXNM"), Tag("TXIM"), Tag("TXUV"), Tag("TXCO"), Tag("TXFI"), Tag("TXFC")},
+    {Tag("SXNM"), Tag("SXIM"), Tag("SXUV"), Tag("SXCO"), Tag("SXFI"), Tag("SXFC")}};
+
 // .bake poses and still meshes.
 constexpr Tag kPositions("POSN");  // f32 [3][V]
 constexpr Tag kNormals("NRML");    // f32 [3][V]

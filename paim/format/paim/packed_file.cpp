@@ -15,6 +15,7 @@
 #include "paim/codec/surface_smoothing.h"
 #include "paim/format/container/root_numbers.h"
 #include "paim/format/container/sections.h"
+#include "paim/format/container/texture_section_writer.h"
 #include "paim/format/pack/index_encoder.h"
 #include "paim/format/pack/plane_encoder.h"
 #include "paim/format/paim/paim_metadata.h"
@@ -66,6 +67,14 @@ class Packer {
     }
     Task operator()(const Albedo* albedo) const {
         return zstd(ScalarType::f32, std::span<const Vec3f>(albedo->values));
+    }
+    Task operator()(const TextureValues& row) const {
+        const auto bytes = [row, index = row_.index] {
+            return texture_bytes(row.mesh->texture, row.mesh->topology, row.piece, index);
+        };
+        // Images are compressed already.
+        if (row.piece == TexturePiece::image) return {spec(row.type), SectionCodec::none, bytes};
+        return {spec(row.type), SectionCodec::zstd, [bytes] { return zstd_compress(bytes()); }};
     }
     Task operator()(const SingularValues& row) const {
         return {spec(ScalarType::f32), SectionCodec::zstd, [matrix = row.matrix] {

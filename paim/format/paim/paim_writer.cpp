@@ -6,6 +6,7 @@
 #include "paim/base/half.h"
 #include "paim/format/container/root_numbers.h"
 #include "paim/format/container/sections.h"
+#include "paim/format/container/texture_section_writer.h"
 #include "paim/format/paim/packed_file.h"
 #include "paim/format/paim/paim_metadata.h"
 #include "paim/format/paim/paim_write.h"
@@ -20,6 +21,7 @@ struct PlainType {
     ScalarType operator()(const SingularValues&) const { return ScalarType::f64; }
     ScalarType operator()(RootMotion*) const { return ScalarType::f64; }
     ScalarType operator()(const VertexNumbers&) const { return ScalarType::u32; }
+    ScalarType operator()(const TextureValues& row) const { return row.type; }
     ScalarType operator()(const MatrixValues& row) const {
         return row.is_component && row.matrix->precision == Precision::f16 ? ScalarType::f16
                                                                            : ScalarType::f32;
@@ -34,6 +36,7 @@ struct PlainType {
 struct PlainValues {
     ContainerWriter& writer;
     size_t section;
+    uint32_t index;
 
     void operator()(const Topology* row) const {
         writer.append(section, std::span<const Triangle>(row->triangles));
@@ -56,6 +59,11 @@ struct PlainValues {
     }
     void operator()(const VertexNumbers& row) const {
         writer.append(section, std::span<const uint32_t>(*row.values));
+    }
+    void operator()(const TextureValues& row) const {
+        const std::vector<uint8_t> bytes =
+            texture_bytes(row.mesh->texture, row.mesh->topology, row.piece, index);
+        writer.append(section, bytes.data(), bytes.size());
     }
     void operator()(const SmallNumbers&) const { PAIM_CHECK(!"integers are packed"); }
 
@@ -135,7 +143,7 @@ PaimWriter::PaimWriter(const std::filesystem::path& path, const Asset& asset, La
         const TableRow& row = layout.table[j];
         // Those of the moving part are given in pieces.
         if (row.part == 0 && std::holds_alternative<MatrixValues>(row.values)) continue;
-        std::visit(PlainValues{writer_, 1 + j}, row.values);
+        std::visit(PlainValues{writer_, 1 + j, row.index}, row.values);
     }
 }
 

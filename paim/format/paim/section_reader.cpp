@@ -49,6 +49,7 @@ struct AllowedTypes {
     Types operator()(StoredValues*) const { return kValues; }
     Types operator()(const SmallNumbers&) const { return {ScalarType::i16}; }
     Types operator()(const VertexNumbers&) const { return {ScalarType::u32}; }
+    Types operator()(const TextureValues& values) const { return {values.type}; }
     Types operator()(RootMotion*) const { return {ScalarType::f64}; }
     template <typename Row>
     Types operator()(const Row&) const {
@@ -186,6 +187,7 @@ struct RowReader {
     void operator()(Topology*) const {}  // read before all other rows
     void operator()(Albedo*) const {}
     void operator()(const VertexNumbers&) const {}
+    void operator()(const TextureValues&) const {}
     void operator()(const SingularValues& values) const {
         std::vector<double>& out = values.matrix->singular_values;
         if (section.spec.type == ScalarType::f32) {
@@ -269,6 +271,10 @@ void read_meshes(const ContainerReader& reader, const std::vector<FoundRow>& fou
         } else if (const auto* numbers = std::get_if<VertexNumbers>(&row.row.values)) {
             read_vertex_numbers(reader, *row.section, *numbers);
         }
+    }
+    for (size_t part = 0; part < asset.parts.size(); ++part) {
+        CodedMesh& mesh = asset.parts[part];
+        mesh.texture = read_texture(reader, mesh.topology, section::kTexture[part]);
     }
 }
 

@@ -42,6 +42,7 @@ class TableBuilder {
             add_still(*still);
             part_ = 0;
         }
+        add_texture();
         if (!moving.root_motion.empty()) {
             add(section::kRootMotion, {size_of(moving.root_motion.size()), kRootNumbers},
                 &moving.root_motion);
@@ -106,6 +107,22 @@ class TableBuilder {
         add_gloss_rows(mesh, section::kStillGlossTint, section::kStillGlossVertices);
         add_planes(section::kStillGloss, section::kStillGlossSteps, mesh.gloss->transfer->matrix,
                    Neighbours::rows_of_gloss);
+    }
+
+    // Of all parts. The reader reads textures whole, and has none yet when it asks for rows.
+    void add_texture() {
+        for (size_t part = 0; part < asset_.parts.size(); ++part) {
+            const CodedMesh& mesh = asset_.parts[part];
+            for (const auto& [piece, spec] :
+                 texture_sections(mesh.texture, section::kTexture[part])) {
+                rows_.push_back({spec.tag,
+                                 spec.index,
+                                 {spec.shape[1], spec.shape[2]},
+                                 Neighbours::none,
+                                 part,
+                                 TextureValues{&mesh, piece, spec.type}});
+            }
+        }
     }
 
     void add_codec_row(const SectionRow& row, bool of_gloss) {

@@ -11,6 +11,7 @@
 #include "paim/codec/asset.h"
 #include "paim/codec/section_row.h"
 #include "paim/format/container/container.h"
+#include "paim/format/container/texture_sections.h"
 
 namespace paim {
 
@@ -37,9 +38,15 @@ struct MatrixValues {
     StoredValues* values;  // nullptr: not in memory, but given in pieces
     bool is_component = false;
 };
+struct TextureValues {  // one section of a texture (container/texture_sections.h)
+    const CodedMesh* mesh;
+    TexturePiece piece;
+    ScalarType type;
+};
 using RowValues =
-    std::variant<Topology*, Albedo*, SingularValues, Weights, WeightSteps, Steps, MatrixValues,
-                 StoredValues*, SmallNumbers, VertexNumbers, std::vector<float>*, RootMotion*>;
+    std::variant<Topology*, Albedo*, TextureValues, SingularValues, Weights, WeightSteps, Steps,
+                 MatrixValues, StoredValues*, SmallNumbers, VertexNumbers, std::vector<float>*,
+                 RootMotion*>;
 
 // A dimension that only the file knows.
 constexpr uint32_t kAnySize = std::numeric_limits<uint32_t>::max();

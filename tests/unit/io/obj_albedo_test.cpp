@@ -119,7 +119,9 @@ TEST(ObjAlbedo, WarnsAboutTexturesAndOddColors) {
     files.add("x.mtl",
               "newmtl a\nKd 2 1 1\nmap_Kd skin one.png\nnewmtl b\nKd spectral x.rfl\n"
               "map_Kd two.png\nKd 0.5 0.5\n");
-    const ObjSequence sequence(files.files());
+    ObjOptions options;
+    options.textures = false;
+    const ObjSequence sequence(files.files(), options);
     EXPECT_EQ(sequence.albedo().values[1], Vec3f(1, 1, 1));
     EXPECT_EQ(sequence.albedo().values[3], Albedo().values[0]);
     EXPECT_EQ(files.warnings(sequence),

@@ -274,5 +274,14 @@ TEST(TriangulatePoses, ReachesSequencesOfFiles) {
     EXPECT_TRUE(sequence.warnings().empty());
 }
 
+TEST(TriangulatePoses, TrianglesThatAreCutAgainKeepTheNumberOfTheirPolygon) {
+    // An L between two triangles, which is a point in the first pose.
+    const Shape l{{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}};
+    const Polygons polygons{{3, 6, 3}, {0, 1, 2, 0, 1, 2, 3, 4, 5, 3, 4, 5}};
+    const Triangulation result = cut(polygons, {Shape(6, Vec3d::Zero()), l});
+    ASSERT_EQ(result.num_degenerate, 0u);  // it was cut again
+    EXPECT_EQ(result.polygons, (std::vector<uint32_t>{0, 1, 1, 1, 1, 2}));
+}
+
 }  // namespace
 }  // namespace paim

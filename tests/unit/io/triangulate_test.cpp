@@ -196,5 +196,12 @@ TEST(Triangulate, DropsWhatNamesAVertexTwice) {
     EXPECT_EQ(result.triangles.back(), (Triangle{0, 1, 2}));
 }
 
+TEST(Triangulate, TellsWhichPolygonATriangleIsOf) {
+    const std::vector<Vec3f> points{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 2, 0}};
+    const Polygons polygons{{3, 3, 4, 5, 3},
+                            {0, 1, 2, 0, 0, 1, 0, 1, 2, 3, 0, 1, 2, 4, 3, 0, 2, 3}};
+    EXPECT_EQ(triangulate(polygons, points).polygons, (std::vector<uint32_t>{0, 2, 2, 3, 3, 3, 4}));
+}
+
 }  // namespace
 }  // namespace paim

@@ -33,7 +33,7 @@ BakeIdentity identity_of(const Materials& materials) {
     identity.normals = "faces";
     identity.num_vertices = 8;
     identity.num_triangles = 3;
-    identity.mesh_xxh3 = mesh_checksum(kMesh, kGrey, materials);
+    identity.mesh_xxh3 = mesh_checksum(kMesh, kGrey, {}, materials);
     identity.poses = {{"a.obj", 1}, {"b.obj", 2}};
     return identity;
 }
@@ -66,7 +66,7 @@ BakedPose make_pose(uint64_t seed, size_t num_vertices, size_t num_rows) {
 class BakeGloss : public testing::Test {
   protected:
     std::string write(const Materials& materials, size_t num_rows, BakeIdentity identity) const {
-        const BakeWriter writer(bake_, identity, kMesh, kGrey, materials);
+        const BakeWriter writer(bake_, identity, kMesh, kGrey, {}, materials);
         for (uint32_t p = 0; p < 2; ++p) writer.write_pose(p, make_pose(10 * p, 8, num_rows));
         return bake_.string();
     }
@@ -163,7 +163,7 @@ TEST_F(BakeGloss, KeepsTheNumberThatFollowsARootMotion) {
 TEST_F(BakeGloss, OfStillMeshes) {
     BakeIdentity identity = identity_of(kOneGlossy);
     identity.still_meshes = {{"s.obj", 7}};
-    const BakeWriter writer(bake_, identity, kMesh, kGrey, kOneGlossy);
+    const BakeWriter writer(bake_, identity, kMesh, kGrey, {}, kOneGlossy);
     for (uint32_t p = 0; p < 2; ++p) writer.write_pose(p, make_pose(10 * p, 8, 3));
     // The mesh lists its materials in another order than the identity.
     const Materials materials{{kLead}, {1, 1, 1}};
@@ -182,7 +182,7 @@ TEST_F(BakeGloss, RefusesOtherMaterialsByName) {
     BakeIdentity other = identity_of(kOneGlossy);
     other.gloss->materials[0].brdf = "phong:0.5,33";
     try {
-        const BakeWriter writer(bake_, other, kMesh, kGrey, {{other.gloss->materials[0]}, {1}});
+        const BakeWriter writer(bake_, other, kMesh, kGrey, {}, {{other.gloss->materials[0]}, {1}});
         FAIL() << "expected a refusal";
     } catch (const Error& error) {
         const std::string text = error.what();
