@@ -22,13 +22,6 @@ constexpr uint64_t kPointPart = 1;
 
 }  // namespace
 
-void TracedMesh::append(const TracedMesh& other) {
-    albedo.append(other.albedo, topology.num_vertices, other.topology.num_vertices);
-    topology.append(other.topology);
-    positions.insert(positions.end(), other.positions.begin(), other.positions.end());
-    normals.insert(normals.end(), other.normals.begin(), other.normals.end());
-}
-
 std::vector<Vec3f> VertexLight::half(size_t half) const {
     std::vector<Vec3f> sum = terms.front()[half];
     for (size_t b = 1; b < terms.size(); ++b) {
@@ -140,23 +133,8 @@ VertexLight TracedScene::light_vertices(const DirectLight& light, const TraceSet
 }
 
 TracedScene::Place TracedScene::place_of(const TracedPoint& point, uint64_t key) const {
-    const Triangle& t = all_.topology.triangles[point.triangle];
-    const float w = 1.0f - point.u - point.v;
-    const auto blend = [&](const std::vector<Vec3f>& values) -> Vec3f {
-        return w * values[t[0]] + point.u * values[t[1]] + point.v * values[t[2]];
-    };
-    const Vec3f normal = blend(all_.normals);
-    const float length = normal.norm();
-    if (!(length > 0.0f)) return {{blend(all_.positions), nullptr}, Vec3f::Zero(), t[0], key};
-    // Off the triangle, to the side of the interpolated normal.
-    const Vec3d a = all_.positions[t[0]].cast<double>();
-    Vec3d off = (all_.positions[t[1]].cast<double>() - a)
-                    .cross(all_.positions[t[2]].cast<double>() - a)
-                    .normalized();
-    if (off.dot(normal.cast<double>()) < 0.0) off = -off;
-    const float distance = std::max({offsets_[t[0]], offsets_[t[1]], offsets_[t[2]]});
-    const Vec3d origin = blend(all_.positions).cast<double>() + static_cast<double>(distance) * off;
-    return {{origin.cast<float>(), nullptr}, normal / length, t[0], key};
+    const SurfacePoint place = surface_point(all_, offsets_, point);
+    return {{place.origin, nullptr}, place.normal, all_.topology.triangles[point.triangle][0], key};
 }
 
 std::vector<LightHalves> TracedScene::light_points(std::span<const TracedPoint> points,

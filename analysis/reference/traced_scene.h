@@ -7,22 +7,12 @@
 #include <vector>
 
 #include "analysis/reference/direct_light.h"
+#include "analysis/reference/traced_mesh.h"
 #include "compressor/bake/ray_start.h"
 #include "paim/mesh/topology.h"
 #include "paim/trace/ray_scene.h"
 
 namespace paim {
-
-// A mesh in the coordinates of the scene. Without vertices: there is none.
-struct TracedMesh {
-    Topology topology;
-    Albedo albedo;
-    std::vector<Vec3f> positions;  // [V]
-    std::vector<Vec3f> normals;    // [V] unit, or zero: no light is reflected
-
-    // Adds the other's vertices and triangles after the existing ones.
-    void append(const TracedMesh& other);
-};
 
 // How light is traced.
 struct TraceSettings {
@@ -39,12 +29,6 @@ struct VertexLight {
 
     // [V] the sum over all bounces of a half.
     std::vector<Vec3f> half(size_t half) const;
-};
-
-// A point of a triangle.
-struct TracedPoint {
-    uint32_t triangle;
-    float u, v;  // barycentric weights of its second and third vertex
 };
 
 class TracedScene {

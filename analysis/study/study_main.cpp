@@ -4,33 +4,17 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <memory>
 
+#include "analysis/study/open_source.h"
 #include "analysis/study/studies.h"
-#include "compressor/io/obj_files.h"
-#include "compressor/io/obj_sequence.h"
 #include "paim/base/error.h"
 #include "paim/cli/parse.h"
 #include "paim/cli/run_main.h"
 #include "paim/sh/index.h"
-#include "poses/octopus.h"
-#include "poses/shapes.h"
 
 namespace {
 
 using namespace paim;
-
-std::unique_ptr<PoseSource> open_source(const std::vector<std::string>& inputs,
-                                        uint32_t num_vertices, uint32_t num_poses) {
-    if (inputs == std::vector<std::string>{"octopus"}) {
-        return std::make_unique<PoseSet>(poses::make_octopus(num_vertices, num_poses));
-    }
-    if (inputs == std::vector<std::string>{"bowl"}) {
-        return std::make_unique<PoseSet>(
-            poses::make_pose_set(*poses::make_bowl_sequence(num_vertices), num_poses));
-    }
-    return std::make_unique<ObjSequence>(find_obj_files(inputs, false));
-}
 
 void check_even(const char* option, uint32_t rays) {
     if (rays % 2 != 0) {
@@ -55,8 +39,7 @@ int run(int argc, char** argv) {
     app.add_option("STUDY", study, "noise, samplers or targets")
         ->required()
         ->check(CLI::IsMember({"noise", "samplers", "targets"}));
-    app.add_option("OBJ", inputs, "OBJ files, patterns, folders; or 'octopus' or 'bowl'")
-        ->required();
+    app.add_option("OBJ", inputs, study::kInputsHelp)->required();
     app.add_option("--name", options.name, "Name in the CSV; default: the first input");
     const auto rays_range = cli::in_range(uint32_t{2}, uint32_t{1} << 24);
     app.add_option("--poses", options.num_poses, "The first so many poses, 1 to 10000")
@@ -80,7 +63,7 @@ int run(int argc, char** argv) {
     check_even("--truth-rays", options.truth_rays);
     for (const uint32_t rays : options.rays) check_even("--rays", rays);
     if (options.name.empty()) options.name = inputs.front();
-    const auto source = open_source(inputs, num_vertices, options.num_poses);
+    const auto source = study::open_source(inputs, num_vertices, options.num_poses);
     options.num_poses = std::min(options.num_poses, source->num_poses());
     if (study == "noise") study_noise(*source, options);
     if (study == "samplers") study_samplers(*source, options);

@@ -43,8 +43,19 @@ void store(const ClusterComponents& components, std::span<const uint32_t> member
     }
 }
 
-ClusteredPca analyse(const PointSource& points, const MatrixXf& projected,
-                     const Clustering& clustering, const ClusteringOptions& options) {
+}  // namespace
+
+double ClusteredPca::squared_error(uint32_t count) const {
+    PAIM_CHECK_LE(count, num_components);
+    double sum = 0.0;
+    for (uint32_t c = 0; c < num_clusters; ++c) {
+        sum += std::max(0.0, energy[c] - singular_values.row(c).head(count).squaredNorm());
+    }
+    return sum;
+}
+
+ClusteredPca clustered_pca(const PointSource& points, const MatrixXf& projected,
+                           const Clustering& clustering, const ClusteringOptions& options) {
     const ClusterMembers members(clustering.cluster, clustering.num_clusters);
     ClusteredPca pca;
     pca.num_clusters = clustering.num_clusters;
@@ -71,23 +82,12 @@ ClusteredPca analyse(const PointSource& points, const MatrixXf& projected,
     return pca;
 }
 
-}  // namespace
-
-double ClusteredPca::squared_error(uint32_t count) const {
-    PAIM_CHECK_LE(count, num_components);
-    double sum = 0.0;
-    for (uint32_t c = 0; c < num_clusters; ++c) {
-        sum += std::max(0.0, energy[c] - singular_values.row(c).head(count).squaredNorm());
-    }
-    return sum;
-}
-
 ClusteredPca clustered_pca(const PointSource& points, const MatrixXf& projected,
                            const ClusteringOptions& options, const std::string& what) {
     PAIM_CHECK_EQ(static_cast<uint64_t>(projected.cols()), uint64_t{points.num_points()});
     check_memory(points, options, what);
-    if (points.num_points() == 0) return analyse(points, {}, {}, options);
-    return analyse(points, projected, cluster_points(projected, options), options);
+    if (points.num_points() == 0) return clustered_pca(points, projected, Clustering(), options);
+    return clustered_pca(points, projected, cluster_points(projected, options), options);
 }
 
 ClusteredPca clustered_pca(const PointSource& points, const ClusteringOptions& options,

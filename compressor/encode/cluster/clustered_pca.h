@@ -49,6 +49,11 @@ ClusteredPca clustered_pca(const PointSource& points, const Eigen::MatrixXf& pro
                            const ClusteringOptions& options,
                            const std::string& what = "clustered PCA");
 
+// The components of clusters that are known.
+// projected  [d][V] where iterations start
+ClusteredPca clustered_pca(const PointSource& points, const Eigen::MatrixXf& projected,
+                           const Clustering& clustering, const ClusteringOptions& options);
+
 // One pass over the planes, in order. rows [clusters (K + 1)][n]: row c (K + 1) is the mean of
 // cluster c in this plane, row c (K + 1) + 1 + k its component k, so that
 //   point v ≈ row c (K + 1) + Σ_k coefficients(v, k) · row c (K + 1) + 1 + k,  c = cluster[v]

@@ -3,11 +3,13 @@
 #include "compressor/encode/cluster/clustering.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "compressor/encode/cluster/cluster_assignment.h"
 #include "compressor/encode/cluster/cluster_members.h"
 #include "compressor/encode/cluster/cluster_seeding.h"
 #include "compressor/encode/cluster/cluster_subspaces.h"
+#include "paim/base/check.h"
 #include "paim/base/seed.h"
 
 namespace paim {
@@ -49,17 +51,23 @@ class Rounds {
     std::vector<float> distance_;    // [V] squared, of the last assignment
 };
 
-// Subspaces that grow to all components while points move between them.
-ClusterSubspaces find_subspaces(const Eigen::MatrixXf& points, const ClusteringOptions& options,
-                                uint32_t num_clusters, Rounds& rounds) {
+// The first means of subspaces.
+ClusterSubspaces seed_subspaces(const Eigen::MatrixXf& points, uint32_t num_clusters,
+                                uint64_t seed) {
     ClusterSubspaces subspaces(points.rows(), num_clusters, 0);
-    const std::vector<uint32_t> seeds = seed_clusters(points, num_clusters, options.seed);
+    const std::vector<uint32_t> seeds = seed_clusters(points, num_clusters, seed);
     for (uint32_t c = 0; c < num_clusters; ++c) {
         // Where there are fewer seeds the first stands in: it loses every tie and stays empty.
         const uint32_t v = c < seeds.size() ? seeds[c] : seeds[0];
         subspaces.set_mean(c, points.col(static_cast<Eigen::Index>(v)));
     }
-    ClusterNeighbours neighbours(num_clusters);
+    return subspaces;
+}
+
+// Subspaces that grow from means to all components while points move between them.
+ClusterSubspaces find_subspaces(const Eigen::MatrixXf& points, const ClusteringOptions& options,
+                                ClusterSubspaces subspaces, Rounds& rounds) {
+    ClusterNeighbours neighbours(subspaces.num_clusters());
     bool moved = rounds.run(subspaces, neighbours);
     for (uint32_t round = 1; round < options.mean_rounds && moved; ++round) {
         if (round == 1) neighbours = ClusterNeighbours(subspaces, kNumNeighbours);
@@ -123,14 +131,28 @@ Clustering cluster_points(const Eigen::MatrixXf& points, const ClusteringOptions
     Rounds rounds(points, options.seed);
     const size_t count = num_sampled(num_points, num_clusters);
     if (count == num_points) {
-        find_subspaces(points, options, num_clusters, rounds);
+        find_subspaces(points, options, seed_subspaces(points, num_clusters, options.seed), rounds);
     } else {
         const Eigen::MatrixXf some = sample(points, count, options.seed);
         Rounds rounds_of_some(some, options.seed);
-        ClusterSubspaces subspaces = find_subspaces(some, options, num_clusters, rounds_of_some);
+        ClusterSubspaces subspaces = find_subspaces(
+            some, options, seed_subspaces(some, num_clusters, options.seed), rounds_of_some);
         join(subspaces, rounds);
     }
     return rounds.result(num_clusters);
+}
+
+Clustering cluster_points_from(const Eigen::MatrixXf& points, const Eigen::MatrixXf& means,
+                               const ClusteringOptions& options) {
+    PAIM_CHECK_EQ(means.rows(), points.rows());
+    PAIM_CHECK_LT(0, means.cols());
+    ClusterSubspaces subspaces(points.rows(), static_cast<uint32_t>(means.cols()), 0);
+    for (uint32_t c = 0; c < subspaces.num_clusters(); ++c) {
+        subspaces.set_mean(c, means.col(static_cast<Eigen::Index>(c)));
+    }
+    Rounds rounds(points, options.seed);
+    find_subspaces(points, options, std::move(subspaces), rounds);
+    return rounds.result(static_cast<uint32_t>(means.cols()));
 }
 
 uint64_t clustering_scratch_bytes(uint64_t num_points, uint64_t num_dimensions,

@@ -41,6 +41,11 @@ struct Clustering {
 // most half of the d dimensions.
 Clustering cluster_points(const Eigen::MatrixXf& points, const ClusteringOptions& options);
 
+// The same with first means from elsewhere, and with the rounds over all points.
+// means  [d][clusters], at least one, in place of options.num_clusters
+Clustering cluster_points_from(const Eigen::MatrixXf& points, const Eigen::MatrixXf& means,
+                               const ClusteringOptions& options);
+
 // Memory of cluster_points() for points [d][V]: subspaces, numbers and distances of the points, the
 // sample of many, and on each thread the points at work.
 uint64_t clustering_scratch_bytes(uint64_t num_points, uint64_t num_dimensions,
