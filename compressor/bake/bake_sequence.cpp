@@ -98,7 +98,8 @@ BakeIdentity bake_identity(const PoseSource& source, const BakeOptions& options,
     identity.still_meshes = still_mesh.sources;
     identity.num_vertices = source.topology().num_vertices;
     identity.num_triangles = static_cast<uint32_t>(source.topology().triangles.size());
-    identity.mesh_xxh3 = mesh_checksum(source.topology(), source.albedo(), source.texture(), source.materials());
+    identity.mesh_xxh3 =
+        mesh_checksum(source.topology(), source.albedo(), source.texture(), source.materials());
     identity.origin = source.origin();
     identity.root_motion = root_motion;
     const uint32_t num_moving = source.num_moving_vertices();

@@ -7,20 +7,10 @@
 #include "paim/codec/playback.h"
 #include "paim/sh/basis.h"
 #include "tests/gloss_example.h"
+#include "tests/random_light.h"
 
 namespace paim {
 namespace {
-
-LightCoefficients make_light(int bands, uint64_t seed) {
-    RandomStream random(seed);
-    LightCoefficients light{bands, {}};
-    const auto number = [&] { return static_cast<float>(2.0 * random.uniform() - 1.0); };
-    for (int i = 0; i < bands * bands; ++i) {
-        const float red = number(), green = number(), blue = number();
-        light.values.emplace_back(red, green, blue);
-    }
-    return light;
-}
 
 // tint · Σ_i t_oi L_i of the decoded transfer, [O][R].
 std::vector<Vec3d> expected_exit(const CodedGloss& gloss, double time, const DecodeLimits& limits,
@@ -53,18 +43,18 @@ Vec3d position_of(std::span<const float> planes, uint32_t v) {
 
 // Compares with sums of at most 4 · 9 products of floats, up to 4,000 integers large where values
 // are integers: relative to the largest, roundings of 50 additions.
-void expect_near(const Vec3f& got, const Vec3d& expected, double scale) {
+void expect_near_sum(const Vec3f& got, const Vec3d& expected, double scale) {
     EXPECT_LT((got.cast<double>() - expected).norm(), 50 * 0x1p-23 * scale);
 }
 
-double largest(const std::vector<Vec3d>& values) {
+double largest_norm(const std::vector<Vec3d>& values) {
     double most = 1.0;
     for (const Vec3d& value : values) most = std::max(most, value.norm());
     return most;
 }
 
 TEST(GlossPlayback, SumsOutgoingCoefficientsTowardsTheEye) {
-    const LightCoefficients light = make_light(3, 5);
+    const LightCoefficients light = random_light(3, 5);
     for (GlossVariant& variant : gloss_variants()) {
         SCOPED_TRACE(variant.name);
         const auto asset = std::make_shared<const Asset>(std::move(variant.asset));
@@ -80,10 +70,10 @@ TEST(GlossPlayback, SumsOutgoingCoefficientsTowardsTheEye) {
             playback.update(time, limits);
             diffuse.update(time, limits);
             const std::vector<Vec3d> exit = expected_exit(gloss, time, limits, light);
-            const double scale = largest(exit);
+            const double scale = largest_norm(exit);
             ASSERT_EQ(playback.exit_radiance().size(), exit.size());
             for (size_t j = 0; j < exit.size(); ++j) {
-                expect_near(playback.exit_radiance()[j], exit[j], 4.0 * scale);
+                expect_near_sum(playback.exit_radiance()[j], exit[j], 4.0 * scale);
             }
             std::vector<Vec3d> radiance(4);
             for (uint32_t v = 0; v < 4; ++v) radiance[v] = diffuse.radiance()[v].cast<double>();
@@ -95,11 +85,11 @@ TEST(GlossPlayback, SumsOutgoingCoefficientsTowardsTheEye) {
                 sh::evaluate_basis(2, direction, std::span(values));
                 Vec3d sum = Vec3d::Zero();
                 for (size_t o = 0; o < 4; ++o) sum += values[o] * exit[o * gloss.num_rows + r];
-                expect_near(playback.gloss_radiance()[r], sum, 8.0 * scale);
+                expect_near_sum(playback.gloss_radiance()[r], sum, 8.0 * scale);
                 radiance[v] += sum;
             }
             for (uint32_t v = 0; v < 4; ++v) {
-                expect_near(playback.radiance()[v], radiance[v], 8.0 * scale);
+                expect_near_sum(playback.radiance()[v], radiance[v], 8.0 * scale);
             }
         }
     }
@@ -111,7 +101,7 @@ TEST(GlossPlayback, IsDiffuseWithoutAnEye) {
     matte.moving().gloss.reset();
     Playback playback(asset), expected(std::make_shared<const Asset>(std::move(matte)));
     for (Playback* one : {&playback, &expected}) {
-        one->set_light(DistantLight(make_light(3, 6)));
+        one->set_light(DistantLight(random_light(3, 6)));
         one->update(1.5);
     }
     const std::vector<Vec3f> radiance(expected.radiance().begin(), expected.radiance().end());
@@ -144,13 +134,13 @@ TEST(GlossPlayback, FollowsEyeLightAndPose) {
           Moment{2.5, 2, {0, 9, 0}}, Moment{2.5, 2, {0, 9, 0}}}) {
         Playback fresh(asset);
         for (Playback* one : {&reused, &fresh}) {
-            one->set_light(DistantLight(make_light(3, moment.light)));
+            one->set_light(DistantLight(random_light(3, moment.light)));
             one->set_eye(moment.eye);
             one->update(moment.time);
         }
         for (size_t v = 0; v < 4; ++v) {
             // A pose that is lit again sums in another order.
-            expect_near(reused.radiance()[v], fresh.radiance()[v].cast<double>(), 10.0);
+            expect_near_sum(reused.radiance()[v], fresh.radiance()[v].cast<double>(), 10.0);
         }
     }
 }
@@ -164,7 +154,7 @@ TEST(GlossPlayback, TurnsWithTheBody) {
     root.rotation = Eigen::AngleAxisd(0.8, Vec3d(1, 2, -1).normalized());
     root.translation = Vec3d(4, -2, 1);
     for (RigidTransform& of_pose : turned.moving().root_motion) of_pose = root;
-    const LightCoefficients light = make_light(3, 7);
+    const LightCoefficients light = random_light(3, 7);
     const Vec3f eye(2, 2, 5);
     Playback one(std::make_shared<const Asset>(still)),
         other(std::make_shared<const Asset>(turned));
@@ -176,7 +166,7 @@ TEST(GlossPlayback, TurnsWithTheBody) {
     other.update(3.0);
     for (size_t v = 0; v < 4; ++v) {
         // Rotations of 9 coefficients round a few times more, and so does the place of the eye.
-        expect_near(other.radiance()[v], one.radiance()[v].cast<double>(), 100.0);
+        expect_near_sum(other.radiance()[v], one.radiance()[v].cast<double>(), 100.0);
     }
 }
 

@@ -11,20 +11,10 @@
 #include "paim/codec/mesh_decoder.h"
 #include "paim/shade/shade.h"
 #include "tests/example_asset.h"
+#include "tests/random_light.h"
 
 namespace paim {
 namespace {
-
-LightCoefficients make_light(int bands, uint64_t seed) {
-    RandomStream random(seed);
-    LightCoefficients light{bands, {}};
-    const auto number = [&] { return static_cast<float>(2.0 * random.uniform() - 1.0); };
-    for (int i = 0; i < bands * bands; ++i) {
-        const float red = number(), green = number(), blue = number();
-        light.values.emplace_back(red, green, blue);
-    }
-    return light;
-}
 
 // Every codec, as floats and as integers, with a colour at each vertex and with a still part.
 struct Variant {
@@ -78,7 +68,7 @@ void expect_as_decoded(const Playback& playback, size_t number, double time,
 }
 
 TEST(Playback, ShowsWhatDecodingAndShadingGive) {
-    const LightCoefficients light = make_light(3, 1);
+    const LightCoefficients light = random_light(3, 1);
     for (const Variant& variant : make_variants()) {
         SCOPED_TRACE(variant.name);
         Playback playback(variant.asset);
@@ -103,13 +93,13 @@ TEST(Playback, ComputesAnewWhatChanged) {
         Playback playback(variant.asset);
         playback.update(1.5);
         EXPECT_TRUE(playback.radiance().empty());
-        LightCoefficients light = make_light(3, 1);
+        LightCoefficients light = random_light(3, 1);
         playback.set_light(DistantLight(light));
         playback.update(1.5);
         expect_as_decoded(playback, 0, 1.5, {}, light);
         // Twice, as codecs keep the pose from the second time on.
         for (const uint64_t seed : {2u, 3u}) {
-            light = make_light(3, seed);
+            light = random_light(3, seed);
             playback.set_light(DistantLight(light));
             playback.update(1.5);
             expect_as_decoded(playback, 0, 1.5, {}, light);
@@ -135,7 +125,7 @@ TEST(Playback, ClampsEveryTime) {
         {kNaN, 0.0},    {-kNaN, 0.0}, {-kInfinity, 0.0}, {-1e300, 0.0},
         {-1e-300, 0.0}, {-0.0, 0.0},  {4.0 + 1e-9, 4.0}, {5.0, 4.0},
         {1e19, 4.0},    {1e300, 4.0}, {kInfinity, 4.0}};
-    const LightCoefficients light = make_light(3, 1);
+    const LightCoefficients light = random_light(3, 1);
     for (const Variant& variant : make_variants()) {
         SCOPED_TRACE(variant.name);
         Playback playback(variant.asset);
@@ -203,7 +193,7 @@ TEST(Playback, KeepsTheRadianceOfAWhiteSurfaceOnDemand) {
     for (const Variant& variant : make_variants()) {
         auto textured = std::make_shared<Asset>(*variant.asset);
         textured->moving().texture.images.emplace_back();
-        const LightCoefficients light = make_light(3, 7);
+        const LightCoefficients light = random_light(3, 7);
         Playback plain(textured), both(textured);
         both.keep_white_radiance(true);
         for (Playback* const playback : {&plain, &both}) {

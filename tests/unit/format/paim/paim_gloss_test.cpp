@@ -34,7 +34,7 @@ void expect_equal_gloss(const CodedGloss& a, const CodedGloss& b) {
     }
 }
 
-std::string complaint(const std::filesystem::path& path, const ReadOptions& options = {}) {
+std::string gloss_complaint(const std::filesystem::path& path, const ReadOptions& options = {}) {
     try {
         read_paim(path, options);
         return "nothing";
@@ -102,12 +102,13 @@ TEST(PaimGloss, AloneIsReadOnlyWhereItIsAskedFor) {
     const TemporaryDirectory directory;
     const Asset alone = make_gloss_alone(1, true, false);
     write_paim(directory / "x.paim", alone);
-    EXPECT_NE(complaint(directory / "x.paim").find("transfer of kind 'glossy'"), std::string::npos);
+    EXPECT_NE(gloss_complaint(directory / "x.paim").find("transfer of kind 'glossy'"),
+              std::string::npos);
     ReadOptions options;
     options.kind = TransferKind::glossy;
     EXPECT_EQ(read_paim(directory / "x.paim", options).moving().layout, alone.moving().layout);
     write_paim(directory / "y.paim", make_example_asset(2, 1));
-    EXPECT_NE(complaint(directory / "y.paim", options), "nothing");
+    EXPECT_NE(gloss_complaint(directory / "y.paim", options), "nothing");
 }
 
 TEST(PaimGloss, PrefixesHaveItsComponentsOneByOne) {
@@ -133,7 +134,7 @@ TEST(PaimGloss, RefusesRowsThatAreNoVertices) {
         Asset asset = with_partial_gloss();
         asset.moving().gloss->vertices[0] = wrong;
         write_paim(directory / "x.paim", asset);
-        EXPECT_NE(complaint(directory / "x.paim").find("expected different ones from 0 to 3"),
+        EXPECT_NE(gloss_complaint(directory / "x.paim").find("expected different ones from 0 to 3"),
                   std::string::npos);
     }
 }
@@ -144,7 +145,7 @@ TEST(PaimGloss, RefusesNumbersThatDoNotFit) {
         Asset asset = with_partial_gloss();
         change(*asset.moving().gloss);
         write_paim(directory / "x.paim", asset);
-        const std::string text = complaint(directory / "x.paim");
+        const std::string text = gloss_complaint(directory / "x.paim");
         EXPECT_NE(text.find(part), std::string::npos) << text;
     };
     expect_refusal([](CodedGloss& gloss) { gloss.num_rows = 5; }, "'rows': expected 1 to 4, got 5");
