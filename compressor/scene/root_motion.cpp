@@ -108,8 +108,8 @@ class Variants {
 
         bool is_better_than(const Cost& other) const {
             // Far from what it is compared with, components are lost in rounding.
-            constexpr double kFar = 1e-3;
-            if (energy < kFar * other.energy) return true;
+            constexpr double kMuchSmaller = 1e-3;
+            if (energy < kMuchSmaller * other.energy) return true;
             if (num_components != other.num_components) {
                 return num_components < other.num_components;
             }
