@@ -1,6 +1,8 @@
 // Images on faces: map_Kd, texture coordinates of corners, colours for bounces.
 #include "compressor/io/obj_texture.h"
 
+#include <fmt/format.h>
+
 #include <map>
 
 #include "compressor/io/texture_corners.h"
@@ -87,9 +89,9 @@ TEST(ObjTexture, CornersOfPolygonsGoWithTheirVertices) {
     const int places[][2] = {{0, 0}, {4, 0}, {4, 4}, {2, 1}, {0, 4}};
     std::string face = "f";
     for (int i = 0; i < 5; ++i) {
-        const std::string place = std::to_string(places[i][0]) + " " + std::to_string(places[i][1]);
-        lines += "v " + place + " 0\nvt " + place + " 0\n";
-        face += " " + std::to_string(i + 2) + "/" + std::to_string(i - 5);  // counted from the end
+        const auto [x, y] = places[i];
+        lines += fmt::format("v {} {} 0\nvt {} {} 0\n", x, y, x, y);
+        face += fmt::format(" {}/{}", i + 2, i - 5);  // counted from the end
     }
     const TexturedFiles files(kSkin, lines + "usemtl skin\n" + face + "\n");
     files.add("skin.png", png_of(kRed));
@@ -286,11 +288,8 @@ TEST(ObjTexture, EveryFaceOfManyHasItsOwnColour) {
     // A thousand triangles, each in one of two halves of the image.
     std::string lines = kFour + "vt 0.125 0.5\nvt 0.875 0.5\nusemtl skin\n";
     for (int i = 0; i < 1000; ++i) {
-        const std::string vt = i % 3 == 0 ? "1" : "2";
-        lines += "v " + std::to_string(i) + " 0 0\nv " + std::to_string(i) + " 1 0\nv " +
-                 std::to_string(i) + " 0 1\nf";
-        for (int k = 0; k < 3; ++k) lines += " " + std::to_string(3 * i + 5 + k) + "/" + vt;
-        lines += "\n";
+        lines += fmt::format("v {0} 0 0\nv {0} 1 0\nv {0} 0 1\nf {1}/{4} {2}/{4} {3}/{4}\n", i,
+                             3 * i + 5, 3 * i + 6, 3 * i + 7, i % 3 == 0 ? 1 : 2);
     }
     const TexturedFiles files(kSkin, lines);
     files.add("skin.png", text_of(png_bytes(2, 1, std::vector<Rgb8>{kRed, kBlue})));
