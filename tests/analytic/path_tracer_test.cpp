@@ -280,6 +280,18 @@ TEST(PathTracer, MixesCornersAndKinds) {
     EXPECT_EQ(trace(false, false), Vec3f::Zero());
 }
 
+// The choice is for the seen surface alone: what it sees reflects all.
+TEST(PathTracer, SeesBouncesOfAllKinds) {
+    const MapLight light(map_of(8, [](const Vec3d&) { return 1.0f; }));
+    const PathMaterials materials = all_of(std::make_shared<Lambertian>(0.3));
+    const PathTracer tracer(first_pose(*poses::make_bowl_sequence(4000), 0.5f), materials, light);
+    const PathStart start{{1000, 0.3f, 0.3f}, Vec3f(0.0f, 1.0f, 0.0f)};
+    PathSettings settings = settings_of(1024, 1);
+    settings.seen.diffuse = false;
+    // 0.3 of half the sky, and of half the bowl, which reflects 0.8 of half the sky.
+    expect_value(tracer.trace({&start, 1}, settings)[0], 0.3 * (0.5 + 0.5 * 0.8 * 0.5), 1e-3);
+}
+
 // A picture has the paths of its pixels, seen from the eye, and nothing where no mesh is.
 TEST(PathPicture, ShowsWhatThePathsOfItsPixelsFind) {
     use_tbb();

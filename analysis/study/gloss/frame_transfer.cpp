@@ -91,16 +91,20 @@ std::vector<Eigen::Matrix3f> vertex_frames(const Topology& topology, const Pose&
     const std::vector<Vec3f> edges = first_edges(topology, pose.positions);
     std::vector<Eigen::Matrix3f> frames(topology.num_vertices, Eigen::Matrix3f::Identity());
     for (size_t v = 0; v < frames.size(); ++v) {
-        const Vec3f& normal = pose.normals[v];
-        if (normal.isZero(0.0f)) continue;
-        Vec3f tangent = edges[v] - edges[v].dot(normal) * normal, bitangent;
-        if (tangent.norm() > 1e-3f * edges[v].norm()) {
+        if (pose.normals[v].isZero(0.0f)) continue;
+        // In double, because rotations of harmonics check their matrix.
+        const Vec3d normal = pose.normals[v].cast<double>().normalized();
+        const Vec3d edge = edges[v].cast<double>();
+        Vec3d tangent = edge - edge.dot(normal) * normal, bitangent;
+        if (tangent.norm() > 1e-3 * edge.norm()) {
             tangent.normalize();
             bitangent = normal.cross(tangent);
         } else {
             orthonormal_basis(normal, tangent, bitangent);
         }
-        frames[v] << tangent, bitangent, normal;
+        frames[v].col(0) = tangent.cast<float>();
+        frames[v].col(1) = bitangent.cast<float>();
+        frames[v].col(2) = normal.cast<float>();
     }
     return frames;
 }
