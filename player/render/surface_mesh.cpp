@@ -15,7 +15,8 @@ namespace paim::player {
 
 namespace {
 
-constexpr GLuint kPosition = 0, kColor = 1;  // attributes, as in shaders/surface.vert
+constexpr GLuint kPositionAttribute = 0,
+                 kColorAttribute = 1;  // attributes, as in shaders/surface.vert
 
 GLsizeiptr attribute_bytes(const Topology& topology) {
     // Buffers have room for one vertex at least: some drivers refuse empty ones.
@@ -64,8 +65,8 @@ SurfaceMesh::SurfaceMesh(const CodedMesh& mesh)
 
 void SurfaceMesh::attach(const gl::VertexArrayHandle& array) const {
     glBindVertexArray(array.id());
-    point_at(kPosition, positions_);
-    point_at(kColor, colors_);
+    point_at(kPositionAttribute, positions_);
+    point_at(kColorAttribute, colors_);
 }
 
 void SurfaceMesh::upload_positions(std::span<const float> planes) {
