@@ -10,7 +10,7 @@ namespace paim {
 
 namespace {
 
-constexpr size_t kRowsPerPiece = 32;
+constexpr size_t kGlossRowsPerPiece = 32;
 
 // One vertex at a time; each thread needs its own.
 class VertexGloss {
@@ -77,7 +77,7 @@ std::array<std::vector<float>, 2> estimate_gloss(const PoseRays& rays, const Glo
     const size_t num_values = size_t{layout.num_outgoing()} * layout.num_coefficients();
     std::array<std::vector<float>, 2> halves;
     for (auto& half : halves) half.resize(num_values * num_rows, 0.0f);
-    parallel_for(num_rows, kRowsPerPiece, [&](size_t begin, size_t end) {
+    parallel_for(num_rows, kGlossRowsPerPiece, [&](size_t begin, size_t end) {
         VertexGloss gloss(rays, layout, basis);
         std::array<std::vector<double>, 2> estimates;
         for (auto& estimate : estimates) estimate.resize(num_values);

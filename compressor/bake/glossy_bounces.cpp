@@ -13,7 +13,7 @@ namespace paim {
 
 namespace {
 
-constexpr size_t kVerticesPerPiece = 32;
+constexpr size_t kGatheredPerPiece = 32;
 constexpr uint32_t kNoRow = ~uint32_t{0};
 
 // Gathers the light that reaches one vertex by the rays of one half. Each thread needs its own.
@@ -177,8 +177,8 @@ std::vector<GlossyTerm> add_glossy_bounces(const GlossyBounceScene& scene, uint3
             if (scene.still_mesh.num_vertices > 0) {
                 source.add(scene.still_mesh, (*scene.still_terms)[b - 1], half);
             }
-            std::vector<uint64_t> back_hits(num_vertices / kVerticesPerPiece + 1, 0);
-            parallel_for(num_vertices, kVerticesPerPiece, [&](size_t begin, size_t end) {
+            std::vector<uint64_t> back_hits(num_vertices / kGatheredPerPiece + 1, 0);
+            parallel_for(num_vertices, kGatheredPerPiece, [&](size_t begin, size_t end) {
                 HitGatherer gatherer(scene);
                 for (size_t v = begin; v < end; ++v) {
                     const uint32_t row = row_of[v];
@@ -189,7 +189,7 @@ std::vector<GlossyTerm> add_glossy_bounces(const GlossyBounceScene& scene, uint3
                     if (row == kNoRow) continue;
                     put(gatherer.gloss(), row, num_rows, channels, term.gloss[half], gloss[half]);
                 }
-                back_hits[begin / kVerticesPerPiece] = gatherer.num_back_hits();
+                back_hits[begin / kGatheredPerPiece] = gatherer.num_back_hits();
             });
             if (b > 1) continue;
             num_back_hits = std::accumulate(back_hits.begin(), back_hits.end(), num_back_hits);

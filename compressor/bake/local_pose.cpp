@@ -13,7 +13,7 @@ namespace paim {
 
 namespace {
 
-constexpr size_t kRowsPerPiece = 256;
+constexpr size_t kTurnedPerPiece = 256;
 
 // Turns the coefficients of one row of every channel: those of light and, where there are several, of
 // outgoing radiance.
@@ -60,7 +60,7 @@ void turn_rows(const Eigen::Matrix3d& to_local, const TransferLayout& layout, ui
                std::vector<float>& planes) {
     const RowTurn turn(to_local, layout);
     const size_t num_rows = planes.size() / layout.num_planes();
-    parallel_for(std::min<size_t>(num_turning, num_rows), kRowsPerPiece,
+    parallel_for(std::min<size_t>(num_turning, num_rows), kTurnedPerPiece,
                  [&](size_t begin, size_t end) {
                      for (size_t r = begin; r < end; ++r) turn.apply(planes.data() + r, num_rows);
                  });
