@@ -9,9 +9,11 @@
 
 namespace paim {
 
-// The most bands that are chosen. With both, a vertex has 64 · 36 coefficients.
-constexpr uint32_t kMostChosenInBands = 8;
-constexpr uint32_t kMostChosenOutBands = 6;
+// The most bands that are chosen. With both, a vertex has 25 · 16 coefficients. More bands of light
+// change pictures little, and each outgoing band costs much (docs/results/gloss.md): more are baked
+// where they are asked for.
+constexpr uint32_t kMostChosenInBands = 5;
+constexpr uint32_t kMostChosenOutBands = 4;
 constexpr double kDefaultGlossError = 0.05;
 
 // The shares of the energy of reflected light that numbers of bands leave out, 0 … 1. Energy is the

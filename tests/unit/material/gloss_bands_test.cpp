@@ -62,7 +62,7 @@ TEST(GlossBands, ANoteSaysWhatIsLeftOut) {
     const GlossBands bands = choose_gloss_bands(*narrow);
     EXPECT_EQ(bands.in, kMostChosenInBands);
     EXPECT_EQ(bands.out, kMostChosenOutBands);
-    const std::string note = gloss_bands_note(*narrow, bands);
+    const std::string note = gloss_bands_note(*narrow, given_gloss_bands(*narrow, 8, 6));
     EXPECT_NE(note.find("phong:0.5,500: 8 bands of light leave out 88 % and 6 bands"),
               std::string::npos)
         << note;
