@@ -1,4 +1,6 @@
 // Textures and gloss of OBJ files through paim-compress and paim-info.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -37,7 +39,7 @@ class Textures : public ToolTest {
         write("x.mtl",
               "newmtl a\nKd 0.5 0.5 0.5\nKs 0.5 0.5 0.5\nNs 32\nillum 2\nmap_Kd a.png\n"
               "newmtl b\nmap_Kd b.jpg\nnewmtl c\nKd 0.25 0.25 0.25\n");
-        for (int p = 0; p < 3; ++p) write("p" + std::to_string(p) + ".obj", sheet(p));
+        for (int p = 0; p < 3; ++p) write(fmt::format("p{}.obj", p), sheet(p));
     }
 
     void write_image(const std::string& name, const std::vector<uint8_t>& bytes) const {
@@ -49,23 +51,19 @@ class Textures : public ToolTest {
     static std::string sheet(int pose) {
         std::string text = "mtllib x.mtl\n";
         for (int y = 0; y < 7; ++y) {
-            for (int x = 0; x < 7; ++x) {
-                text += "v " + std::to_string(x) + " " + std::to_string(0.1 * pose * x * x) + " " +
-                        std::to_string(-y) + "\n";
-            }
+            for (int x = 0; x < 7; ++x)
+                text += fmt::format("v {} {} {}\n", x, 0.1 * pose * x * x, -y);
         }
         std::string faces;
-        int num_coordinates = 0;
+        int number = 0;  // of coordinates
         for (int x = 0; x < 6; ++x) {
-            faces += std::string("usemtl ") + "abc"[x % 3] + "\n";
-            for (int y = 0; y < 6; ++y) {
-                const int corners[] = {7 * y + x + 1, 7 * y + x + 2, 7 * y + x + 9, 7 * y + x + 8};
-                faces += "f";
-                for (const int v : corners) {
-                    text += "vt " + std::to_string(0.01 * ++num_coordinates) + " 0.5\n";
-                    faces += " " + std::to_string(v) + "/" + std::to_string(num_coordinates);
-                }
-                faces += "\n";
+            faces += fmt::format("usemtl {}\n", "abc"[x % 3]);
+            for (int y = 0; y < 6; ++y, number += 4) {
+                for (int k = 1; k <= 4; ++k)
+                    text += fmt::format("vt {} 0.5\n", 0.01 * (number + k));
+                const int v = 7 * y + x + 1;
+                faces += fmt::format("f {}/{} {}/{} {}/{} {}/{}\n", v, number + 1, v + 1,
+                                     number + 2, v + 8, number + 3, v + 7, number + 4);
             }
         }
         return text + faces;
@@ -149,12 +147,12 @@ TEST_F(Textures, StillMeshesHaveTheirOwn) {
     write("stage.obj",
           "mtllib stage.mtl\nv 0 -1 0\nv 9 -1 0\nv 0 -1 -9\nvt 0 0\nvt 1 0\nvt 0 1\n"
           "usemtl s\nf 1/1 2/2 3/3\n");
-    write("plain.obj", "v 0 -2 0\nv 9 -2 0\nv 0 -2 -9\nf 1 2 3\n");
+    write("ground.obj", "v 0 -2 0\nv 9 -2 0\nv 0 -2 -9\nf 1 2 3\n");
     write("stage.mtl", "newmtl s\nmap_Kd b.jpg\n");
     for (const bool first : {true, false}) {
         const std::string name = first ? "x.bake" : "y.bake";
-        expect_success(bake(name, {"--static", path(first ? "stage.obj" : "plain.obj"), "--static",
-                                   path(first ? "plain.obj" : "stage.obj")}));
+        expect_success(bake(name, {"--static", path(first ? "stage.obj" : "ground.obj"), "--static",
+                                   path(first ? "ground.obj" : "stage.obj")}));
         const BakedStillMesh still = BakeReader(path(name)).still_mesh().value();
         EXPECT_EQ(still.texture.image_of_face,
                   (first ? std::vector<uint16_t>{1, 0} : std::vector<uint16_t>{0, 1}));

@@ -20,7 +20,7 @@
 namespace paim {
 namespace {
 
-using Bytes = std::vector<char>;
+using FileBytes = std::vector<char>;
 
 // Of a mesh of four faces: images on three of them, numbers of coordinates in no order.
 Texture example_texture() {
@@ -64,16 +64,16 @@ class TextureFile : public testing::Test {
     std::filesystem::path path() const { return directory_ / "x.paim"; }
 
     // The message of reading the file with one section changed.
-    std::string refusal(Tag tag, const std::function<void(SectionSpec&, Bytes&)>& change) {
+    std::string refusal(Tag tag, const std::function<void(SectionSpec&, FileBytes&)>& change) {
         write_paim(path(), textured_example(false));
-        const Bytes whole = read_file(path(), 1 << 20);
+        const FileBytes whole = read_file(path(), 1 << 20);
         const ContainerReader reader(path(), section::kKindAnimation);
         std::vector<SectionPlan> plans;
-        std::vector<Bytes> contents;
+        std::vector<FileBytes> contents;
         bool found = false;
         for (const Section& section : reader.sections()) {
             const auto first = whole.begin() + static_cast<ptrdiff_t>(section.offset);
-            Bytes bytes(first, first + static_cast<ptrdiff_t>(section.stored_size_bytes));
+            FileBytes bytes(first, first + static_cast<ptrdiff_t>(section.stored_size_bytes));
             SectionSpec spec = section.spec;
             if (spec.tag == tag && !found) {
                 found = true;
@@ -107,15 +107,15 @@ class TextureFile : public testing::Test {
 
 // Writes a number into the bytes of a section.
 template <typename Number>
-std::function<void(SectionSpec&, Bytes&)> with_number(size_t index, Number number) {
-    return [=](SectionSpec&, Bytes& bytes) {
+std::function<void(SectionSpec&, FileBytes&)> with_number(size_t index, Number number) {
+    return [=](SectionSpec&, FileBytes& bytes) {
         std::memcpy(bytes.data() + index * sizeof number, &number, sizeof number);
     };
 }
 
 // Drops the last row of a section of rows of so many bytes.
-std::function<void(SectionSpec&, Bytes&)> without_last(int dimension, size_t row_bytes) {
-    return [=](SectionSpec& spec, Bytes& bytes) {
+std::function<void(SectionSpec&, FileBytes&)> without_last(int dimension, size_t row_bytes) {
+    return [=](SectionSpec& spec, FileBytes& bytes) {
         --spec.shape[static_cast<size_t>(dimension)];
         bytes.resize(bytes.size() - row_bytes);
     };
@@ -138,7 +138,9 @@ TEST_F(TextureFile, ComesBackAsItWas) {
             for (size_t f = 0; f < 4; ++f) {
                 EXPECT_EQ(corners_of(read.parts[part], f), corners_of(asset.parts[part], f)) << f;
             }
-            if (!packed) EXPECT_EQ(got.corners, expected.corners);
+            if (!packed) {
+                EXPECT_EQ(got.corners, expected.corners);
+            }
         }
     }
 }
@@ -151,12 +153,14 @@ TEST_F(TextureFile, CornersGoWithRotatedTriangles) {
     write_paim(path(), asset);
     const Asset read = read_paim(path());
     EXPECT_NE(read.moving().topology.triangles, asset.moving().topology.triangles);
-    for (size_t f = 0; f < 4; ++f) EXPECT_EQ(corners_of(read.moving(), f), corners_of(asset.moving(), f));
+    for (size_t f = 0; f < 4; ++f)
+        EXPECT_EQ(corners_of(read.moving(), f), corners_of(asset.moving(), f));
 }
 
 TEST_F(TextureFile, FilesWithoutTexturesHaveNoSectionOfThem) {
     write_paim(path(), make_example_asset());
-    for (const Section& section : ContainerReader(path(), section::kKindAnimation).sections()) {
+    const ContainerReader reader(path(), section::kKindAnimation);
+    for (const Section& section : reader.sections()) {
         EXPECT_FALSE(section.spec.tag.str().starts_with("TX")) << section.spec.tag.str();
     }
     EXPECT_TRUE(read_paim(path()).moving().texture == Texture());
@@ -199,32 +203,32 @@ TEST_F(TextureFile, RefusesOtherShapes) {
     expect_refusal(refusal(tags.names, without_last(2, 1)), "entries, expected 3");
     expect_refusal(refusal(tags.coordinates, without_last(1, 8)), "coordinate 3 of triangle 0");
     expect_refusal(refusal(tags.coordinates,
-                           [](SectionSpec& spec, Bytes&) {
+                           [](SectionSpec& spec, FileBytes&) {
                                spec.shape = {1, 2, 4};
                            }),
                    "1 x 2 x 4 values, expected 2 in a row");
     expect_refusal(refusal(tags.coordinates,
-                           [](SectionSpec& spec, Bytes& bytes) {
+                           [](SectionSpec& spec, FileBytes& bytes) {
                                spec.shape = {1, 0, 2};
                                bytes.clear();
                            }),
                    "0 texture coordinates, expected at least 1");
     expect_refusal(refusal(tags.factors,
-                           [](SectionSpec& spec, Bytes& bytes) {
+                           [](SectionSpec& spec, FileBytes& bytes) {
                                spec.shape = {1, 0, 3};
                                bytes.clear();
                            }),
                    "0 images, expected 1 to 65535");
     for (const Tag tag :
          {tags.names, tags.image, tags.coordinates, tags.corners, tags.of_face, tags.factors}) {
-        const std::string message = refusal(tag, [](SectionSpec& spec, Bytes& bytes) {
+        const std::string message = refusal(tag, [](SectionSpec& spec, FileBytes& bytes) {
             spec.shape = {1, 1, 1};
             bytes.clear();
         });
         expect_refusal(message, tag.str() + " 0 is missing");
     }
     expect_refusal(
-        refusal(tags.of_face, [](SectionSpec& spec, Bytes&) { spec.type = ScalarType::f32; }),
+        refusal(tags.of_face, [](SectionSpec& spec, FileBytes&) { spec.type = ScalarType::f32; }),
         "holds f32, expected u32");
 }
 
