@@ -120,7 +120,8 @@ const PoseSource& BakeInput::poses() const {
 }
 
 TransferLayout BakeInput::layout(const BakeOptions& options) const {
-    return TransferBaker::bake_layout(options, poses().albedo(), surroundings_.still_mesh);
+    return TransferBaker::bake_layout(options, poses().albedo(), surroundings_.still_mesh,
+                                      poses().materials());
 }
 
 BakeReport BakeInput::report() const {

@@ -16,6 +16,7 @@
 #include "compressor/encode/search/less_noise.h"
 #include "compressor/encode/search/target_encode.h"
 #include "compressor/encode_report.h"
+#include "compressor/gloss_plan.h"
 #include "compressor/gloss_report.h"
 #include "compressor/hidden_directory.h"
 #include "compressor/mesh_warnings.h"
@@ -44,13 +45,17 @@ ordered_json tell(const CompressOptions& options, const Report& report) {
     return report_json(report);
 }
 
-// Error, before a long bake, if the disk has no room for it.
+// Says, before a long bake, what gloss will take. Error if the disk has no room for the bake.
 void check_space(const CompressOptions& options, const BakeInput& input,
                  const std::filesystem::path& directory) {
-    check_bake_space(
-        directory,
-        pose_file_bytes(input.poses().topology().num_vertices, input.layout(options.bake)),
-        input.first_pose(), input.last_pose());
+    const std::optional<GlossPlan> gloss = plan_gloss(input, options.bake);
+    const uint64_t pose_bytes =
+        pose_file_bytes(input.poses().topology().num_vertices, input.layout(options.bake)) +
+        (gloss ? gloss->pose_file_bytes() : 0);
+    if (gloss) {
+        print_notes(gloss_notes(*gloss, input, input.last_pose() - input.first_pose() + 1));
+    }
+    check_bake_space(directory, pose_bytes, input.first_pose(), input.last_pose());
 }
 
 // Error, before a long bake, if its result could not be encoded in the memory allowed.

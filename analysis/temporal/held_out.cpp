@@ -27,7 +27,8 @@ void write_every_other(const BakeReader& bake, const std::filesystem::path& dire
             identity.root_motion.push_back(bake.identity().root_motion[p]);
         }
     }
-    const BakeWriter writer(directory, identity, bake.topology(), bake.albedo());
+    const BakeWriter writer(directory, identity, bake.topology(), bake.albedo(), bake.texture(),
+                            bake.materials());
     if (bake.still_mesh()) writer.write_still_mesh(*bake.still_mesh());
     for (uint32_t p = 0; p < bake.num_poses(); p += 2) {
         writer.write_pose(p / 2, bake.read_pose(p));

@@ -197,6 +197,7 @@ class BakeReader {
     void read_noise_rows(uint32_t p, uint64_t first, uint64_t count, float* out) const;
 
   private:
+    BakedPose read_gloss_pose(uint32_t p) const;
     void read_rows(uint32_t p, Tag tag, uint32_t num_planes, uint64_t first, uint64_t count,
                    float* out, ScalarType type = ScalarType::f32) const;
 

@@ -1,4 +1,6 @@
 // The glossy transfer of a bake as a bake of its own.
+#include <utility>
+
 #include "paim/base/error.h"
 #include "paim/format/bake/bake_directory.h"
 #include "paim/mesh/face_vertices.h"
@@ -24,6 +26,18 @@ BakedStillMesh gloss_of(const BakedStillMesh& whole) {
 }
 
 }  // namespace
+
+BakedPose BakeReader::read_gloss_pose(uint32_t p) const {
+    BakedPose pose = whole_->read_pose(p);
+    keep_vertices(pose.positions, whole_->identity_.num_vertices, whole_->gloss_rows_);
+    keep_vertices(pose.normals, whole_->identity_.num_vertices, whole_->gloss_rows_);
+    pose.transfer = std::move(pose.gloss);
+    pose.noise = std::move(pose.gloss_noise);
+    pose.gloss.clear();
+    pose.gloss_noise.clear();
+    pose.statistics = pose.statistics.of_gloss();
+    return pose;
+}
 
 BakeReader BakeReader::gloss() const {
     if (gloss_rows_.empty()) {

@@ -195,7 +195,7 @@ BakedStillMesh read_bake_still_mesh(const std::filesystem::path& directory,
 }
 
 BakedPose BakeReader::read_pose(uint32_t p) const {
-    PAIM_CHECK(whole_ == nullptr);
+    if (whole_ != nullptr) return read_gloss_pose(p);
     const ContainerReader reader(bake_pose_file(directory_, p), section::kKindPose);
     const auto read = [&](Tag tag, uint32_t num_planes, ScalarType type = ScalarType::f32) {
         return read_planes(reader, tag, num_planes, identity_.num_vertices, type);

@@ -47,7 +47,8 @@ BakedPose make_pose(uint32_t p) {
     BakedPose pose{fill(12), fill(12), fill(16), fill(16), {}, {}, {}};
     // Noise is stored in half precision.
     for (float& value : pose.noise) value = std::round(value * 1024.0f) / 1024.0f;
-    pose.statistics = {256, 17 + p, 1, 2, {0.25, 0.5}, {0.125 / (p + 1), 0.0}, {5 + p, 6 + p}, 3, {}, {}};
+    pose.statistics = {256, 17 + p, 1, 2, {0.25, 0.5}, {0.125 / (p + 1), 0.0}, {5 + p, 6 + p},
+                       3,   {},     {}};
     return pose;
 }
 

@@ -135,6 +135,10 @@ TEST_F(BakeGloss, IsABakeOfItsOwn) {
     }
     gloss.read_transfer_rows(1, 7, 5, rows.data());
     EXPECT_TRUE(std::equal(rows.begin(), rows.end(), pose.gloss.begin() + 7));
+    const BakedPose of_gloss = gloss.read_pose(1);
+    EXPECT_EQ(of_gloss.transfer, pose.gloss);
+    EXPECT_EQ(of_gloss.noise, pose.gloss_noise);
+    EXPECT_EQ(of_gloss.positions[4], pose.positions[8 + kRows[1]]);
     gloss.read_noise_rows(1, 7, 5, rows.data());
     EXPECT_TRUE(std::equal(rows.begin(), rows.end(), pose.gloss_noise.begin() + 7));
 }

@@ -1,0 +1,34 @@
+// What glossy transfer will take, known before the bake.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compressor/bake_input.h"
+
+namespace paim {
+
+struct GlossPlan {
+    TransferLayout layout;
+    uint64_t num_rows = 0;  // of the poses (mesh/materials.h)
+
+    // Of its transfer (f32) and noise (f16) in the file of a pose.
+    uint64_t pose_file_bytes() const { return 6 * values(); }
+    // While a pose is baked: two halves of floats.
+    uint64_t memory_bytes() const { return 8 * values(); }
+
+  private:
+    uint64_t values() const { return num_rows * layout.num_planes(); }
+};
+
+// Nothing if no material is glossy. Errors: those of parse_brdf().
+std::optional<GlossPlan> plan_gloss(const BakeInput& input, const BakeOptions& options);
+
+// Lines for users: what the plan takes for this many poses, and what the bands leave out of each
+// material's reflection, if that can be seen.
+std::vector<std::string> gloss_notes(const GlossPlan& plan, const BakeInput& input,
+                                     uint64_t num_poses);
+
+}  // namespace paim
