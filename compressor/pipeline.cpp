@@ -244,6 +244,11 @@ ordered_json run_encode(const CompressOptions& options, const std::filesystem::p
     reader.verify_all();
     say_if_dark(reader);
     say_if_fewer_bands(encode_options, reader);
+    if (reader.identity().gloss && reader.gloss_rows().empty()) {
+        fmt::print(stderr,
+                   "note: no vertex of the poses is glossy: the gloss of still meshes alone is not "
+                   "encoded\n");
+    }
     if (!reader.gloss_rows().empty()) return run_glossy_encode(options, encode_options, reader);
     if (options.target) {
         const TargetReport report = encode_target(options, encode_options, reader);

@@ -271,6 +271,10 @@ class TransferBaker::PoseBake {
         const TransferLayout layout = baker_.layout();
         statistics.transfer_rms = rms_by_band(layout, baked.transfer);
         statistics.noise_rms = rms_by_band(layout, baked.noise);
+        if (baker_.gloss_layout_) {
+            statistics.gloss_rms = rms_by_band(*baker_.gloss_layout_, baked.gloss);
+            statistics.gloss_noise_rms = rms_by_band(*baker_.gloss_layout_, baked.gloss_noise);
+        }
         return baked;
     }
 

@@ -5,7 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "paim/base/check.h"
 #include "paim/base/error.h"
 #include "paim/base/parallel.h"
 #include "paim/format/bake/bake_directory.h"
@@ -56,7 +55,7 @@ PoseStatistics read_statistics_of(const ContainerReader& reader, uint64_t identi
     const uint32_t bands = identity.layout.in_bands;
     statistics.transfer_rms = metadata.numbers("transfer_rms", bands, 0.0, kMax);
     statistics.noise_rms = metadata.numbers("noise_rms", bands, 0.0, kMax);
-    if (identity.gloss && metadata.root().contains("gloss_rms")) {
+    if (identity.gloss) {
         const uint32_t gloss_bands = identity.gloss->layout.in_bands;
         statistics.gloss_rms = metadata.numbers("gloss_rms", gloss_bands, 0.0, kMax);
         statistics.gloss_noise_rms = metadata.numbers("gloss_noise_rms", gloss_bands, 0.0, kMax);

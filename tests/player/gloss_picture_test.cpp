@@ -1,0 +1,229 @@
+// Gloss in pictures: at pixels and at vertices, against sums on the CPU.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "paim/base/seed.h"
+#include "paim/codec/playback.h"
+#include "paim/codec/sequence_bounds.h"
+#include "paim/codec/svd/svd_transfer.h"
+#include "paim/image/tone.h"
+#include "paim/mesh/planes.h"
+#include "paim/render/render.h"
+#include "paim/sh/basis.h"
+#include "player/gl/check.h"
+#include "player/gl/headless_context.h"
+#include "player/presenter.h"
+#include "tests/player/test_asset.h"
+
+namespace paim::player {
+namespace {
+
+constexpr int kWidth = 200, kHeight = 150;
+constexpr float kAspect = float{kWidth} / kHeight;
+constexpr uint32_t kOutBands = 3;
+
+struct Way {
+    const char* name;
+    gl::Api api;
+    Decoder decoder;
+};
+
+// Gloss of a sphere around the origin: coefficients that change smoothly from vertex to vertex and
+// from pose to pose. Every third face has a vertex without a row.
+CodedGloss make_gloss(const CodedMesh& mesh) {
+    CodedGloss gloss;
+    gloss.layout = {TransferKind::glossy, 4, 1, kOutBands};
+    const std::vector<float> positions = mesh.positions.mean_floats();
+    const size_t num_vertices = mesh.topology.num_vertices;
+    for (uint32_t v = 0; v < num_vertices; ++v) {
+        if (v % 7 != 3) gloss.vertices.push_back(v);
+    }
+    gloss.num_rows = static_cast<uint32_t>(gloss.vertices.size());
+    RandomStream random(4);
+    LowRank matrix;
+    matrix.num_points = gloss.num_rows;
+    matrix.num_planes = gloss.layout.num_planes();
+    matrix.num_poses = mesh.num_poses();
+    matrix.num_components = 1;
+    std::vector<float> mean, component;
+    for (uint32_t plane = 0; plane < matrix.num_planes; ++plane) {
+        const double strength = plane == 0 ? 0.8 : 0.12 * (random.uniform() - 0.5);
+        const double phase = 6.0 * random.uniform();
+        for (const uint32_t v : gloss.vertices) {
+            const double height = positions[v] + 0.5 * positions[num_vertices + v];
+            mean.push_back(static_cast<float>(strength * (1.0 + 0.5 * std::sin(height + phase))));
+            component.push_back(static_cast<float>(0.3 * strength * std::cos(height + phase)));
+        }
+    }
+    matrix.mean = mean;
+    matrix.components = {component};
+    for (uint32_t p = 0; p < matrix.num_poses; ++p) matrix.weights.push_back(std::sin(1.0f + p));
+    matrix.singular_values = {1.0};
+    gloss.transfer = SvdTransfer(std::move(matrix));
+    gloss.tint.values = {Vec3f(1.0f, 0.8f, 0.6f)};
+    return gloss;
+}
+
+Asset glossy_asset(bool turned) {
+    TestAssetOptions options;
+    options.num_rings = 12;
+    options.bands = 3;
+    Asset asset = make_test_asset(options);
+    CodedMesh& mesh = asset.moving();
+    mesh.gloss = make_gloss(mesh);
+    if (!turned) return asset;
+    mesh.root_motion.resize(mesh.num_poses());
+    for (size_t p = 0; p < mesh.root_motion.size(); ++p) {
+        const double angle = 0.4 + 0.3 * static_cast<double>(p);
+        mesh.root_motion[p].rotation = Eigen::AngleAxisd(angle, Vec3d(1, 2, 0.5).normalized());
+        mesh.root_motion[p].translation = Vec3d(0.2 * angle, -0.1, 0.3);
+    }
+    return asset;
+}
+
+class GlossPictures : public testing::TestWithParam<Way> {
+  protected:
+    GlossPictures() : context_(gl::make_headless_context(GetParam().api)) {
+        gl::report_driver_messages([this](std::string_view message) { messages_ += message; });
+    }
+    ~GlossPictures() override {
+        EXPECT_EQ(messages_, "");
+        gl::check_errors("testing");
+    }
+    Presenter present(const Asset& asset) const {
+        const auto shared = std::make_shared<const Asset>(asset);
+        Image sky(8, 4, Vec3f(0.1f, 0.09f, 0.08f));
+        sky.at(2, 1) = Vec3f(0.9f, 0.6f, 0.2f);
+        return {shared, sequence_bounds(*shared), EnvironmentLight(sky), {},
+                {},     GetParam().decoder};
+    }
+    ViewState view_of(Presenter& presenter, GlossDetail gloss) const {
+        ViewState view;
+        view.animation.time = 1.25;
+        view.background.kind = Background::Kind::color;
+        view.camera.orbit.azimuth_rad = 2.5;
+        view.camera.orbit = presenter.framed(view, kAspect, true);
+        view.gloss = gloss;
+        return view;
+    }
+
+    std::string messages_;
+    std::unique_ptr<gl::Context> context_;
+};
+
+INSTANTIATE_TEST_SUITE_P(Ways, GlossPictures,
+                         testing::Values(Way{"Desktop", gl::Api::desktop, Decoder::gpu},
+                                         Way{"Es", gl::Api::es, Decoder::gpu},
+                                         Way{"Cpu", gl::Api::desktop, Decoder::cpu}),
+                         [](const auto& way) { return way.param.name; });
+
+// A pose on the CPU, and what is seen of it.
+struct Seen {
+    Playback playback;
+    std::vector<Vec3f> positions;
+    VisiblePoints visible;
+    Camera camera;
+
+    Seen(Presenter& presenter, const ViewState& view, bool with_eye)
+        : playback(std::make_shared<const Asset>(presenter.asset())),
+          camera(presenter.camera(view)) {
+        playback.set_light(DistantLight(presenter.light_of(view)));
+        if (with_eye) playback.set_eye(camera.eye);
+        playback.update(view.animation.time);
+        positions = from_planes(playback.positions());
+        visible = find_visible(topology(), positions, camera, kWidth, kHeight);
+    }
+    const Topology& topology() const { return playback.asset().moving().topology; }
+};
+
+// Gloss at each pixel: interpolated coefficients in the direction of the eye.
+void add_gloss(const Seen& seen, Image& image) {
+    const CodedGloss& gloss = *seen.playback.asset().moving().gloss;
+    const std::span<const Vec3f> exit = seen.playback.exit_radiance();
+    std::vector<int64_t> row_of(seen.topology().num_vertices, -1);
+    for (uint32_t r = 0; r < gloss.num_rows; ++r) row_of[gloss.vertex(r)] = r;
+    std::vector<float> basis(gloss.layout.num_outgoing());
+    for (size_t i = 0; i < image.pixels.size(); ++i) {
+        const Hit& hit = seen.visible.hits[i];
+        if (hit.triangle == kNoTriangle) continue;
+        const Triangle& corners = seen.topology().triangles[hit.triangle];
+        const float shares[3] = {1.0f - hit.u - hit.v, hit.u, hit.v};
+        Vec3f place = Vec3f::Zero();
+        for (size_t k = 0; k < 3; ++k) place += shares[k] * seen.positions[corners[k]];
+        const Vec3d towards = (seen.camera.eye - place).cast<double>();
+        const Vec3d local = seen.playback.root().rotation.conjugate() * towards;
+        sh::evaluate_basis(static_cast<int>(kOutBands), local, std::span(basis));
+        for (size_t k = 0; k < 3; ++k) {
+            const int64_t row = row_of[corners[k]];
+            for (size_t o = 0; o < basis.size() && row >= 0; ++o) {
+                image.pixels[i] +=
+                    shares[k] * basis[o] * exit[o * gloss.num_rows + static_cast<size_t>(row)];
+            }
+        }
+    }
+}
+
+// The share of the body's pixels whose display values differ by more than two steps: pixels at edges
+// may show either side of the edge.
+double share_off(const Image& expected, const Image& drawn) {
+    const ToneCurve curve;
+    size_t covered = 0, off = 0;
+    for (size_t i = 0; i < expected.pixels.size(); ++i) {
+        const Vec3f &a = expected.pixels[i], &b = drawn.pixels[i];
+        if (a.isZero(0.0f) && b.isZero(0.0f)) continue;
+        ++covered;
+        int largest = 0;
+        for (int channel = 0; channel < 3; ++channel) {
+            largest =
+                std::max(largest, std::abs(curve.apply(a[channel]) - curve.apply(b[channel])));
+        }
+        off += largest > 2 ? 1 : 0;
+    }
+    EXPECT_GT(covered, expected.pixels.size() / 40);
+    return static_cast<double>(off) / static_cast<double>(covered);
+}
+
+TEST_P(GlossPictures, AtPixelsAndVerticesAreThoseOfTheCpu) {
+    for (const bool turned : {false, true}) {
+        Presenter presenter = present(glossy_asset(turned));
+        ViewState view = view_of(presenter, GlossDetail::pixel);
+        const Image at_pixels = presenter.render(view, kWidth, kHeight, 1);
+        view.gloss = GlossDetail::vertex;
+        const Image at_vertices = presenter.render(view, kWidth, kHeight, 1);
+        view.gloss = GlossDetail::none;
+        const Image without = presenter.render(view, kWidth, kHeight, 1);
+
+        const Seen diffuse(presenter, view, false), glossy(presenter, view, true);
+        const Image matte =
+            interpolate_image(diffuse.visible, diffuse.topology(), diffuse.playback.radiance());
+        Image by_pixel = matte;
+        add_gloss(diffuse, by_pixel);
+        const Image by_vertex =
+            interpolate_image(glossy.visible, glossy.topology(), glossy.playback.radiance());
+        EXPECT_LE(share_off(matte, without), 5e-3);
+        EXPECT_LE(share_off(by_vertex, at_vertices), 5e-3);
+        EXPECT_LE(share_off(by_pixel, at_pixels), 5e-3);
+        // They are three different pictures.
+        EXPECT_GT(share_off(matte, at_vertices), 0.2);
+        EXPECT_GT(share_off(by_vertex, at_pixels), 0.05);
+    }
+}
+
+// Views in colours that mean something have no gloss.
+TEST_P(GlossPictures, AreOfLitSurfacesAlone) {
+    Presenter presenter = present(glossy_asset(false));
+    ViewState view = view_of(presenter, GlossDetail::pixel);
+    view.surface = SurfaceView::normals;
+    const Image with = presenter.render(view, kWidth, kHeight, 1);
+    view.gloss = GlossDetail::none;
+    EXPECT_EQ(with.pixels, presenter.render(view, kWidth, kHeight, 1).pixels);
+}
+
+}  // namespace
+}  // namespace paim::player
