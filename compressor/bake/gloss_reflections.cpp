@@ -44,7 +44,7 @@ TransferLayout choose_gloss_layout(const std::vector<const Materials*>& meshes, 
     return {TransferKind::glossy, bands.in, channels, bands.out};
 }
 
-bool is_coloured(const Materials& materials) {
+bool has_coloured_tint(const Materials& materials) {
     return std::any_of(materials.glossy.begin(), materials.glossy.end(), [](const auto& material) {
         const Vec3f& tint = material.tint;
         return tint.x() != tint.y() || tint.y() != tint.z();

@@ -38,6 +38,6 @@ TransferLayout choose_gloss_layout(const std::vector<const Materials*>& meshes, 
                                    uint32_t out_bands, uint32_t channels);
 
 // Whether any tint is not grey.
-bool is_coloured(const Materials& materials);
+bool has_coloured_tint(const Materials& materials);
 
 }  // namespace paim

@@ -327,9 +327,9 @@ TransferBaker::TransferBaker(const BakeOptions& options, Albedo albedo, StillMes
 
 TransferLayout TransferBaker::bake_layout(const BakeOptions& options, const Albedo& albedo,
                                           const StillMesh& still_mesh, const Materials& materials) {
-    const bool coloured = is_coloured(albedo) || is_coloured(materials) ||
-                          (!still_mesh.empty() &&
-                           (is_coloured(still_mesh.albedo) || is_coloured(still_mesh.materials)));
+    const bool coloured = is_coloured(albedo) || has_coloured_tint(materials) ||
+                          (!still_mesh.empty() && (is_coloured(still_mesh.albedo) ||
+                                                   has_coloured_tint(still_mesh.materials)));
     return {TransferKind::diffuse, options.bands, options.bounces > 0 && coloured ? 3u : 1u};
 }
 

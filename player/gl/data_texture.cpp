@@ -138,7 +138,7 @@ template void DataTexture::upload_as(const Fill<int8_t>& fill) const;
 void DataTexture::update(std::span<const float> values) const {
     const auto texel_values = static_cast<size_t>(values_per_texel(format_));
     const size_t row_values = static_cast<size_t>(width_) * texel_values;
-    PAIM_CHECK(format_ == TexelFormat::r32f || format_ == TexelFormat::rgba32f);
+    PAIM_CHECK(gl_format(format_).type == GL_FLOAT);
     PAIM_CHECK_LE(values.size(), static_cast<size_t>(num_texels_) * texel_values);
     const size_t num_rows = values.size() / row_values;
     const std::span<const float> rest = values.subspan(num_rows * row_values);

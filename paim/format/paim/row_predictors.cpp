@@ -18,10 +18,10 @@ RowPredictors::RowPredictors(const Asset& asset) : RowPredictors(asset.num_poses
 }
 
 const PlanePredictor& RowPredictors::of(const TableRow& row) const {
-    if (row.neighbours == Neighbours::poses) return poses_;
-    if (row.neighbours == Neighbours::none || parts_.empty()) return none_;
+    if (row.neighbours == PredictedFrom::poses) return poses_;
+    if (row.neighbours == PredictedFrom::none || parts_.empty()) return none_;
     const OfPart& part = parts_[row.part];
-    const bool among_rows = row.neighbours == Neighbours::rows_of_gloss && !part.all_rows;
+    const bool among_rows = row.neighbours == PredictedFrom::rows_of_gloss && !part.all_rows;
     return among_rows ? part.rows_of_gloss : part.vertices;
 }
 

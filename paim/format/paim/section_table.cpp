@@ -74,7 +74,7 @@ class TableBuilder {
 
   private:
     void add(Tag tag, std::array<uint32_t, 2> shape, RowValues values,
-             Neighbours neighbours = Neighbours::none, uint32_t index = 0) {
+             PredictedFrom neighbours = PredictedFrom::none, uint32_t index = 0) {
         rows_.push_back({tag, index, shape, neighbours, part_, std::move(values)});
     }
 
@@ -93,20 +93,20 @@ class TableBuilder {
     void add_still(CodedMesh& mesh) {
         add(section::kStillTriangles, {size_of(mesh.topology.triangles.size()), 3}, &mesh.topology);
         const auto add_planes = [&](Tag tag, Tag tag_of_steps, LowRank& matrix,
-                                    Neighbours neighbours) {
+                                    PredictedFrom neighbours) {
             add(tag_of_steps, {1, matrix.num_planes}, Steps{&matrix});
             add(tag, {matrix.num_planes, matrix.num_points}, MatrixValues{&matrix, &matrix.mean},
                 neighbours);
         };
         add_planes(section::kStillPositions, section::kStillPositionSteps, mesh.positions,
-                   Neighbours::vertices);
+                   PredictedFrom::vertices);
         add(section::kStillAlbedo, {size_of(mesh.albedo.values.size()), 3}, &mesh.albedo);
         add_planes(section::kStillTransfer, section::kStillTransferSteps, mesh.transfer->matrix,
-                   Neighbours::vertices);
+                   PredictedFrom::vertices);
         if (!mesh.gloss) return;
         add_gloss_rows(mesh, section::kStillGlossTint, section::kStillGlossVertices);
         add_planes(section::kStillGloss, section::kStillGlossSteps, mesh.gloss->transfer->matrix,
-                   Neighbours::rows_of_gloss);
+                   PredictedFrom::rows_of_gloss);
     }
 
     // Of all parts. The reader reads textures whole, and has none yet when it asks for rows.
@@ -118,7 +118,7 @@ class TableBuilder {
                 rows_.push_back({spec.tag,
                                  spec.index,
                                  {spec.shape[1], spec.shape[2]},
-                                 Neighbours::none,
+                                 PredictedFrom::none,
                                  part,
                                  TextureValues{&mesh, piece, spec.type}});
             }
@@ -128,11 +128,12 @@ class TableBuilder {
     void add_codec_row(const SectionRow& row, bool of_gloss) {
         Tag tag = tag_of(row.tag);
         if (of_gloss) tag.text[0] = 'X';
-        const Neighbours neighbours = of_gloss ? Neighbours::rows_of_gloss : Neighbours::vertices;
+        const PredictedFrom neighbours =
+            of_gloss ? PredictedFrom::rows_of_gloss : PredictedFrom::vertices;
         std::visit(
             [&](auto values) {
                 add(tag, {row.num_rows, row.num_columns}, values,
-                    row.by_vertex ? neighbours : Neighbours::none, row.index);
+                    row.by_vertex ? neighbours : PredictedFrom::none, row.index);
             },
             row.values);
     }
@@ -143,25 +144,25 @@ class TableBuilder {
         add(section::kSingularValues[i], {1, size_of(matrix.singular_values.size())},
             SingularValues{&matrix});
         add(section::kWeights[i], {matrix.num_components, matrix.num_poses}, Weights{&matrix},
-            Neighbours::poses);
+            PredictedFrom::poses);
         add(section::kWeightSteps[i], {1, matrix.num_components}, WeightSteps{&matrix});
         add(section::kSteps[i], {1, matrix.num_planes}, Steps{&matrix});
     }
 
     // The neighbours of the points of an attribute.
-    Neighbours neighbours_of(Attribute which) const {
+    PredictedFrom neighbours_of(Attribute which) const {
         const CodedMesh& moving = asset_.moving();
         switch (which) {
             case Attribute::geometry:
-                return Neighbours::vertices;
+                return PredictedFrom::vertices;
             case Attribute::transfer:
-                return moving.transfer->points_are_vertices() ? Neighbours::vertices
-                                                              : Neighbours::none;
+                return moving.transfer->points_are_vertices() ? PredictedFrom::vertices
+                                                              : PredictedFrom::none;
             case Attribute::gloss:
                 break;
         }
-        return moving.gloss->transfer->points_are_vertices() ? Neighbours::rows_of_gloss
-                                                             : Neighbours::none;
+        return moving.gloss->transfer->points_are_vertices() ? PredictedFrom::rows_of_gloss
+                                                             : PredictedFrom::none;
     }
 
     void add_values(Tag tag, uint32_t index, MatrixValues values, Attribute which) {

@@ -43,22 +43,21 @@ struct TextureValues {  // one section of a texture (container/texture_sections.
     TexturePiece piece;
     ScalarType type;
 };
-using RowValues =
-    std::variant<Topology*, Albedo*, TextureValues, SingularValues, Weights, WeightSteps, Steps,
-                 MatrixValues, StoredValues*, SmallNumbers, VertexNumbers, std::vector<float>*,
-                 RootMotion*>;
+using RowValues = std::variant<Topology*, Albedo*, TextureValues, SingularValues, Weights,
+                               WeightSteps, Steps, MatrixValues, StoredValues*, SmallNumbers,
+                               VertexNumbers, std::vector<float>*, RootMotion*>;
 
 // A dimension that only the file knows.
 constexpr uint32_t kAnySize = std::numeric_limits<uint32_t>::max();
 
 // The neighbours that integers of a section are predicted from.
-enum class Neighbours { none, vertices, rows_of_gloss, poses };
+enum class PredictedFrom { none, vertices, rows_of_gloss, poses };
 
 struct TableRow {
     Tag tag;
     uint32_t index = 0;
     std::array<uint32_t, 2> shape{0, 0};
-    Neighbours neighbours = Neighbours::none;
+    PredictedFrom neighbours = PredictedFrom::none;
     size_t part = 0;  // number of the part whose vertices are the columns
     RowValues values;
 
