@@ -26,7 +26,7 @@ const SceneUnits kSame;  // the model's unit is that of the scene
 ViewState other_view() {
     ViewState view;
     auto& [animation, limits, light, camera, tone_curve, background, surface, coefficient, channel,
-           textures, edges, comparison, split, num_instances, picked] = view;
+           gloss, textures, edges, comparison, split, num_instances, picked] = view;
     auto& [time, playing, speed, ping_pong, in_betweens, turned_back] = animation;
     time = 3.25;
     playing = false;
@@ -54,6 +54,7 @@ ViewState other_view() {
     surface = SurfaceView::radiance_error;
     coefficient = 7;
     channel = 1;
+    gloss = GlossDetail::vertex;
     textures = false;
     edges = true;
     comparison = Comparison::side_by_side;
