@@ -86,6 +86,7 @@ std::vector<ViewOption> view_options() {
         {{"--gamma", "0"}, [](View&) {}},
         {{"--surface", "transfer-error"}, [](View& v) { v.surface = SurfaceView::transfer_error; }},
         {{"--coefficient", "4095"}, [](View& v) { v.coefficient = 4095; }},
+        {{"--gloss", "vertex"}, [](View& v) { v.gloss = GlossDetail::vertex; }},
         {{"--no-textures"}, [](View& v) { v.textures = false; }},
         {{"--edges"}, [](View& v) { v.edges = true; }},
         {{"--compare", "wipe"}, [](View& v) { v.comparison = Comparison::wipe; }},
