@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <string>
+#include <string_view>
 #include <system_error>
 
 #include "paim/base/file.h"
@@ -29,7 +30,10 @@ void remove_abandoned(const fs::path& parent, const std::string& prefix) {
     std::error_code failure;
     for (fs::directory_iterator entry(parent, failure), end; !failure && entry != end;
          entry.increment(failure)) {
-        if (!entry->path().filename().string().starts_with(prefix)) continue;
+        const std::string name = entry->path().filename().string();
+        if (!name.starts_with(prefix) || name.size() == prefix.size()) continue;
+        const std::string_view number = std::string_view(name).substr(prefix.size());
+        if (number.find_first_not_of("0123456789") != std::string_view::npos) continue;
         const int lock = lock_directory(entry->path());
         if (lock < 0) continue;
         fs::remove_all(entry->path(), failure);

@@ -223,6 +223,12 @@ void say_if_fewer_bands(const EncodeOptions& asked, const BakeReader& reader) {
                bands);
 }
 
+void say_more_rays_help() {
+    fmt::print(stderr,
+               "note: most of the error is bake noise: more rays would help more than more "
+               "components (bake again with more --rays, into another .bake)\n");
+}
+
 ordered_json run_glossy_encode(const CompressOptions& options, const EncodeOptions& encode_options,
                                const BakeReader& reader) {
     if (options.target) {
@@ -231,6 +237,9 @@ ordered_json run_glossy_encode(const CompressOptions& options, const EncodeOptio
                                   report.diffuse.summary.outliers);
     }
     const auto report = encode_glossy_streamed(options, encode_options, reader);
+    const bool is_noisy =
+        report.diffuse.more_rays_would_help() || report.gloss.more_rays_would_help();
+    if (!options.json && is_noisy) say_more_rays_help();
     return tell_with_outliers(options, reader.identity(), report, report.diffuse.summary.outliers);
 }
 
@@ -257,11 +266,7 @@ ordered_json run_encode(const CompressOptions& options, const std::filesystem::p
     const EncodeReport report = encode_streamed(options, encode_options, reader, options.output);
     ordered_json json =
         tell_with_outliers(options, reader.identity(), report, report.summary.outliers);
-    if (!options.json && report.more_rays_would_help()) {
-        fmt::print(stderr,
-                   "note: most of the error is bake noise: more rays would help more than more "
-                   "components (bake again with more --rays, into another .bake)\n");
-    }
+    if (!options.json && report.more_rays_would_help()) say_more_rays_help();
     return json;
 }
 

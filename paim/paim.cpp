@@ -155,7 +155,7 @@ paim_status paim_asset_get_part(const paim_asset* asset, uint32_t part, paim_par
     const paim::CodedMesh& mesh = asset->asset->parts[part];
     *info = {mesh.topology.num_vertices,
              static_cast<uint32_t>(mesh.topology.triangles.size()),
-             mesh.layout.in_bands,
+             mesh.light_bands(),
              mesh.layout.channels,
              0,
              0};

@@ -167,7 +167,7 @@ std::vector<GlossMaterial> gloss_of_libraries(const std::string& name, ObjLibrar
         gloss.push_back(gloss_of(material, clamp));
         if (clamp.num_clamped() > 0) ++num_clamped;
         if (material.metallic && !material.roughness) ++num_alone;
-        if (material.metallic && material.roughness) {
+        if (material.metallic && material.roughness && !gloss.back().brdf.empty()) {
             material.diffuse_share = 1.0 - std::clamp(*material.metallic, 0.0, 1.0);
         }
     }

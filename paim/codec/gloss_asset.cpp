@@ -16,10 +16,10 @@ namespace paim {
 namespace {
 
 // Members in the order in which readers have them.
-using nlohmann::json;
+using Json = nlohmann::json;
 
-json provenance_of(const Asset& asset) {
-    return json::parse(asset.provenance_json.empty() ? "{}" : asset.provenance_json);
+Json provenance_of(const Asset& asset) {
+    return Json::parse(asset.provenance_json.empty() ? "{}" : asset.provenance_json);
 }
 
 // The values of these points, in their order.
@@ -98,14 +98,14 @@ Asset gloss_asset(const Asset& whole) {
     asset.vertex_order = whole.vertex_order;
     asset.complete = whole.complete;
     asset.name = whole.name;
-    const json provenance = provenance_of(whole);
+    const Json provenance = provenance_of(whole);
     if (provenance.contains("gloss")) asset.provenance_json = json_text(provenance["gloss"]);
     return asset;
 }
 
 void join_gloss(Asset gloss, std::span<const uint32_t> vertices, std::span<const uint32_t> still,
                 Asset& whole) {
-    json provenance = provenance_of(whole);
+    Json provenance = provenance_of(whole);
     provenance["gloss"] = provenance_of(gloss);
     whole.provenance_json = json_text(provenance);
     if (CodedMesh* const still_gloss = gloss.still()) {

@@ -38,7 +38,13 @@ struct Playback::Part {
         if (coded.gloss) gloss.emplace(*coded.gloss);
     }
 
-    void update(double new_time, const DecodeLimits& new_limits, const std::optional<Vec3f>& eye) {
+    // What is looked at: the gloss towards an eye, its outgoing coefficients, or neither.
+    struct Looks {
+        std::optional<Vec3f> eye;
+        bool keeps_exit = false;
+    };
+
+    void update(double new_time, const DecodeLimits& new_limits, const Looks& looks) {
         const bool moved = time != new_time;
         if (moved) root = root_at(mesh.root_motion, new_time);
         if (moved || limits.geometry_components != new_limits.geometry_components) {
@@ -48,11 +54,17 @@ struct Playback::Part {
         }
         if (light.bands > 0 && (moved || !is_lit || limits != new_limits)) {
             light_all(new_time, new_limits);
-            if (gloss) gloss->light(new_time, new_limits, to_local(light, root));
             is_lit = true;
+            is_gloss_lit = false;
+        }
+        const bool is_wanted = gloss && is_lit && (looks.eye || looks.keeps_exit);
+        if (is_wanted && !is_gloss_lit) {
+            gloss->light(new_time, new_limits, to_local(light, root));
+            is_gloss_lit = true;
             is_seen = false;
         }
-        if (gloss && is_lit && eye && !is_seen) look_from(*eye);
+        has_eye = is_wanted && looks.eye;
+        if (has_eye && (!is_seen || seen_from != *looks.eye)) look_from(*looks.eye);
         time = new_time;
         limits = new_limits;
     }
@@ -65,6 +77,7 @@ struct Playback::Part {
             shown[mesh.gloss->vertex(r)] += towards_eye[r];
         }
         is_seen = true;
+        seen_from = eye;
     }
 
     // The light is met once, in white if that is kept.
@@ -109,8 +122,11 @@ struct Playback::Part {
     std::unique_ptr<TransferPlayer> player;
     std::optional<GlossPlayer> gloss;
     LightCoefficients light;
-    bool is_lit = false;         // whether the radiance is up to date with the light
-    bool is_seen = false;        // whether `shown` is up to date with radiance, positions and eye
+    bool is_lit = false;        // whether the radiance is up to date with the light
+    bool is_gloss_lit = false;  // the same of the outgoing coefficients of the gloss
+    bool is_seen = false;       // whether `shown` is up to date, seen from `seen_from`
+    bool has_eye = false;       // at the last update
+    Vec3f seen_from = Vec3f::Zero();
     std::optional<double> time;  // of positions and radiance
     DecodeLimits limits;
     std::vector<float> positions;        // local
@@ -126,7 +142,7 @@ struct Playback::Part {
 struct Playback::State {
     std::shared_ptr<const Asset> asset;
     std::vector<Part> parts;
-    std::optional<Vec3f> eye;
+    Part::Looks looks;
 };
 
 Playback::Playback(std::shared_ptr<const Asset> asset) : state_(std::make_unique<State>()) {
@@ -155,9 +171,11 @@ void Playback::set_light(const LightField& light) {
 }
 
 void Playback::set_eye(const std::optional<Vec3f>& eye) {
-    if (state_->eye == eye) return;
-    state_->eye = eye;
-    for (Part& part : state_->parts) part.is_seen = false;
+    state_->looks.eye = eye;
+}
+
+void Playback::keep_exit_radiance(bool keep) {
+    state_->looks.keeps_exit = keep;
 }
 
 void Playback::keep_white_radiance(bool keep) {
@@ -166,7 +184,7 @@ void Playback::keep_white_radiance(bool keep) {
 
 void Playback::update(double time, const DecodeLimits& limits) {
     for (Part& part : state_->parts) {
-        part.update(part.mesh.num_poses() == 1 ? 0.0 : time, limits, state_->eye);
+        part.update(part.mesh.num_poses() == 1 ? 0.0 : time, limits, state_->looks);
     }
 }
 
@@ -189,18 +207,19 @@ RigidTransform Playback::root(size_t part) const {
 std::span<const Vec3f> Playback::radiance(size_t part) const {
     PAIM_CHECK_LT(part, num_parts());
     const Part& of = state_->parts[part];
-    return of.gloss && state_->eye ? of.shown : of.radiance;
+    return of.has_eye ? of.shown : of.radiance;
 }
 
 std::span<const Vec3f> Playback::exit_radiance(size_t part) const {
     PAIM_CHECK_LT(part, num_parts());
     const Part& of = state_->parts[part];
-    return of.gloss ? of.gloss->exit_radiance() : std::span<const Vec3f>();
+    return of.is_gloss_lit ? of.gloss->exit_radiance() : std::span<const Vec3f>();
 }
 
 std::span<const Vec3f> Playback::gloss_radiance(size_t part) const {
     PAIM_CHECK_LT(part, num_parts());
-    return state_->eye ? state_->parts[part].towards_eye : std::span<const Vec3f>();
+    const Part& of = state_->parts[part];
+    return of.has_eye ? of.towards_eye : std::span<const Vec3f>();
 }
 
 std::span<const Vec3f> Playback::white_radiance(size_t part) const {

@@ -38,6 +38,9 @@ class PAIM_EXPORT Playback {
     // asset's origin. Without an eye, as at first, radiance is that of the diffuse reflection alone.
     void set_eye(const std::optional<Vec3f>& eye);
 
+    // Whether the next updates compute exit_radiance() without an eye, too. Not unless this is called.
+    void keep_exit_radiance(bool keep);
+
     // Whether the next updates keep the radiance of the same surface in white, too, for parts that
     // have a texture: it is multiplied by the colours of images instead of the albedo. Light is
     // computed once for both. Not kept unless this is called.
@@ -56,14 +59,15 @@ class PAIM_EXPORT Playback {
     RigidTransform root(size_t part = 0) const;
     // returns  [V] linear RGB, towards the eye if there is one; empty if no light was set
     std::span<const Vec3f> radiance(size_t part = 0) const;
-    // The gloss in it, of the rows of CodedGloss.
+    // The radiance of the gloss alone, for each row of CodedGloss.
     // returns  [R]; empty without gloss, light or eye
     std::span<const Vec3f> gloss_radiance(size_t part = 0) const;
     // Outgoing coefficients of the gloss, which do not depend on the eye. Directions are in local axes
     // (root()).
-    // returns  [CodedGloss::layout.num_outgoing()][R]; empty without gloss or light
+    // returns  [CodedGloss::layout.num_outgoing()][R]; empty without gloss or light, and unless
+    //          they are kept or there is an eye
     std::span<const Vec3f> exit_radiance(size_t part = 0) const;
-    // The radiance without its albedo: radiance(v) = albedo(v) · white_radiance(v).
+    // The diffuse radiance without its albedo: diffuse(v) = albedo(v) · white_radiance(v).
     // returns  [V] linear RGB; empty if no light was set, if the part has no texture, or if this is
     //          not kept
     std::span<const Vec3f> white_radiance(size_t part = 0) const;

@@ -22,6 +22,7 @@ CpuVertices::CpuVertices(std::shared_ptr<const Asset> asset, const DecodeLimits&
       playback_(std::move(asset)),
       most_(lower_of(limits, all_of(playback_.asset().moving()))) {
     playback_.keep_white_radiance(true);
+    playback_.keep_exit_radiance(true);
 }
 
 void CpuVertices::write(double time, const DecodeLimits& limits, const LightCoefficients* light,

@@ -136,6 +136,7 @@ struct Seen {
         : playback(std::make_shared<const Asset>(presenter.asset())),
           camera(presenter.camera(view)) {
         playback.set_light(DistantLight(presenter.light_of(view)));
+        playback.keep_exit_radiance(true);
         if (with_eye) playback.set_eye(camera.eye);
         playback.update(view.animation.time);
         positions = from_planes(playback.positions());

@@ -37,7 +37,7 @@ struct GlossyTarget {
 // error, which is the smallest whose file fits, to 2 % of it or less.
 // bake     with glossy rows (checked), verified
 // scratch  an empty directory for files of the parts
-// on_step  called with "diffuse" or "gloss", how far that is (0 … 1), and what is being done
+// on_step  called with "diffuse", "gloss" or "both", what is being done, and how far that part is (0 … 1)
 // Errors: those of encode_to_target().
 using GlossyListener = std::function<void(const char* part, const std::string& step, double done)>;
 GlossySummary encode_glossy_to_target(const BakeReader& bake, const EncodeOptions& options,

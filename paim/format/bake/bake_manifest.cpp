@@ -234,6 +234,9 @@ BakeIdentity parse_manifest(std::string_view text, const std::string& file) {
         root.insert(root.end(), numbers.begin(), numbers.end());
     }
     identity.root_motion = root_motion_of(root, file);
+    if (identity.root_motion.empty() && identity.num_following != kAllVertices) {
+        throw_bad_input("{}: 'num_following' without a root motion", file);
+    }
     const auto still_meshes = metadata.root().find("static");
     if (still_meshes == metadata.root().end()) return identity;
     if (!still_meshes->is_array() || still_meshes->empty()) {

@@ -114,7 +114,8 @@ std::optional<CodedGloss> start_gloss(const Metadata& metadata, uint32_t num_ver
     const Metadata part = Metadata::part(*member, metadata.file());
     CodedGloss gloss;
     gloss.layout = read_layout(part, TransferKind::glossy);
-    gloss.num_rows = part.integer("rows", 1, std::max(1u, num_vertices));
+    if (num_vertices == 0) throw_bad_input("{}: gloss without vertices", metadata.file());
+    gloss.num_rows = part.integer("rows", 1, num_vertices);
     gloss.transfer = start_transfer(part);
     const uint32_t num_points = gloss.transfer->start(gloss.num_rows);
     gloss.transfer->matrix =
@@ -195,6 +196,19 @@ ContainerReader open(std::shared_ptr<const ByteSource> source, const std::string
             section::kKindAnimation, options.prefix ? Extent::prefix : Extent::whole};
 }
 
+// Error (bad input) if a vertex of a floor's face is glossy: gloss is in the axes of the body.
+void check_matte_floor(const CodedMesh& mesh, const std::string& file) {
+    if (!mesh.gloss || mesh.num_following >= mesh.topology.num_vertices) return;
+    std::vector<bool> is_row(mesh.topology.num_vertices, mesh.gloss->vertices.empty());
+    for (const uint32_t v : mesh.gloss->vertices) is_row[v] = true;
+    const std::vector<Triangle>& faces = mesh.topology.triangles;
+    for (size_t f = mesh.topology.num_triangles_before(mesh.num_following); f < faces.size(); ++f) {
+        for (const uint32_t v : faces[f]) {
+            if (is_row[v]) throw_bad_input("{}: vertex {} of the floor has gloss", file, v);
+        }
+    }
+}
+
 Asset read_asset(const ContainerReader& reader, TransferKind kind) {
     const Prefix prefix = find_prefix(reader);
     const Metadata metadata(reader.read_text(reader.require(section::kMetadata, ScalarType::u8)),
@@ -217,6 +231,7 @@ Asset read_asset(const ContainerReader& reader, TransferKind kind) {
                   {prefix.geometry_components, prefix.transfer_components, prefix.gloss_components},
                   asset);
     check_floor(asset.moving().topology, asset.moving().num_following, reader.name());
+    check_matte_floor(asset.moving(), reader.name());
     asset.complete = true;
     for (const Attribute which : asset.moving().attributes()) {
         LowRank& matrix = asset.moving().attribute(which);

@@ -111,11 +111,14 @@ TEST(GlossPlayback, IsDiffuseWithoutAnEye) {
     EXPECT_EQ(shown(), radiance);
     EXPECT_TRUE(playback.gloss_radiance().empty());
     playback.set_eye(Vec3f(1, 2, 3));
+    EXPECT_EQ(shown(), radiance);  // until the next update
+    EXPECT_TRUE(playback.exit_radiance().empty());
     playback.update(1.5);
     EXPECT_NE(shown(), radiance);
     // Vertex 1 has no gloss.
     EXPECT_EQ(playback.radiance()[1], radiance[1]);
     playback.set_eye({});
+    EXPECT_NE(shown(), radiance);
     playback.update(1.5);
     EXPECT_EQ(shown(), radiance);
 }
