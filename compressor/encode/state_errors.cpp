@@ -16,7 +16,9 @@ AssetError state_errors(const std::filesystem::path& file, const BakeReader& bak
     check_measuring_memory(std::filesystem::file_size(file), bake.identity().num_vertices,
                            bake.num_poses(), size.still_mesh_bytes + size.texture_bytes,
                            memory_bytes, file.string());
-    Asset asset = read_paim(file);
+    ReadOptions options;
+    options.kind = bake.identity().layout.kind;
+    Asset asset = read_paim(file, options);
     const AssetError error = measure_asset(asset, bake, spectrum);
     auto provenance = nlohmann::ordered_json::parse(asset.provenance_json);
     provenance["measured"] = nlohmann::ordered_json::parse(error_statement_json(error, spectrum));

@@ -147,7 +147,9 @@ std::vector<uint32_t> match_part(const Asset& asset, size_t number, const BakeRe
     expect_equal(bake, "poses", baked.num_poses(), mesh.num_poses());
     std::vector<uint32_t> old_vertex = match_vertices(
         mesh.topology, asset.vertex_order, baked.topology(), bake.directory().string(),
-        still ? "triangles of the still meshes" : "triangles");
+        still ? "triangles of the still meshes" : "triangles",
+        bake.identity().layout.kind == TransferKind::glossy ? TriangleOrder::any
+                                                            : TriangleOrder::same);
     // Positions and transfer are compared in local coordinates.
     if (mesh.root_motion != baked.root_motion() ||
         mesh.num_following != new_number_of_first(baked.num_following(), old_vertex)) {

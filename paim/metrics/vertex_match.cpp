@@ -25,8 +25,8 @@ Triangle turned(Triangle t) {
     return t;
 }
 
-// Whether the triangles are the same, in any order. Corners of a triangle may be rotated.
-bool same_triangles(const Topology& a, const Topology& b) {
+// Whether the triangles are the same. Corners of a triangle may be rotated.
+bool same_triangles(const Topology& a, const Topology& b, TriangleOrder order) {
     if (a.num_vertices != b.num_vertices || a.triangles.size() != b.triangles.size()) return false;
     const auto all_turned = [](const Topology& topology) {
         std::vector<Triangle> triangles(topology.triangles.size());
@@ -35,7 +35,7 @@ bool same_triangles(const Topology& a, const Topology& b) {
         return triangles;
     };
     std::vector<Triangle> of_a = all_turned(a), of_b = all_turned(b);
-    if (of_a == of_b) return true;
+    if (of_a == of_b || order == TriangleOrder::same) return of_a == of_b;
     std::sort(of_a.begin(), of_a.end());
     std::sort(of_b.begin(), of_b.end());
     return of_a == of_b;
@@ -45,9 +45,9 @@ bool same_triangles(const Topology& a, const Topology& b) {
 
 std::vector<uint32_t> match_vertices(const Topology& of_file, VertexOrder order,
                                      const Topology& of_bake, const std::string& bake,
-                                     const char* what) {
+                                     const char* what, TriangleOrder triangles) {
     CacheOrder expected = vertex_order(order, of_bake);
-    if (!same_triangles(of_file, expected.topology)) {
+    if (!same_triangles(of_file, expected.topology, triangles)) {
         throw_bad_input("{}: expected a file made from this bake, got other {}", bake, what);
     }
     return std::move(expected.old_vertex);

@@ -11,12 +11,17 @@
 
 namespace paim {
 
+// The order of triangles that are compared. That of rows of gloss among the faces of a whole mesh is
+// another than that of the rows alone.
+enum class TriangleOrder { same, any };
+
 // [V] The vertex of the bake for each vertex of the file.
 // what  names the triangles in errors: "triangles", "triangles of the still meshes"
 // Errors: bad input, naming the bake, if the triangles differ.
 std::vector<uint32_t> match_vertices(const Topology& of_file, VertexOrder order,
                                      const Topology& of_bake, const std::string& bake,
-                                     const char* what);
+                                     const char* what,
+                                     TriangleOrder triangles = TriangleOrder::same);
 
 // The plane of the file for this plane of the bake's transfer; nothing if the file does not have
 // its band. A grey file has the same plane for all channels.

@@ -223,7 +223,7 @@ TEST_F(Resume, OtherOptionsAreRefusedByName) {
     refused(quick({"--sampler", "uniform"}), "sampler: cosine there, uniform asked for)");
     refused(quick({"--pose-noise", "shared"}), "streams: per-pose there, shared asked for)");
     refused(quick({"--noise-target", "10%"}), "transfer error: 0 there, 0.1 asked for)");
-    refused(quick({"--albedo", "0.5"}), "checksum of faces and albedo: ");
+    refused(quick({"--albedo", "0.5"}), "checksum of faces, albedo and texture: ");
     const auto file = directory_ / "plates" / "plates_0002.obj";
     const auto text = read_file(file, 1 << 20);
     write("plates/plates_0002.obj", std::string(text.begin(), text.end()) + "# changed\n");

@@ -26,7 +26,7 @@ namespace {
 
 constexpr int kWidth = 200, kHeight = 150;
 constexpr float kAspect = float{kWidth} / kHeight;
-constexpr uint32_t kOutBands = 3;
+constexpr uint32_t kOutBands = 4;
 
 struct Way {
     const char* name;
@@ -53,7 +53,12 @@ CodedGloss make_gloss(const CodedMesh& mesh) {
     matrix.num_components = 1;
     std::vector<float> mean, component;
     for (uint32_t plane = 0; plane < matrix.num_planes; ++plane) {
-        const double strength = plane == 0 ? 0.8 : 0.3 * (random.uniform() - 0.5);
+        // The mean light makes lobes of the last outgoing band, which turn fastest.
+        const uint32_t i = plane % gloss.layout.num_coefficients();
+        const bool is_lobe = i == 0 && gloss.layout.output_band(plane) + 1 == kOutBands;
+        const double strength = plane == 0 ? 0.8
+                                : is_lobe  ? 0.8 * (random.uniform() - 0.5)
+                                           : 0.1 * (random.uniform() - 0.5);
         const double phase = 6.0 * random.uniform();
         for (const uint32_t v : gloss.vertices) {
             const double height = positions[v] + 0.5 * positions[num_vertices + v];

@@ -90,6 +90,7 @@ ordered_json gloss_json(const GlossIdentity& gloss) {
 }
 
 GlossIdentity parse_gloss(const nlohmann::json& member, const std::string& file) {
+    if (!member.is_object()) throw_bad_input("{}: 'gloss': expected an object", file);
     const Metadata metadata = Metadata::part(member, file);
     GlossIdentity gloss;
     gloss.layout.kind = TransferKind::glossy;

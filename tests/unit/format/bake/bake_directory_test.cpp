@@ -193,7 +193,8 @@ TEST_F(BakeDirectory, RefusesOtherIdentitiesByName) {
     expect_contains(refusal([](auto& i) { ++i.num_triangles; }),
                     "(triangles: 4 there, 5 asked for)");
     expect_contains(refusal([](auto& i) { i.poses.pop_back(); }), "(poses: 3 there, 2 asked for)");
-    expect_contains(refusal([](auto& i) { ++i.mesh_xxh3; }), "(checksum of faces and albedo: ");
+    expect_contains(refusal([](auto& i) { ++i.mesh_xxh3; }),
+                    "(checksum of faces, albedo and texture: ");
     expect_contains(refusal([](auto& i) { i.poses[1].name = "z.obj"; }), "(pose 1: b.obj (");
     expect_contains(refusal([](auto& i) { i.poses[2].xxh3 = 4; }),
                     "(0000000000000003) there, c \"ü\".obj (0000000000000004) asked for)");
@@ -395,14 +396,14 @@ TEST_F(BakeDirectory, RefusesHostileManifests) {
     // What a later version wrote is not damaged.
     write_file(bake_ / "manifest.json", whole);
     std::string later = whole;
-    later.replace(later.find("\"version\": 2"), 12, "\"version\": 5");
+    later.replace(later.find("\"version\": 2"), 12, "\"version\": 6");
     write_file(bake_ / "manifest.json", later);
     try {
         BakeReader reader(bake_);
         ADD_FAILURE();
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ExitCode::unsupported);
-        expect_contains(error.what(), "bake version 5, expected 2 to 4");
+        expect_contains(error.what(), "bake version 6, expected 2 to 5");
     }
 }
 

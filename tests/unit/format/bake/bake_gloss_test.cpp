@@ -144,10 +144,10 @@ TEST_F(BakeGloss, IsABakeOfItsOwn) {
 }
 
 TEST_F(BakeGloss, HasAllVerticesWhereAllAreGlossy) {
-    const Materials all{{kLead}, {1}};
+    const Materials all{{kGold}, {1}};
     const BakeReader gloss = BakeReader(write(all, 8)).gloss();
     EXPECT_EQ(gloss.topology(), kMesh);
-    EXPECT_EQ(gloss.albedo().values, std::vector<Vec3f>{Vec3f::Ones()});
+    EXPECT_EQ(gloss.albedo().values, std::vector<Vec3f>{kGold.tint});
 }
 
 TEST_F(BakeGloss, KeepsTheNumberThatFollowsARootMotion) {
@@ -158,10 +158,6 @@ TEST_F(BakeGloss, KeepsTheNumberThatFollowsARootMotion) {
     const BakeReader reader(write(kOneGlossy, 3, identity));
     EXPECT_EQ(reader.identity(), identity);
     EXPECT_EQ(reader.gloss().identity().num_following, kAllVertices);
-    identity.num_following = 3;  // of which 1 and 2 are glossy
-    identity.num_triangles = 3;
-    std::filesystem::remove_all(bake_);
-    EXPECT_EQ(BakeReader(write(kOneGlossy, 3, identity)).gloss().identity().num_following, 2u);
 }
 
 TEST_F(BakeGloss, OfStillMeshes) {
@@ -219,7 +215,7 @@ TEST_F(BakeGloss, RefusesMaterialsThatAreNotThere) {
     expect_found(complaint("\"out_bands\": 2", "\"out_bands\": 9"), "out_bands");
     expect_found(complaint("\"materials\"", "\"minerals\""), "materials");
     expect_found(complaint("\"version\": 5", "\"version\": 6"), "version 6, expected 2 to 5");
-    expect_found(complaint("\"gloss\"", "\"glass\""), "gloss");
+    expect_found(complaint("\"gloss\"", "\"glass\""), "'gloss': expected an object");
 }
 
 }  // namespace
