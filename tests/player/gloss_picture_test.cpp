@@ -56,8 +56,8 @@ CodedGloss make_gloss(const CodedMesh& mesh) {
         // The mean light makes lobes of the last outgoing band, which turn fastest.
         const uint32_t i = plane % gloss.layout.num_coefficients();
         const bool is_lobe = i == 0 && gloss.layout.output_band(plane) + 1 == kOutBands;
-        const double strength = plane == 0 ? 0.8
-                                : is_lobe  ? 0.8 * (random.uniform() - 0.5)
+        const double strength = plane == 0 ? 2.5
+                                : is_lobe  ? 5.0 * (random.uniform() - 0.5)
                                            : 0.1 * (random.uniform() - 0.5);
         const double phase = 6.0 * random.uniform();
         for (const uint32_t v : gloss.vertices) {
