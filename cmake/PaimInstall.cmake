@@ -35,8 +35,6 @@ foreach(header IN LISTS runtime_headers)
     install(FILES ${PROJECT_SOURCE_DIR}/paim/${header}
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/paim/${directory} COMPONENT runtime)
 endforeach()
-install(FILES ${PROJECT_BINARY_DIR}/generated/paim/base/version.h
-    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/paim/base COMPONENT runtime)
 
 # Interfaces may change with every 0.x; the version file allows the same 0.x only.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/paim-config-version.cmake

@@ -7,9 +7,9 @@
 #include <memory>
 
 #include "paim/base/error.h"
-#include "paim/base/version.h"
 #include "paim/codec/playback.h"
 #include "paim/format/paim/paim_read.h"
+#include "paim/paim.h"
 
 namespace {
 
@@ -29,7 +29,7 @@ void play(const char* file, bool prefix) {
     }
     double sum = 0.0;
     for (const float x : playback.positions()) sum += double{x};
-    std::printf("paim %s: %zu vertices, %u poses, %u bands\n", paim::kVersion,
+    std::printf("paim %s: %zu vertices, %u poses, %u bands\n", paim_version(),
                 playback.radiance().size(), asset->num_poses(), asset->moving().layout.in_bands);
     std::printf("radiance %.4f %.4f %.4f to %.4f %.4f %.4f\n", lowest.x(), lowest.y(), lowest.z(),
                 highest.x(), highest.y(), highest.z());
