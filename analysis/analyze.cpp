@@ -69,17 +69,6 @@ void check_inputs(const AnalyzeOptions& options, const BakeReader& bake) {
     if (options.held_out) need_poses("--held-out", 3);
 }
 
-// Error (usage) if something else than curves is asked of the glossy transfer.
-void check_gloss(const AnalyzeOptions& options) {
-    const bool others = options.held_out || options.trade || !options.compare.empty() ||
-                        !options.budget.empty() || !options.temporal.empty() ||
-                        !options.curves_rays.empty() || options.reference != ReferenceKind::bake;
-    if (!options.gloss || !others) return;
-    throw_usage(
-        "--gloss: expected --curves, --curves-of or --curves-groups; other questions, and other "
-        "references than the bake, are about the diffuse transfer");
-}
-
 // On stderr, for options that change nothing here.
 void say_what_is_not_used(const AnalyzeOptions& options) {
     const bool compares = options.measures_curves() || !options.curves_of.empty() ||
@@ -123,7 +112,6 @@ void check_picture_memory(const AnalyzeOptions& options, size_t num_lights) {
 }
 
 void analyze(const AnalyzeOptions& options) {
-    check_gloss(options);
     const ThreadLimit limit(options.num_threads);
     const BakeReader bake = options.gloss ? BakeReader(options.bake_directory).gloss()
                                           : BakeReader(options.bake_directory);

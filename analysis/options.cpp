@@ -155,6 +155,18 @@ void check_without_bake(const CLI::App& app, const AnalyzeOptions& options) {
     }
 }
 
+// Error (usage) if something else than curves of a bake is asked of the glossy transfer.
+void check_gloss(const AnalyzeOptions& options) {
+    const bool others = !options.verify.empty() || options.bake_directory.empty() ||
+                        options.held_out || options.trade || !options.compare.empty() ||
+                        !options.budget.empty() || !options.temporal.empty() ||
+                        !options.curves_rays.empty() || options.reference != ReferenceKind::bake;
+    if (!options.gloss || !others) return;
+    throw_usage(
+        "--gloss: expected --curves, --curves-of or --curves-groups of a bake; other questions, and "
+        "other references than the bake, are about the diffuse transfer");
+}
+
 }  // namespace
 
 std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, int& exit_code) {
@@ -244,6 +256,7 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
     options.bands = cli::parse_list(raw.bands, "--bands", 1, sh::kMaxBands);
     options.stage.azimuth_rad = raw.azimuth_deg * kPi / 180.0;
     options.stage.elevation_rad = raw.elevation_deg * kPi / 180.0;
+    check_gloss(options);
     return options;
 }
 

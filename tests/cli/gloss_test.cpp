@@ -121,7 +121,13 @@ TEST_F(Gloss, HasErrorCurvesOfItsOwn) {
     EXPECT_TRUE(std::filesystem::exists(path("a/index.html")));
     expect_failure(analyze({path("g.bake"), "-o", path("b"), "--gloss", "--held-out", "5%"}), 1,
                    {"--gloss: expected --curves"});
+    expect_failure(analyze({path("g.bake"), "--verify", path("x.paim"), "--gloss"}), 1,
+                   {"--gloss"});
     expect_success(bake("d.bake"));
+    const ToolResult diffuse = compress({"encode", path("d.bake"), "-o", path("d.paim"), "--quiet",
+                                         "--max-error", "10%", "--max-gloss-error", "5%"});
+    expect_success(diffuse);
+    EXPECT_TRUE(contains(diffuse.err, "--max-gloss-error is not used")) << diffuse.err;
     expect_failure(analyze({path("d.bake"), "-o", path("c"), "--gloss"}), 3,
                    {"no vertex of the poses is glossy"});
 }
