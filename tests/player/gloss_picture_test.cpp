@@ -3,22 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "paim/base/seed.h"
 #include "paim/codec/playback.h"
-#include "paim/codec/sequence_bounds.h"
 #include "paim/codec/svd/svd_transfer.h"
-#include "paim/image/tone.h"
 #include "paim/mesh/planes.h"
 #include "paim/render/render.h"
 #include "paim/sh/basis.h"
-#include "player/gl/check.h"
-#include "player/gl/headless_context.h"
-#include "player/presenter.h"
+#include "tests/player/surface_pictures.h"
 #include "tests/player/test_asset.h"
 
 namespace paim::player {
@@ -27,12 +22,6 @@ namespace {
 constexpr int kWidth = 200, kHeight = 150;
 constexpr float kAspect = float{kWidth} / kHeight;
 constexpr uint32_t kOutBands = 4;
-
-struct Way {
-    const char* name;
-    gl::Api api;
-    Decoder decoder;
-};
 
 // Gloss of a sphere around the origin: coefficients that change smoothly from vertex to vertex and
 // from pose to pose. Every third face has a vertex without a row.
@@ -93,22 +82,8 @@ Asset glossy_asset(bool turned) {
     return asset;
 }
 
-class GlossPictures : public testing::TestWithParam<Way> {
+class GlossPictures : public SurfacePictures {
   protected:
-    GlossPictures() : context_(gl::make_headless_context(GetParam().api)) {
-        gl::report_driver_messages([this](std::string_view message) { messages_ += message; });
-    }
-    ~GlossPictures() override {
-        EXPECT_EQ(messages_, "");
-        gl::check_errors("testing");
-    }
-    Presenter present(const Asset& asset) const {
-        const auto shared = std::make_shared<const Asset>(asset);
-        Image sky(8, 4, Vec3f(0.1f, 0.09f, 0.08f));
-        sky.at(2, 1) = Vec3f(0.9f, 0.6f, 0.2f);
-        return {shared, sequence_bounds(*shared), EnvironmentLight(sky), {},
-                {},     GetParam().decoder};
-    }
     ViewState view_of(Presenter& presenter, GlossDetail gloss) const {
         ViewState view;
         view.animation.time = 1.25;
@@ -119,15 +94,9 @@ class GlossPictures : public testing::TestWithParam<Way> {
         view.gloss = gloss;
         return view;
     }
-
-    std::string messages_;
-    std::unique_ptr<gl::Context> context_;
 };
 
-INSTANTIATE_TEST_SUITE_P(Ways, GlossPictures,
-                         testing::Values(Way{"Desktop", gl::Api::desktop, Decoder::gpu},
-                                         Way{"Es", gl::Api::es, Decoder::gpu},
-                                         Way{"Cpu", gl::Api::desktop, Decoder::cpu}),
+INSTANTIATE_TEST_SUITE_P(Ways, GlossPictures, all_ways(),
                          [](const auto& way) { return way.param.name; });
 
 // A pose on the CPU, and what is seen of it.
@@ -180,21 +149,9 @@ void add_gloss(const Seen& seen, Image& image) {
 // The share of the body's pixels whose display values differ by more than two steps: pixels at edges
 // may show either side of the edge.
 double share_off(const Image& expected, const Image& drawn) {
-    const ToneCurve curve;
-    size_t covered = 0, off = 0;
-    for (size_t i = 0; i < expected.pixels.size(); ++i) {
-        const Vec3f &a = expected.pixels[i], &b = drawn.pixels[i];
-        if (a.isZero(0.0f) && b.isZero(0.0f)) continue;
-        ++covered;
-        int largest = 0;
-        for (int channel = 0; channel < 3; ++channel) {
-            largest =
-                std::max(largest, std::abs(curve.apply(a[channel]) - curve.apply(b[channel])));
-        }
-        off += largest > 2 ? 1 : 0;
-    }
-    EXPECT_GT(covered, expected.pixels.size() / 40);
-    return static_cast<double>(off) / static_cast<double>(covered);
+    const ShownPixels pixels = compare_shown(expected, drawn);
+    EXPECT_GT(pixels.covered, expected.pixels.size() / 40);
+    return static_cast<double>(pixels.off) / static_cast<double>(pixels.covered);
 }
 
 TEST_P(GlossPictures, AtPixelsAndVerticesAreThoseOfTheCpu) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,13 +12,10 @@
 #include "paim/codec/mesh_decoder.h"
 #include "paim/codec/sequence_bounds.h"
 #include "paim/image/texture_pyramids.h"
-#include "paim/image/tone.h"
 #include "paim/mesh/planes.h"
 #include "paim/render/textured.h"
-#include "player/gl/check.h"
-#include "player/gl/headless_context.h"
-#include "player/presenter.h"
 #include "tests/player/ray_cast.h"
+#include "tests/player/surface_pictures.h"
 #include "tests/player/textured_asset.h"
 
 namespace paim::player {
@@ -28,12 +24,6 @@ namespace {
 constexpr int kWidth = 200, kHeight = 150;
 constexpr float kAspect = float{kWidth} / kHeight;
 constexpr uint32_t kNumRings = 12;
-
-struct Way {
-    const char* name;
-    gl::Api api;
-    Decoder decoder;
-};
 
 uint16_t first_image(size_t) {
     return 1;
@@ -61,37 +51,17 @@ Asset textured_asset(uint32_t num_clusters, float repeats) {
     return asset;
 }
 
-class TextureTest : public testing::TestWithParam<Way> {
+class TextureTest : public SurfacePictures {
   protected:
-    TextureTest() : context_(gl::make_headless_context(GetParam().api)) {
-        gl::report_driver_messages([this](std::string_view message) { messages_ += message; });
-    }
-    ~TextureTest() override {
-        EXPECT_EQ(messages_, "");
-        gl::check_errors("testing");
-    }
-    Presenter present(const Asset& asset) const {
-        const auto shared = std::make_shared<const Asset>(asset);
-        Image sky(8, 4, Vec3f(0.1f, 0.09f, 0.08f));
-        sky.at(2, 1) = Vec3f(0.9f, 0.6f, 0.2f);
-        return {shared, sequence_bounds(*shared), EnvironmentLight(sky), {},
-                {},     GetParam().decoder};
-    }
     static ViewState black_view(double time) {
         ViewState view;
         view.animation.time = time;
         view.background.kind = Background::Kind::color;
         return view;
     }
-
-    std::string messages_;
-    std::unique_ptr<gl::Context> context_;
 };
 
-INSTANTIATE_TEST_SUITE_P(Ways, TextureTest,
-                         testing::Values(Way{"Desktop", gl::Api::desktop, Decoder::gpu},
-                                         Way{"Es", gl::Api::es, Decoder::gpu},
-                                         Way{"Cpu", gl::Api::desktop, Decoder::cpu}),
+INSTANTIATE_TEST_SUITE_P(Ways, TextureTest, all_ways(),
                          [](const auto& way) { return way.param.name; });
 
 Image reference(Presenter& presenter, const ViewState& view) {
@@ -117,20 +87,7 @@ Image reference(Presenter& presenter, const ViewState& view) {
 // comparisons with the reference renderer: pixels at edges may show either side of the edge. What
 // drivers make of sRGB is near its curve (llvmpipe: to 0.3 %), which is a step at most.
 void expect_same(const Image& expected, const Image& drawn, const std::string& what) {
-    const ToneCurve curve;
-    size_t covered = 0, off = 0, bright = 0;
-    for (size_t i = 0; i < expected.pixels.size(); ++i) {
-        const Vec3f &a = expected.pixels[i], &b = drawn.pixels[i];
-        if (a.isZero(0.0f) && b.isZero(0.0f)) continue;
-        ++covered;
-        int largest = 0;
-        for (int channel = 0; channel < 3; ++channel) {
-            largest =
-                std::max(largest, std::abs(curve.apply(a[channel]) - curve.apply(b[channel])));
-        }
-        off += largest > 2 ? 1 : 0;
-        bright += a.maxCoeff() > 1.0f ? 1 : 0;
-    }
+    const auto [covered, off, bright] = compare_shown(expected, drawn);
     EXPECT_GT(covered, expected.pixels.size() / 40) << what;
     EXPECT_LE(bright, covered / 20) << what;  // white hides differences
     EXPECT_LE(static_cast<double>(off), 5e-3 * static_cast<double>(covered)) << what;
