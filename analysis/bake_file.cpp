@@ -7,6 +7,7 @@
 #include "paim/format/container/metadata.h"
 #include "paim/format/container/sections.h"
 #include "paim/format/paim/paim_read.h"
+#include "paim/metrics/frame_error.h"
 
 namespace paim {
 
@@ -27,7 +28,9 @@ Asset read_file_of(const BakeReader& bake, const std::filesystem::path& path) {
     if (!std::filesystem::is_directory(path) && is_glossy_alone(path)) {
         ReadOptions options;
         options.kind = TransferKind::glossy;
-        return read_paim(path, options);
+        Asset asset = read_paim(path, options);
+        set_frame_turns(bake, asset);
+        return asset;
     }
     const Asset asset = read_paim(path);
     if (!asset.moving().gloss) throw_bad_input("{}: has no gloss", path.string());

@@ -8,6 +8,7 @@
 
 #include "paim/cli/light_options.h"
 #include "paim/codec/sequence_bounds.h"
+#include "paim/format/bake/baked_frames.h"
 #include "paim/format/bake/baked_part.h"
 #include "paim/light/light_in_place.h"
 #include "paim/light/load_light.h"
@@ -18,6 +19,7 @@
 #include "paim/render/render.h"
 #include "paim/shade/exit_radiance.h"
 #include "paim/shade/shade.h"
+#include "paim/shade/turn_exit.h"
 
 namespace paim {
 
@@ -128,6 +130,9 @@ Stage::Stage(const BakeReader& bake, std::vector<NamedLight> lights, const Stage
         albedo_.append(still.albedo, topology_.num_vertices, still.topology.num_vertices);
         topology_.append(still.topology);
         still_positions_ = from_planes(scaled(still.pose.positions, scale_));
+        if (bake.identity().layout.kind == TransferKind::glossy) {
+            still_frames_ = BakedFrames(still.topology, still.pose.positions).at(still.pose);
+        }
     }
     const uint32_t count = std::min(options.num_poses, bake.num_poses());
     for (uint32_t j = 0; j < count; ++j) {
@@ -194,10 +199,27 @@ std::vector<Image> Stage::draw(const std::vector<VisiblePoints>& visible,
     return pictures;
 }
 
+std::vector<std::vector<Vec3f>> Stage::exit_radiance(const DecodedPose& pose,
+                                                     const DecodedPose* still) const {
+    std::vector<Eigen::Matrix3f> frames = pose.frames;
+    if (still != nullptr) {
+        frames.insert(frames.end(), still->frames.begin(), still->frames.end());
+    } else {
+        frames.insert(frames.end(), still_frames_.begin(), still_frames_.end());
+    }
+    const auto out_bands = static_cast<int>(pose.layout.out_bands);
+    std::vector<std::vector<Vec3f>> exits;
+    for (const std::vector<Vec3f>& in_frames : light(pose, still)) {
+        exits.emplace_back(static_cast<size_t>(sh::num_coefficients(out_bands)) * frames.size());
+        turn_exit(out_bands, frames, in_frames, exits.back());
+    }
+    return exits;
+}
+
 std::vector<Image> Stage::draw_gloss(const DecodedPose& pose, const DecodedPose* still) const {
     const std::vector<Vec3f> positions = place(pose, still);
     const std::vector<VisiblePoints> visible = look(positions);
-    const std::vector<std::vector<Vec3f>> exits = light(pose, still);
+    const std::vector<std::vector<Vec3f>> exits = exit_radiance(pose, still);
     const size_t num_moving = pose.positions.size() / 3;
     const size_t num_following = std::min<size_t>(pose.num_following, num_moving);
     std::vector<Image> pictures;
@@ -226,8 +248,14 @@ std::vector<Image> Stage::render_pose(const DecodedPose& pose, const DecodedPose
 
 DecodedPose baked_pose(const BakeReader& bake, uint32_t p, BakedPose pose) {
     const BakeIdentity& identity = bake.identity();
-    return {identity.layout, std::move(pose.positions), std::move(pose.transfer),
-            root_at(identity.root_motion, p), identity.num_following};
+    std::vector<Eigen::Matrix3f> frames;
+    if (identity.layout.kind == TransferKind::glossy) {
+        std::vector<float> first_pose(pose.positions.size());
+        bake.read_position_rows(0, 0, first_pose.size(), first_pose.data());
+        frames = BakedFrames(bake.topology(), first_pose).at(pose);
+    }
+    return {identity.layout,   std::move(pose.positions),        std::move(pose.transfer),
+            std::move(frames), root_at(identity.root_motion, p), identity.num_following};
 }
 
 void keep_bands(DecodedPose& pose, uint32_t bands) {

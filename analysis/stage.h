@@ -80,6 +80,10 @@ class Stage {
                             const std::vector<std::vector<Vec3f>>& radiance) const;
 
   private:
+    // Outgoing coefficients of glossy transfer, of directions in local axes.
+    // [lights][out_bands² · (V + S)]
+    std::vector<std::vector<Vec3f>> exit_radiance(const DecodedPose& pose,
+                                                  const DecodedPose* still) const;
     // Pictures of glossy transfer, whose radiance depends on the view. [pictures]
     std::vector<Image> draw_gloss(const DecodedPose& pose, const DecodedPose* still) const;
     std::vector<Camera> make_cameras(const StageOptions& options) const;
@@ -96,7 +100,8 @@ class Stage {
     std::vector<uint32_t> poses_;
     Topology topology_;
     Albedo albedo_;
-    std::vector<Vec3f> still_positions_;  // as baked, scaled
+    std::vector<Vec3f> still_positions_;         // as baked, scaled
+    std::vector<Eigen::Matrix3f> still_frames_;  // as baked, of glossy transfer
 };
 
 // A pose of a bake as if it had been decoded, with all that the bake knows of it.

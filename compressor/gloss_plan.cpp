@@ -16,7 +16,7 @@ std::optional<GlossPlan> plan_gloss(const BakeInput& input, const BakeOptions& o
     const auto layout =
         TransferBaker::gloss_layout(options, poses.albedo(), still_mesh, poses.materials());
     if (!layout) return std::nullopt;
-    return GlossPlan{*layout, glossy_rows(poses.topology(), poses.materials()).size()};
+    return GlossPlan{layout->in_frames(), glossy_rows(poses.topology(), poses.materials()).size()};
 }
 
 std::vector<std::string> gloss_notes(const GlossPlan& plan, const BakeInput& input,

@@ -117,21 +117,24 @@ GlossReport<EncodeReport> encode_glossy_streamed(const CompressOptions& options,
                                                  const BakeReader& reader) {
     const HiddenDirectory scratch(options.output, "parts");
     const TransferFiles files{scratch.path() / "diffuse.paim", scratch.path() / "gloss.paim"};
-    GlossReport<EncodeReport> report{options.output,     0,  reader.identity().num_vertices,
-                                     reader.num_poses(), {}, {}};
+    GlossReport<EncodeReport> report{
+        options.output, 0, reader.identity().num_vertices, reader.num_poses(), {}, {}, {}, {}};
     report.diffuse = encode_streamed(options, encode_options, reader, files.diffuse);
     report.gloss =
         encode_streamed(options, encode_options, reader.gloss(), files.gloss, "encoding gloss");
     report.diffuse.paim = "diffuse transfer";
     report.gloss.paim = "gloss";
-    report.size_bytes = join_transfer_files(reader, files, options.output);
+    const BandPower flat = BandPower::flat(reader.gloss().identity().layout.in_bands);
+    const JoinedFile joined = join_transfer_files(reader, files, flat, options.output);
+    report.size_bytes = joined.size_bytes;
+    report.frames = joined.frames;
     return report;
 }
 
-// Of 100 %.
+// Of 100 %. Work that is done again does not count backwards.
 SearchProgress::Listener shown_on(cli::Progress& progress) {
     return [&progress, percent = uint64_t{0}](const std::string& step, double done) mutable {
-        const auto now = static_cast<uint64_t>(100.0 * done);
+        const auto now = std::max(percent, static_cast<uint64_t>(100.0 * done));
         progress.set_label("encoding, " + step);
         progress.advance(now - percent);
         percent = now;
@@ -173,11 +176,13 @@ GlossReport<TargetReport> encode_glossy_target(const CompressOptions& options,
     encoding.set_label("encoding");
     encoding.finish();
     return {options.output,
-            summary.size_bytes,
+            summary.both.size_bytes,
             reader.identity().num_vertices,
             reader.num_poses(),
             {"diffuse transfer", summary.diffuse},
-            {"gloss", summary.gloss}};
+            {"gloss", summary.gloss},
+            summary.both.frames,
+            summary.gloss_error()};
 }
 
 // Checks the option before long work starts, and says how its map was read.

@@ -5,6 +5,7 @@
 #include <future>
 #include <ranges>
 
+#include "compressor/bake/gloss_to_frames.h"
 #include "compressor/bake/local_pose.h"
 #include "compressor/scene/isolated_at_rest.h"
 #include "paim/base/check.h"
@@ -72,6 +73,18 @@ uint32_t num_following_rows(const PoseSource& source) {
     return static_cast<uint32_t>(end - rows.begin());
 }
 
+// The first pose in local axes. Gloss that nothing bakes needs none.
+RowFrames frames_of_rows(const PoseSource& source, const RootMotion& root_motion) {
+    if (source.materials().empty()) return {source.topology(), {}, {}};
+    std::vector<Vec3f> first = load_positions_from_origin(source, 0);
+    if (!root_motion.empty()) {
+        for (Vec3f& position : first) {
+            position = root_motion[0].to_local(position.cast<double>()).cast<float>();
+        }
+    }
+    return {source.topology(), source.materials(), first};
+}
+
 }  // namespace
 
 BakeIdentity bake_identity(const PoseSource& source, const BakeOptions& options,
@@ -84,7 +97,7 @@ BakeIdentity bake_identity(const PoseSource& source, const BakeOptions& options,
     identity.layout = TransferBaker::bake_layout(options, source.albedo(), still_mesh, materials);
     if (const auto layout =
             TransferBaker::gloss_layout(options, source.albedo(), still_mesh, materials)) {
-        identity.gloss = GlossIdentity{*layout, materials.glossy};
+        identity.gloss = GlossIdentity{layout->in_frames(), materials.glossy};
         add_materials(still_mesh.materials.glossy, identity.gloss->materials);
     }
     identity.bounces = options.bounces;
@@ -135,7 +148,12 @@ BakeSummary bake_sequence(const PoseSource& given, const BakeOptions& options,
         const auto poses = std::views::iota(first, last + 1);
         const bool needed = options.bounces > 0 && std::any_of(poses.begin(), poses.end(), lacks);
         if (!found || needed) {
-            const BakedPose baked = baker.bake_still_mesh();
+            BakedPose baked = baker.bake_still_mesh();
+            if (identity.gloss) {
+                const RowFrames frames(still_mesh.topology, still_mesh.materials,
+                                       still_mesh.pose.positions);
+                gloss_to_frames(identity.gloss->layout, frames.at(still_mesh.pose), baked);
+            }
             if (!found) {
                 writer.write_still_mesh({still_mesh.topology, still_mesh.albedo, baked,
                                          still_mesh.materials, still_mesh.texture});
@@ -145,6 +163,7 @@ BakeSummary bake_sequence(const PoseSource& given, const BakeOptions& options,
     // Rays are traced in the coordinates of the floor and the still meshes, or else near the body.
     const bool near_body = !root_motion.empty() && surroundings.still_mesh.empty() &&
                            identity.num_following == kAllVertices;
+    const RowFrames frames = frames_of_rows(source, root_motion);
     ReadAhead ahead(source, near_body);
     BakeSummary summary;
     std::vector<PoseStatistics> poses;
@@ -157,6 +176,9 @@ BakeSummary bake_sequence(const PoseSource& given, const BakeOptions& options,
             const Pose pose = ahead.take(p);
             if (p < last && !writer.has_pose(p + 1)) ahead.start(p + 1);
             BakedPose baked = baker.bake(source.topology(), pose, p);
+            if (identity.gloss) {
+                gloss_to_frames(identity.gloss->layout, frames.at(pose), baked);
+            }
             baked.statistics.mesh = report_pose(source.topology(), pose.positions);
             if (!root_motion.empty()) {
                 const Vec3d offset = near_body ? source.pose_offset(p) : Vec3d::Zero();

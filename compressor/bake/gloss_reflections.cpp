@@ -41,7 +41,7 @@ TransferLayout choose_gloss_layout(const std::vector<const Materials*>& meshes, 
             if (out_bands == 0) bands.out = std::max(bands.out, needed.out);
         }
     }
-    return {TransferKind::glossy, bands.in, channels, bands.out};
+    return {TransferKind::glossy_in_pose, bands.in, channels, bands.out};
 }
 
 bool has_coloured_tint(const Materials& materials) {

@@ -31,7 +31,7 @@ class GlossReflections {
     std::map<std::string, GlossReflection> by_brdf_;
 };
 
-// The layout of the glossy transfer of all meshes. Numbers of bands that are 0 are chosen for the
+// The layout of the glossy transfer of all meshes, in the axes of the pose. Numbers of bands that are 0 are chosen for the
 // material that needs most.
 // materials  with at least one glossy one. Errors: those of parse_brdf()
 TransferLayout choose_gloss_layout(const std::vector<const Materials*>& meshes, uint32_t in_bands,

@@ -15,44 +15,28 @@ namespace {
 
 constexpr size_t kTurnedPerPiece = 256;
 
-// Turns the coefficients of one row of every channel: those of light and, where there are several, of
-// outgoing radiance.
+// Turns the coefficients of light of one row, for every channel and outgoing coefficient.
 class RowTurn {
   public:
     RowTurn(const Eigen::Matrix3d& to_local, const TransferLayout& layout)
-        : layout_(layout),
-          light_(static_cast<int>(layout.in_bands), to_local),
-          outgoing_(static_cast<int>(layout.out_bands), to_local) {}
+        : layout_(layout), rotation_(static_cast<int>(layout.in_bands), to_local) {}
 
     // row  the first plane's value, which planes follow `stride` values apart
     void apply(float* row, size_t stride) const {
         std::vector<float> from(layout_.num_coefficients()), to(from.size());
         for (uint32_t channel = 0; channel < layout_.channels; ++channel) {
             for (uint32_t o = 0; o < layout_.num_outgoing(); ++o) {
-                turn(light_, row + layout_.plane(channel, 0, o) * stride, stride, from, to);
-            }
-        }
-        if (layout_.out_bands == 1) return;
-        from.resize(layout_.num_outgoing());
-        to.resize(from.size());
-        const size_t step = layout_.num_coefficients() * stride;
-        for (uint32_t channel = 0; channel < layout_.channels; ++channel) {
-            for (uint32_t i = 0; i < layout_.num_coefficients(); ++i) {
-                turn(outgoing_, row + layout_.plane(channel, i, 0) * stride, step, from, to);
+                float* const first = row + layout_.plane(channel, 0, o) * stride;
+                for (size_t i = 0; i < from.size(); ++i) from[i] = first[i * stride];
+                rotation_.apply(from, to);
+                for (size_t i = 0; i < to.size(); ++i) first[i * stride] = to[i];
             }
         }
     }
 
   private:
-    static void turn(const sh::Rotation& rotation, float* first, size_t step,
-                     std::vector<float>& from, std::vector<float>& to) {
-        for (size_t i = 0; i < from.size(); ++i) from[i] = first[i * step];
-        rotation.apply(from, to);
-        for (size_t i = 0; i < to.size(); ++i) first[i * step] = to[i];
-    }
-
     const TransferLayout layout_;
-    const sh::Rotation light_, outgoing_;
+    const sh::Rotation rotation_;
 };
 
 // Turns the first rows of planes.

@@ -13,8 +13,8 @@ namespace paim {
 void move_to_local(const RigidTransform& root, const Vec3d& offset, const TransferLayout& layout,
                    BakedPose& pose, uint32_t num_following = kAllVertices);
 
-// Turns the glossy transfer of a pose and its noise to local axes, those of light and those of outgoing
-// radiance, in double.
+// Turns the glossy transfer of a pose and its noise to local axes, in double. Its outgoing side is in the
+// frames of the vertices, which turn with the body.
 // layout              of the glossy transfer
 // num_following_rows  how many rows, from the first, are of vertices that follow
 void turn_gloss(const RigidTransform& root, const TransferLayout& layout, BakedPose& pose,

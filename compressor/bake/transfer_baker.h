@@ -57,7 +57,8 @@ class TransferBaker {
     TransferLayout layout() const {
         return bake_layout(options_, albedo_, still_mesh_, materials_);
     }
-    // Of the glossy transfer of poses and still mesh, if any material of either is glossy.
+    // Of the glossy transfer of poses and still mesh, in the axes of the pose, if any material of either
+    // is glossy.
     const std::optional<TransferLayout>& gloss_layout() const { return gloss_layout_; }
 
     static TransferLayout bake_layout(const BakeOptions& options, const Albedo& albedo,

@@ -11,6 +11,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <string_view>
 #include <utility>
 
@@ -179,6 +180,18 @@ void write_file(const std::filesystem::path& path, std::string_view contents) {
     AtomicFile file(path);
     file.write(contents);
     file.commit();
+}
+
+void copy_whole_file(const std::filesystem::path& from, const std::filesystem::path& to) {
+    std::ifstream file(from, std::ios::binary);
+    AtomicFile copy(to);
+    std::vector<char> piece(size_t{1} << 20);
+    while (file.good()) {
+        file.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+        copy.write(piece.data(), static_cast<size_t>(file.gcount()));
+    }
+    if (!file.eof()) throw_bad_input("{}: cannot be read", from.string());
+    copy.commit();
 }
 
 void ensure_directory(const std::filesystem::path& path) {

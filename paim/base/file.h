@@ -62,6 +62,9 @@ void remove_abandoned_versions(const std::filesystem::path& file);
 // Writes the text as a whole, through AtomicFile.
 void write_file(const std::filesystem::path& path, std::string_view contents);
 
+// Copies a file, through AtomicFile. Errors (bad input) if the first cannot be read.
+void copy_whole_file(const std::filesystem::path& from, const std::filesystem::path& to);
+
 // Creates the directory and its parents; of a symbolic link, what it leads to. Error (output failed)
 // if that fails, or if it is a file.
 void ensure_directory(const std::filesystem::path& path);

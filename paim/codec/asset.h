@@ -26,14 +26,18 @@ enum class Attribute { geometry, transfer, gloss };
 constexpr size_t kNumAttributes = 3;
 
 // Radiance that leaves glossy vertices, in addition to the diffuse one. It depends on the direction
-// towards the eye: Σ_o e_o y_o(direction), with e_o = tint · Σ_i t_oi L_i for each vertex. Directions
-// are in the axes of the transfer.
+// towards the eye: Σ_o e_o y_o(direction), with e_o = tint · Σ_i t_oi L_i for each vertex. Light is in
+// local axes, and directions are in the frame of the vertex (codec/gloss_frames.h).
 struct CodedGloss {
     TransferLayout layout;  // of kind glossy
     uint32_t num_rows = 0;
     CodedTransfer transfer;          // of layout.num_planes() planes, [R] rows as its vertices
     std::vector<uint32_t> vertices;  // [R] the vertex of each row; empty: row r is vertex r
     Albedo tint;                     // [1] or [R]
+    // 3 planes: how the frame of each row is turned against that which positions tell, as a rotation
+    // vector in radians. Without points if none is. Normals of files, and those across seams, are not
+    // those of the positions.
+    LowRank frame_turns;
 
     uint32_t vertex(uint32_t row) const { return vertices.empty() ? row : vertices[row]; }
 };
@@ -46,6 +50,7 @@ struct CodedMesh {
     LowRank positions;                // 3 planes: local x, y, z, scene units; a point is a vertex
     CodedTransfer transfer;           // of layout.num_planes() planes, in local axes
     std::optional<CodedGloss> gloss;  // of the glossy vertices, if there are any
+    LowRank frame_turns;              // of transfer that is glossy itself: CodedGloss::frame_turns
     Texture texture;         // its colours take the place of the albedo where a face has an image
     RootMotion root_motion;  // from local coordinates to the scene, [P] or empty
     // How many vertices, from the first, follow the root motion. The others are a floor, which keeps

@@ -1,6 +1,7 @@
 // Removes bands and components of coded data.
 #include "paim/codec/cut.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace paim {
@@ -26,8 +27,8 @@ StoredValues keep_planes(const StoredValues& values, const std::vector<uint32_t>
 
 namespace {
 
-void keep_bands(uint32_t bands, TransferLayout& whole, LowRank& matrix) {
-    const TransferLayout layout = whole.with_bands(bands);
+// layout  the same with fewer bands
+void keep_layout(const TransferLayout& layout, TransferLayout& whole, LowRank& matrix) {
     if (layout == whole) return;
     std::vector<uint32_t> planes;
     planes_of(whole, layout, planes);
@@ -47,8 +48,16 @@ void keep_bands(uint32_t bands, TransferLayout& whole, LowRank& matrix) {
 }  // namespace
 
 void keep_bands(CodedMesh& mesh, uint32_t bands) {
-    keep_bands(bands, mesh.layout, mesh.transfer->matrix);
-    if (mesh.gloss) keep_bands(bands, mesh.gloss->layout, mesh.gloss->transfer->matrix);
+    keep_layout(mesh.layout.with_bands(bands), mesh.layout, mesh.transfer->matrix);
+    if (!mesh.gloss) return;
+    CodedGloss& gloss = *mesh.gloss;
+    keep_layout(gloss.layout.with_bands(bands), gloss.layout, gloss.transfer->matrix);
+}
+
+void keep_out_bands(CodedMesh& mesh, uint32_t bands) {
+    TransferLayout layout = mesh.layout;
+    layout.out_bands = std::min(std::max(bands, 1u), layout.out_bands);
+    keep_layout(layout, mesh.layout, mesh.transfer->matrix);
 }
 
 void keep_within(const DecodeLimits& limits, Asset& asset) {

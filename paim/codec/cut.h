@@ -9,6 +9,9 @@ namespace paim {
 // Keeps the first bands of the transfer, and of the gloss, at least one.
 void keep_bands(CodedMesh& mesh, uint32_t bands);
 
+// Keeps the first bands of outgoing radiance of transfer that is glossy itself, at least one.
+void keep_out_bands(CodedMesh& mesh, uint32_t bands);
+
 // Keeps the bands, and the components over the poses, of all parts within the limits. The limits of
 // components of vertices are left to playing.
 void keep_within(const DecodeLimits& limits, Asset& asset);

@@ -54,6 +54,7 @@ CodedMesh gloss_mesh(const CodedMesh& whole) {
     mesh.albedo = gloss.tint;
     mesh.layout = gloss.layout;
     mesh.transfer = gloss.transfer;
+    mesh.frame_turns = gloss.frame_turns;
     mesh.root_motion = whole.root_motion;
     mesh.num_following = whole.num_following;
     if (gloss.vertices.empty()) {
@@ -74,6 +75,7 @@ void join(CodedMesh gloss, std::span<const uint32_t> vertices, CodedMesh& whole)
     joined.num_rows = gloss.topology.num_vertices;
     joined.transfer = std::move(gloss.transfer);
     joined.tint = std::move(gloss.albedo);
+    joined.frame_turns = std::move(gloss.frame_turns);
     PAIM_CHECK_EQ(vertices.size(), size_t{joined.num_rows});
     if (joined.num_rows < whole.topology.num_vertices) {
         joined.vertices.assign(vertices.begin(), vertices.end());

@@ -7,6 +7,7 @@
 
 #include "paim/codec/asset.h"
 #include "paim/codec/decode_limits.h"
+#include "paim/codec/gloss_frames.h"
 #include "paim/codec/transfer_player.h"
 #include "paim/light/light.h"
 
@@ -17,23 +18,34 @@ DecodeLimits limits_of_gloss(const DecodeLimits& limits);
 
 class GlossPlayer {
   public:
-    // Keeps a reference to the gloss.
-    explicit GlossPlayer(const CodedGloss& gloss);
+    // Keeps a reference to the mesh, which has gloss (checked).
+    explicit GlossPlayer(const CodedMesh& mesh);
+
+    // Places the rows: their frames and the directions towards an eye come from their positions. Before
+    // light().
+    // positions  [3][V] of the mesh, in local axes
+    void place(std::span<const float> positions);
 
     // Outgoing coefficients of all rows, with their tints.
-    // light  in the axes of the gloss
+    // light  in local axes
     void light(double time, const DecodeLimits& limits, const LightCoefficients& light);
-    // [num_outgoing][R] Of the last call.
+    // [out_bands²][R] Of the last call, of directions in local axes.
     std::span<const Vec3f> exit_radiance() const { return exit_; }
 
     // Radiance towards an eye, of what was lit last.
-    // positions  [3][V] of the mesh, and the eye, both in the axes of the gloss
-    // returns    [R]
-    std::span<const Vec3f> towards(std::span<const float> positions, const Vec3d& eye);
+    // eye      in local axes
+    // returns  [R]
+    std::span<const Vec3f> towards(const Vec3d& eye);
 
   private:
+    std::vector<float> at_rows(std::span<const float> positions) const;
+
     const CodedGloss& gloss_;
     std::unique_ptr<TransferPlayer> player_;
+    std::unique_ptr<GlossFrames> frames_;
+    std::vector<float> positions_;         // [3][R]
+    std::vector<Eigen::Matrix3f> placed_;  // [R]
+    std::vector<Vec3f> exit_in_frames_;    // [num_outgoing][R]
     std::vector<Vec3f> exit_;
     std::vector<Vec3f> directions_;  // [R]
     std::vector<Vec3f> radiance_;    // [R]

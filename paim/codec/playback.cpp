@@ -35,7 +35,7 @@ struct Playback::Part {
           centre(centre_of(coded)),
           root(root_at(coded.root_motion, 0.0)),
           player(coded.transfer->make_player(coded.layout)) {
-        if (coded.gloss) gloss.emplace(*coded.gloss);
+        if (coded.gloss) gloss.emplace(coded);
     }
 
     // What is looked at: the gloss towards an eye, its outgoing coefficients, or neither.
@@ -50,7 +50,8 @@ struct Playback::Part {
         if (moved || limits.geometry_components != new_limits.geometry_components) {
             decoder.decode(mesh.positions, new_time, new_limits.geometry_components, positions);
             place();
-            is_seen = false;
+            is_placed = false;
+            is_gloss_lit = false;
         }
         if (light.bands > 0 && (moved || !is_lit || limits != new_limits)) {
             light_all(new_time, new_limits);
@@ -59,6 +60,8 @@ struct Playback::Part {
         }
         const bool is_wanted = gloss && is_lit && (looks.eye || looks.keeps_exit);
         if (is_wanted && !is_gloss_lit) {
+            if (!is_placed) gloss->place(positions);
+            is_placed = true;
             gloss->light(new_time, new_limits, to_local(light, root));
             is_gloss_lit = true;
             is_seen = false;
@@ -71,7 +74,7 @@ struct Playback::Part {
 
     // All glossy vertices that can be seen follow the root motion: floors are matte.
     void look_from(const Vec3f& eye) {
-        towards_eye = gloss->towards(positions, root.to_local(eye.cast<double>()));
+        towards_eye = gloss->towards(root.to_local(eye.cast<double>()));
         shown = radiance;
         for (uint32_t r = 0; r < towards_eye.size(); ++r) {
             shown[mesh.gloss->vertex(r)] += towards_eye[r];
@@ -123,6 +126,7 @@ struct Playback::Part {
     std::optional<GlossPlayer> gloss;
     LightCoefficients light;
     bool is_lit = false;        // whether the radiance is up to date with the light
+    bool is_placed = false;     // whether the gloss knows the positions
     bool is_gloss_lit = false;  // the same of the outgoing coefficients of the gloss
     bool is_seen = false;       // whether `shown` is up to date, seen from `seen_from`
     bool has_eye = false;       // at the last update

@@ -64,7 +64,7 @@ class PAIM_EXPORT Playback {
     std::span<const Vec3f> gloss_radiance(size_t part = 0) const;
     // Outgoing coefficients of the gloss, which do not depend on the eye. Directions are in local axes
     // (root()).
-    // returns  [CodedGloss::layout.num_outgoing()][R]; empty without gloss or light, and unless
+    // returns  [out_bands²][R] of CodedGloss::layout; empty without gloss or light, and unless
     //          they are kept or there is an eye
     std::span<const Vec3f> exit_radiance(size_t part = 0) const;
     // The diffuse radiance without its albedo: diffuse(v) = albedo(v) · white_radiance(v).

@@ -58,8 +58,9 @@ std::optional<uint32_t> plane_of_file(const TransferLayout& of_file, const Trans
     const uint32_t i = plane % of_bake.num_coefficients();
     const uint32_t outgoing = plane / of_bake.num_coefficients();  // of all channels
     const uint32_t channel = outgoing / of_bake.num_outgoing();
-    if (i >= of_file.num_coefficients()) return std::nullopt;
-    return of_file.plane(of_file.channels == 1 ? 0 : channel, i, outgoing % of_bake.num_outgoing());
+    const uint32_t o = outgoing % of_bake.num_outgoing();
+    if (i >= of_file.num_coefficients() || o >= of_file.num_outgoing()) return std::nullopt;
+    return of_file.plane(of_file.channels == 1 ? 0 : channel, i, o);
 }
 
 void reorder_planes(std::span<float> planes, std::span<const uint32_t> old_vertex) {

@@ -24,7 +24,7 @@ std::vector<uint32_t> match_vertices(const Topology& of_file, VertexOrder order,
                                      TriangleOrder triangles = TriangleOrder::same);
 
 // The plane of the file for this plane of the bake's transfer; nothing if the file does not have
-// its band. A grey file has the same plane for all channels.
+// its bands. A grey file has the same plane for all channels.
 std::optional<uint32_t> plane_of_file(const TransferLayout& of_file, const TransferLayout& of_bake,
                                       uint32_t plane);
 

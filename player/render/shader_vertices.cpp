@@ -10,8 +10,9 @@ ShaderVertices::ShaderVertices(std::shared_ptr<const Asset> asset, const DecodeL
     : VertexSource(*asset), asset_(std::move(asset)) {
     for (const CodedMesh& mesh : asset_->parts) {
         meshes_.push_back(std::make_unique<ShaderMesh>(mesh, limits));
-        glosses_.push_back(mesh.gloss ? std::make_unique<GlossPlayer>(*mesh.gloss) : nullptr);
+        glosses_.push_back(mesh.gloss ? std::make_unique<GlossPlayer>(mesh) : nullptr);
     }
+    is_placed_.resize(meshes_.size(), false);
     most_bands_ = std::min(limits.bands, asset_->moving().light_bands());
 }
 
@@ -30,13 +31,23 @@ uint64_t ShaderVertices::texture_bytes() const {
 void ShaderVertices::write(double time, const DecodeLimits& limits, const LightCoefficients* light,
                            std::span<const Changes> changes, std::span<SurfaceMesh> parts) {
     for (size_t j = 0; j < parts.size(); ++j) {
-        if (changes[j].positions) meshes_[j]->decode(time, limits, parts[j].positions());
+        if (changes[j].positions) {
+            meshes_[j]->decode(time, limits, parts[j].positions());
+            is_placed_[j] = false;
+        }
         if (!changes[j].colors) continue;
         meshes_[j]->light(time, limits, *light, parts[j].lit());
         if (glosses_[j] == nullptr) continue;
-        // Outgoing coefficients are few, and are computed on the CPU.
+        // Outgoing coefficients are few, and are computed on the CPU, as are the frames.
         const CodedMesh& mesh = asset_->parts[j];
         const double own_time = mesh.num_poses() == 1 ? 0.0 : time;
+        if (!is_placed_[j]) {
+            const uint32_t components =
+                std::min(limits.geometry_components, most().geometry_components);
+            decoder_.decode(mesh.positions, own_time, components, positions_);
+            glosses_[j]->place(positions_);
+            is_placed_[j] = true;
+        }
         glosses_[j]->light(own_time, limits, to_local(*light, root_at(mesh.root_motion, own_time)));
         parts[j].gloss()->upload(glosses_[j]->exit_radiance());
     }

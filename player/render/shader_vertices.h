@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "paim/codec/gloss_player.h"
+#include "paim/codec/rebuild_planes.h"
 #include "player/render/shader_mesh.h"
 #include "player/render/vertex_source.h"
 
@@ -26,7 +27,10 @@ class ShaderVertices : public VertexSource {
     std::shared_ptr<const Asset> asset_;
     std::vector<std::unique_ptr<ShaderMesh>> meshes_;
     std::vector<std::unique_ptr<GlossPlayer>> glosses_;  // [parts]; null where there is no gloss
-    uint32_t most_bands_ = 0;                            // of light
+    std::vector<bool> is_placed_;  // [parts] whether the gloss knows the positions
+    PositionDecoder decoder_;
+    std::vector<float> positions_;  // scratch
+    uint32_t most_bands_ = 0;       // of light
 };
 
 }  // namespace paim::player

@@ -14,7 +14,8 @@ namespace paim::player {
 namespace {
 
 int64_t num_exits(const CodedMesh& mesh) {
-    return int64_t{mesh.gloss->layout.num_outgoing()} * mesh.gloss->num_rows;
+    return int64_t{sh::num_coefficients(static_cast<int>(mesh.gloss->layout.out_bands))} *
+           mesh.gloss->num_rows;
 }
 
 int width_log2_of(const CodedMesh& mesh) {

@@ -18,7 +18,7 @@ class SurfaceGloss {
 
     uint32_t out_bands() const { return out_bands_; }
 
-    // exits  [num_outgoing][R] (checked), linear RGB
+    // exits  [out_bands²][R] (checked), linear RGB
     void upload(std::span<const Vec3f> exits) const;
 
     // Sets the uniforms of gloss_vertex_source() (render/gloss_shader.h) of a program in use.

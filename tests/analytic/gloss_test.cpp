@@ -114,7 +114,7 @@ TEST(GlossyTransfer, OpenSphereInAWhiteFurnaceShowsTheDirectionalAlbedo) {
         for (const uint32_t out_bands : {3u, 6u}) {
             const BakeOptions options = make_options(64, 1, 3, out_bands);
             const BakedPose baked = bake(sphere, options, all_of(brdf));
-            const TransferLayout layout{TransferKind::glossy, 3, 1, out_bands};
+            const TransferLayout layout{TransferKind::glossy_in_pose, 3, 1, out_bands};
             std::vector<double> light(9, 0.0);
             light[0] = 1.0 / kY00;
             std::vector<double> zonal(out_bands, 0.0), basis(size_t{out_bands} * out_bands);

@@ -100,7 +100,7 @@ TEST(GlossyBounces, CarryTheLightThatIsSentTowardsTheVertex) {
             .bake(plates.topology(), pose, 0);
     };
     const BakedPose direct = bake(0), once = bake(1);
-    const TransferLayout layout{TransferKind::glossy, 3, 1, 4};
+    const TransferLayout layout{TransferKind::glossy_in_pose, 3, 1, 4};
     const std::vector<uint32_t> rows = glossy_rows(plates.topology(), upper);
     ASSERT_EQ(rows.size(), num_lower);
     // Light of two bands from one side.

@@ -47,15 +47,15 @@ TEST_F(Gloss, SaysBeforehandWhatItTakesAndLoses) {
     const BakeReader reader(path("g.bake"));
     const size_t num_rows = reader.gloss_rows().size();
     EXPECT_EQ(num_rows, reader.identity().num_vertices);
-    EXPECT_TRUE(contains(glossy.err, fmt::format("gloss: {} vertices of 36 coefficients (3 bands "
+    EXPECT_TRUE(contains(glossy.err, fmt::format("gloss: {} vertices of 27 coefficients (3 bands "
                                                  "of light, 2 of outgoing radiance, 1 channel)",
                                                  num_rows)))
         << glossy.err;
     EXPECT_TRUE(contains(glossy.err, "phong:0.5,400: 3 bands of light leave out")) << glossy.err;
     // f32 and f16 values, and at most a table entry and alignment for each of the two sections.
     const uint64_t more = size_of("g.bake/pose_000000.bin") - size_of("d.bake/pose_000000.bin");
-    EXPECT_GE(more, 6 * 36 * num_rows);
-    EXPECT_LE(more, 6 * 36 * num_rows + 1024);
+    EXPECT_GE(more, 6 * 27 * num_rows);
+    EXPECT_LE(more, 6 * 27 * num_rows + 1024);
     // The diffuse transfer is the same.
     EXPECT_EQ(reader.read_pose(1).transfer, BakeReader(path("d.bake")).read_pose(1).transfer);
 }
@@ -72,7 +72,15 @@ TEST_F(Gloss, FilesMeetBothErrors) {
         const json report = encode(
             "g.bake", "x.paim", {"--max-error", "5%", "--max-gloss-error", "8%", "--codec", codec});
         EXPECT_LE(report["measured"]["transfer_total_error"].get<double>(), 0.05) << codec;
-        EXPECT_LE(report["gloss"]["measured"]["transfer_total_error"].get<double>(), 0.08) << codec;
+        // Coefficients and frames together.
+        const double coefficients =
+            report["gloss"]["measured"]["transfer_total_error"].get<double>();
+        const double frames = report["gloss"]["frames"]["relative_rms"].get<double>();
+        EXPECT_LE(std::hypot(coefficients, frames), 0.08) << codec;
+        EXPECT_DOUBLE_EQ(report["gloss"]["error_with_frames"].get<double>(),
+                         std::hypot(coefficients, frames));
+        EXPECT_GT(frames, 0.0);
+        EXPECT_LE(frames, 0.04);
         EXPECT_GT(report["gloss"]["measured"]["transfer_total_error"].get<double>(), 0.0);
         EXPECT_EQ(report["size_bytes"].get<uint64_t>(), size_of("x.paim"));
         const json held = parse_object(info({path("x.paim"), "--json"}));
@@ -80,6 +88,7 @@ TEST_F(Gloss, FilesMeetBothErrors) {
         EXPECT_EQ(held["gloss"]["transfer_codec"], codec);
         EXPECT_EQ(held["provenance"]["gloss"]["measured"]["transfer_total_error"],
                   report["gloss"]["measured"]["transfer_total_error"]);
+        EXPECT_EQ(held["provenance"]["gloss"]["frames"], report["gloss"]["frames"]);
         EXPECT_EQ(read_paim(path("x.paim")).moving().gloss->num_rows,
                   held["num_vertices"].get<uint32_t>());
     }

@@ -125,7 +125,7 @@ void add_gloss(const Seen& seen, Image& image) {
     const std::span<const Vec3f> exit = seen.playback.exit_radiance();
     std::vector<int64_t> row_of(seen.topology().num_vertices, -1);
     for (uint32_t r = 0; r < gloss.num_rows; ++r) row_of[gloss.vertex(r)] = r;
-    std::vector<float> basis(gloss.layout.num_outgoing());
+    std::vector<float> basis(size_t{kOutBands} * kOutBands);
     for (size_t i = 0; i < image.pixels.size(); ++i) {
         const Hit& hit = seen.visible.hits[i];
         if (hit.triangle == kNoTriangle) continue;

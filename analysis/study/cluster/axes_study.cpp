@@ -20,6 +20,7 @@
 #include "paim/cli/parse.h"
 #include "paim/cli/run_main.h"
 #include "paim/format/pack/plane_encoder.h"
+#include "paim/mesh/tangent_frames.h"
 
 namespace {
 
@@ -37,10 +38,10 @@ struct Options {
 };
 
 // What the outgoing side is stored in.
-enum class Axes { pose, frame, agreeing_frame };
-constexpr Axes kAxes[] = {Axes::pose, Axes::frame, Axes::agreeing_frame};
+enum class Axes { pose, frame };
+constexpr Axes kAxes[] = {Axes::pose, Axes::frame};
 const char* name_of(Axes axes) {
-    return axes == Axes::pose ? "pose" : axes == Axes::frame ? "frame" : "agreeing frame";
+    return axes == Axes::pose ? "pose" : "frame";
 }
 
 // The poses in local axes, as bakes have them.
@@ -69,34 +70,33 @@ struct Data {
 };
 
 // A pose with transfer in the frames of its vertices.
-struct BakedFrames {
+struct FramedTransfer {
     std::vector<Eigen::Matrix3f> frames;
     MatrixXf transfer;  // [V][K · C]
 };
 
-std::vector<BakedFrames> bake_frames(const Topology& topology, const std::vector<Pose>& poses,
-                                     const ExitFunctions& exit, const Options& options) {
-    std::vector<BakedFrames> baked;
+std::vector<FramedTransfer> bake_frames(const Topology& topology, const std::vector<Pose>& poses,
+                                        const ExitFunctions& exit, const Options& options) {
+    const TangentFrames tangents(topology, poses[0].positions);
+    std::vector<FramedTransfer> baked;
     for (uint32_t p = 0; p < poses.size(); ++p) {
         FrameTransferOptions transfer;
         transfer.in_bands = options.in_bands;
         transfer.rays = options.rays;
         transfer.pose = p;
-        std::vector<Eigen::Matrix3f> frames = vertex_frames(topology, poses[p]);
+        std::vector<Eigen::Matrix3f> frames = tangents.at(poses[p].positions, poses[p].normals);
         MatrixXf planes = frame_transfer(topology, poses[p], frames, exit, transfer);
         baked.push_back({std::move(frames), std::move(planes)});
     }
     return baked;
 }
 
-Data make_data(const std::vector<BakedFrames>& poses, const ExitFunctions& exit, Axes axes) {
-    const std::vector<float> angles = agreeing_angles(poses[0].frames);
+Data make_data(const std::vector<FramedTransfer>& poses, const ExitFunctions& exit, Axes axes) {
     Data data;
     for (size_t p = 0; p < poses.size(); ++p) {
         const auto& [frames, transfer] = poses[p];
-        const MatrixXf planes = axes == Axes::pose    ? in_pose_axes(transfer, frames, exit)
-                                : axes == Axes::frame ? transfer
-                                                      : in_turned_frames(transfer, angles, exit);
+        const MatrixXf planes =
+            axes == Axes::pose ? in_pose_axes(transfer, frames, exit) : transfer;
         data.num_planes = static_cast<uint32_t>(planes.cols());
         data.matrix.resize(planes.size(), static_cast<Index>(poses.size()));
         data.matrix.col(static_cast<Index>(p)) = planes.reshaped();
@@ -157,7 +157,7 @@ class Study {
 
     void measure(const std::string& brdf) const {
         const ExitFunctions exit(*parse_brdf(brdf), static_cast<int>(options_.out_bands));
-        const std::vector<BakedFrames> baked = bake_frames(topology_, poses_, exit, options_);
+        const std::vector<FramedTransfer> baked = bake_frames(topology_, poses_, exit, options_);
         for (const Axes axes : kAxes) measure(brdf, axes, make_data(baked, exit, axes));
     }
 
@@ -207,12 +207,11 @@ class Study {
 
 int run(int argc, char** argv) {
     CLI::App app(
-        "Bakes glossy transfer of a sequence, with its outgoing side in the axes of the pose, in\n"
-        "frames of the vertices (a tangent along the first edge), and in such frames turned about\n"
-        "their normals so that neighbours agree in the first pose. CSV on stdout: for each error,\n"
-        "components of the mean-centred SVD, their bytes a vertex with two bytes a value, bytes of\n"
-        "all packed as in files, and the squared error of clustered components of equal size, as a\n"
-        "share. Singular values on stderr, as shares of the norm of all values.",
+        "Bakes glossy transfer of a sequence, with its outgoing side in the axes of the pose, and in\n"
+        "the frames of the vertices. CSV on stdout: for each error, components of the mean-centred\n"
+        "SVD, their bytes a vertex with two bytes a value, bytes of all packed as in files, and the\n"
+        "squared error of clustered components of equal size, as a share. Singular values on\n"
+        "stderr, as shares of the norm of all values.",
         "paim-axes-study");
     std::vector<std::string> inputs;
     Options options;

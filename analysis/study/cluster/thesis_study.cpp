@@ -24,6 +24,7 @@
 #include "compressor/material/brdfs.h"
 #include "paim/cli/parse.h"
 #include "paim/cli/run_main.h"
+#include "paim/mesh/tangent_frames.h"
 
 namespace {
 
@@ -151,7 +152,8 @@ class Study {
 
 void run_study(const PoseSource& source, const Options& options) {
     const Pose pose = source.load_pose(0);
-    const auto frames = vertex_frames(source.topology(), pose);
+    const auto frames =
+        TangentFrames(source.topology(), pose.positions).at(pose.positions, pose.normals);
     fmt::print(
         "sequence,brdf,seeding,clusters,method,processor_s,squared_error,squared_error_of_all,"
         "moves,overdraw,overdraw_super_1_channel,overdraw_super_3_channels\n");

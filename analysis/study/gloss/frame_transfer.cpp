@@ -7,7 +7,6 @@
 #include "compressor/bake/cosine_directions.h"
 #include "compressor/bake/ray_start.h"
 #include "paim/base/check.h"
-#include "paim/base/orthonormal_basis.h"
 #include "paim/base/parallel.h"
 #include "paim/base/seed.h"
 #include "paim/sh/basis.h"
@@ -23,20 +22,6 @@ namespace {
 constexpr size_t kVerticesPerPiece = 64;
 constexpr int kBatch = ExitFunctions::kBatch;
 static_assert(kBatch == sh::BatchBasis::kBatch);
-
-// From each vertex to the next corner of its first triangle.
-std::vector<Vec3f> first_edges(const Topology& topology, const std::vector<Vec3f>& positions) {
-    std::vector<Vec3f> edges(topology.num_vertices, Vec3f::Zero());
-    std::vector<bool> is_known(topology.num_vertices, false);
-    for (const Triangle& t : topology.triangles) {
-        for (size_t c = 0; c < 3; ++c) {
-            if (is_known[t[c]]) continue;
-            is_known[t[c]] = true;
-            edges[t[c]] = positions[t[(c + 1) % 3]] - positions[t[c]];
-        }
-    }
-    return edges;
-}
 
 // Sums Σ_j e_k(s_j) y_i(s_j) over sixteen directions at a time.
 class OuterSums {
@@ -86,37 +71,6 @@ class OuterSums {
 };
 
 }  // namespace
-
-std::vector<Eigen::Matrix3f> vertex_frames(const Topology& topology, const Pose& pose) {
-    const std::vector<Vec3f> edges = first_edges(topology, pose.positions);
-    std::vector<Eigen::Matrix3f> frames(topology.num_vertices, Eigen::Matrix3f::Identity());
-    for (size_t v = 0; v < frames.size(); ++v) {
-        if (pose.normals[v].isZero(0.0f)) continue;
-        // In double, because rotations of harmonics check their matrix.
-        const Vec3d normal = pose.normals[v].cast<double>().normalized();
-        const Vec3d edge = edges[v].cast<double>();
-        Vec3d tangent = edge - edge.dot(normal) * normal, bitangent;
-        if (tangent.norm() > 1e-3 * edge.norm()) {
-            tangent.normalize();
-            bitangent = normal.cross(tangent);
-        } else {
-            orthonormal_basis(normal, tangent, bitangent);
-        }
-        frames[v].col(0) = tangent.cast<float>();
-        frames[v].col(1) = bitangent.cast<float>();
-        frames[v].col(2) = normal.cast<float>();
-    }
-    return frames;
-}
-
-std::vector<float> agreeing_angles(std::span<const Eigen::Matrix3f> frames) {
-    std::vector<float> angles;
-    for (const Eigen::Matrix3f& frame : frames) {
-        const Vec3f local = frame.row(0).transpose();
-        angles.push_back(std::atan2(local.y(), local.x()));
-    }
-    return angles;
-}
 
 Eigen::MatrixXf frame_transfer(const Topology& topology, const Pose& pose,
                                std::span<const Eigen::Matrix3f> frames, const ExitFunctions& exit,
@@ -180,23 +134,6 @@ Eigen::MatrixXf in_pose_axes(const Eigen::MatrixXf& in_frames,
         }
     });
     return out;
-}
-
-Eigen::MatrixXf in_turned_frames(const Eigen::MatrixXf& in_frames, std::span<const float> angles,
-                                 const ExitFunctions& exit) {
-    std::vector<Eigen::Matrix3f> back(angles.size(), Eigen::Matrix3f::Identity());
-    for (size_t v = 0; v < back.size(); ++v) {
-        back[v] = Eigen::AngleAxisf(-angles[v], Vec3f::UnitZ()).toRotationMatrix();
-    }
-    const Eigen::MatrixXf all = in_pose_axes(in_frames, back, exit);
-    const Index num_incident = in_frames.cols() / exit.num_rows();
-    Eigen::MatrixXf even(in_frames.rows(), in_frames.cols());
-    for (Index k = 0; k < exit.num_rows(); ++k) {
-        const Index o = exit.coefficients()[static_cast<size_t>(k)];
-        even.middleCols(k * num_incident, num_incident) =
-            all.middleCols(o * num_incident, num_incident);
-    }
-    return even;
 }
 
 }  // namespace paim::study

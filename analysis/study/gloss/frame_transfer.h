@@ -15,18 +15,6 @@
 
 namespace paim::study {
 
-// [V] columns: tangent, bitangent, normal, which are a rotation. The tangent follows the first edge of
-// the vertex, projected into the plane of the normal: that from the vertex to the next corner of the
-// first triangle that has it. Where this edge is along the normal or there is none, the tangent is any
-// direction in the plane. Vertices without a normal have the axes of the pose.
-std::vector<Eigen::Matrix3f> vertex_frames(const Topology& topology, const Pose& pose);
-
-// Angles by which the frames of a pose are turned about their normals, so that tangents of neighbours
-// point alike there: to the first of the axes of the pose, projected into the plane of the normal.
-// frames   those of vertex_frames() of the pose
-// returns  [V] radians
-std::vector<float> agreeing_angles(std::span<const Eigen::Matrix3f> frames);
-
 struct FrameTransferOptions {
     uint32_t in_bands = 5;
     uint32_t rays = 512;  // of a vertex
@@ -40,11 +28,6 @@ struct FrameTransferOptions {
 Eigen::MatrixXf frame_transfer(const Topology& topology, const Pose& pose,
                                std::span<const Eigen::Matrix3f> frames, const ExitFunctions& exit,
                                const FrameTransferOptions& options);
-
-// The same in frames that are turned about their normals.
-// angles  [V] radians, counter-clockwise seen from outside
-Eigen::MatrixXf in_turned_frames(const Eigen::MatrixXf& in_frames, std::span<const float> angles,
-                                 const ExitFunctions& exit);
 
 // The same with y_o in the axes of the pose, too.
 // returns  [V][O · C], column o · C + i

@@ -22,6 +22,7 @@
 #include "paim/light/sky.h"
 #include "paim/mesh/bounds.h"
 #include "paim/mesh/face_vertices.h"
+#include "paim/mesh/tangent_frames.h"
 #include "paim/sh/basis.h"
 
 namespace {
@@ -146,7 +147,8 @@ void measure(const Scene& scene, const std::string& text, const Options& options
     FrameTransferOptions transfer;
     transfer.in_bands = options.most_in;
     transfer.rays = options.rays;
-    const auto frames = vertex_frames(scene.mesh.topology, scene.pose);
+    const auto frames = TangentFrames(scene.mesh.topology, scene.pose.positions)
+                            .at(scene.pose.positions, scene.pose.normals);
     const Eigen::MatrixXf baked = in_pose_axes(
         frame_transfer(scene.mesh.topology, scene.pose, frames, exit, transfer), frames, exit);
     for (uint32_t in = options.least_in; in <= options.most_in; ++in) {

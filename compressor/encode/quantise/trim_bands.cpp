@@ -1,4 +1,4 @@
-// Bands that hold nothing are not stored.
+// Bands of light and of outgoing radiance that hold nothing are not stored.
 #include "compressor/encode/quantise/trim_bands.h"
 
 #include <algorithm>
@@ -24,9 +24,14 @@ bool plane_is_zero(const LowRank& matrix, uint32_t plane) {
     return true;
 }
 
-bool band_is_zero(const LowRank& matrix, const TransferLayout& layout, uint32_t band) {
-    for (uint32_t plane = 0; plane < layout.num_planes(); ++plane) {
-        if (layout.input_band(plane) == band && !plane_is_zero(matrix, plane)) return false;
+// Whether all planes of a band of light, or of outgoing radiance, are zero in all parts.
+using BandOfPlane = uint32_t (TransferLayout::*)(uint32_t plane) const;
+bool band_is_zero(const Asset& asset, BandOfPlane band_of, uint32_t band) {
+    for (const CodedMesh& mesh : asset.parts) {
+        for (uint32_t plane = 0; plane < mesh.layout.num_planes(); ++plane) {
+            if ((mesh.layout.*band_of)(plane) != band) continue;
+            if (!plane_is_zero(mesh.transfer->matrix, plane)) return false;
+        }
     }
     return true;
 }
@@ -34,12 +39,18 @@ bool band_is_zero(const LowRank& matrix, const TransferLayout& layout, uint32_t 
 }  // namespace
 
 void trim_bands(Asset& asset) {
-    uint32_t bands = asset.moving().layout.in_bands;
-    const auto is_zero = [&](const CodedMesh& mesh) {
-        return band_is_zero(mesh.transfer->matrix, mesh.layout, bands - 1);
-    };
-    while (bands > 1 && std::all_of(asset.parts.begin(), asset.parts.end(), is_zero)) --bands;
-    for (CodedMesh& mesh : asset.parts) keep_bands(mesh, bands);
+    uint32_t in_bands = asset.moving().layout.in_bands;
+    while (in_bands > 1 && band_is_zero(asset, &TransferLayout::input_band, in_bands - 1)) {
+        --in_bands;
+    }
+    uint32_t out_bands = asset.moving().layout.out_bands;
+    while (out_bands > 1 && band_is_zero(asset, &TransferLayout::output_band, out_bands - 1)) {
+        --out_bands;
+    }
+    for (CodedMesh& mesh : asset.parts) {
+        keep_bands(mesh, in_bands);
+        keep_out_bands(mesh, out_bands);
+    }
 }
 
 }  // namespace paim

@@ -4,14 +4,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "compressor/encode/search/feasibility.h"
+#include "compressor/encode/search/frame_fit.h"
 #include "compressor/encode/search/size_search.h"
 #include "paim/base/check.h"
 #include "paim/base/error.h"
+#include "paim/base/file.h"
+#include "paim/base/json_text.h"
 #include "paim/codec/gloss_asset.h"
 #include "paim/format/paim/paim_read.h"
 #include "paim/format/paim/paim_write.h"
@@ -22,16 +27,58 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The vertices of a part of the whole that the vertices of the same part of the gloss are.
-std::vector<uint32_t> rows_in_whole(const Asset& whole, const Asset& gloss, size_t part,
-                                    const BakeReader& bake, const BakeReader& gloss_bake,
-                                    const std::vector<uint32_t>& rows) {
+// [V] The vertex of a part of the file for each vertex of the bake.
+std::vector<uint32_t> vertices_of_bake(const Asset& whole, size_t part, const BakeReader& bake) {
     const std::vector<uint32_t> of_whole = match_part(whole, part, bake);
     std::vector<uint32_t> new_number(of_whole.size());
     for (uint32_t v = 0; v < of_whole.size(); ++v) new_number[of_whole[v]] = v;
-    std::vector<uint32_t> vertices = match_part(gloss, part, gloss_bake);
-    for (uint32_t& vertex : vertices) vertex = new_number[rows[vertex]];
-    return vertices;
+    return new_number;
+}
+
+// [R] The vertex of a part of the file for each row of gloss of the bake.
+std::vector<uint32_t> vertices_of_rows(const Asset& whole, size_t part, const BakeReader& bake) {
+    const std::vector<uint32_t> new_number = vertices_of_bake(whole, part, bake);
+    std::vector<uint32_t> rows =
+        part == 0 ? bake.gloss_rows()
+                  : glossy_rows(bake.still_mesh()->topology, bake.still_mesh()->materials);
+    for (uint32_t& row : rows) row = new_number[row];
+    return rows;
+}
+
+// Of the part where it is largest.
+FrameError measure_frames(const Asset& whole, const BakeReader& bake, const BakeReader& gloss,
+                          const BandPower& power) {
+    FrameError worst;
+    for (size_t part = 0; part < num_baked_parts(gloss); ++part) {
+        const FrameError error = measure_frames(gloss, part, whole.parts[part].positions,
+                                                vertices_of_rows(whole, part, bake), power);
+        if (error.relative_rms >= worst.relative_rms) worst = error;
+    }
+    return worst;
+}
+
+// How to encode one kind of transfer.
+using Encoder = std::function<TargetSummary(const EncodeTarget&, const fs::path&)>;
+
+// Encodes both with the errors of the target, and joins them.
+GlossySummary encode_both(const BakeReader& bake, const BakeReader& gloss,
+                          const GlossyTarget& target, const Encoder& encode_diffuse,
+                          const Encoder& encode_gloss, const fs::path& scratch,
+                          const fs::path& output) {
+    const TransferFiles files{scratch / "diffuse.paim", scratch / "gloss.paim"};
+    const double error = *target.gloss.transfer_error;
+    const FramedSummary framed = encode_for_frames(
+        target.diffuse, kFrameShare * error,
+        [&](const EncodeTarget& diffuse) { return encode_diffuse(diffuse, files.diffuse); },
+        [&] {
+            return measure_frames(read_paim(files.diffuse), bake, gloss, target.gloss.spectrum)
+                .relative_rms;
+        });
+    EncodeTarget of_gloss = target.gloss;
+    of_gloss.transfer_error = std::sqrt(error * error - framed.frame_error * framed.frame_error);
+    GlossySummary summary{framed.diffuse, encode_gloss(of_gloss, files.gloss), {}};
+    summary.both = join_transfer_files(bake, files, target.gloss.spectrum, output);
+    return summary;
 }
 
 // The files of one error for both kinds of transfer.
@@ -40,6 +87,7 @@ class JoinedFiles : public SizedFiles {
     JoinedFiles(const BakeReader& bake, const BakeReader& gloss, const EncodeOptions& options,
                 const GlossyTarget& target, const fs::path& scratch)
         : bake_(bake),
+          gloss_bake_(gloss),
           target_(target),
           scratch_(scratch),
           diffuse_(bake, options, target.diffuse.spectrum),
@@ -50,24 +98,26 @@ class JoinedFiles : public SizedFiles {
     std::optional<uint64_t> estimated_bytes(double error) override { return make(error); }
 
     std::optional<uint64_t> make(double error) override {
-        if (made_ && error_ == error) return made_->size_bytes;
+        if (made_ && error_ == error) return made_->both.size_bytes;
         made_.reset();
         error_ = error;
         EncodeTarget diffuse = target_.diffuse, gloss = target_.gloss;
         diffuse.size_bytes.reset();
         gloss.size_bytes.reset();
         diffuse.transfer_error = gloss.transfer_error = error;
-        const TransferFiles files{scratch_ / "diffuse.paim", scratch_ / "gloss.paim"};
+        const auto with = [](TargetSeries& series) {
+            return [&series](const EncodeTarget& of, const fs::path& path) {
+                return series.encode(of, path);
+            };
+        };
         try {
-            GlossySummary summary{diffuse_.encode(diffuse, files.diffuse),
-                                  gloss_.encode(gloss, files.gloss), 0};
-            summary.size_bytes = join_transfer_files(bake_, files, scratch_ / "made.paim");
-            made_ = std::move(summary);
+            made_ = encode_both(bake_, gloss_bake_, {diffuse, gloss}, with(diffuse_), with(gloss_),
+                                scratch_, scratch_ / "made.paim");
         } catch (const Error& failure) {
             if (failure.code() != ExitCode::threshold_exceeded) throw;
             return std::nullopt;
         }
-        return made_->size_bytes;
+        return made_->both.size_bytes;
     }
 
     void keep() override {
@@ -78,11 +128,12 @@ class JoinedFiles : public SizedFiles {
     fs::path best_path() const { return scratch_ / "best.paim"; }
     GlossySummary best() const { return *best_; }
     std::optional<uint64_t> last_bytes() const {
-        return made_ ? std::optional(made_->size_bytes) : std::nullopt;
+        return made_ ? std::optional(made_->both.size_bytes) : std::nullopt;
     }
 
   private:
     const BakeReader& bake_;
+    const BakeReader& gloss_bake_;
     const GlossyTarget& target_;
     const fs::path scratch_;
     TargetSeries diffuse_, gloss_;
@@ -106,30 +157,43 @@ GlossySummary fit_both(const BakeReader& bake, const BakeReader& gloss,
             bake.directory().string(), most_bytes, 100.0 * kLargestError,
             bytes ? fmt::format("it takes {}", *bytes) : "there is no file"));
     }
-    write_paim(output, read_paim(files.best_path()));
+    copy_whole_file(files.best_path(), output);
     return files.best();
 }
 
 }  // namespace
 
-uint64_t join_transfer_files(const BakeReader& bake, const TransferFiles& files,
-                             const fs::path& output) {
+JoinedFile join_transfer_files(const BakeReader& bake, const TransferFiles& files,
+                               const BandPower& power, const fs::path& output) {
     Asset whole = read_paim(files.diffuse);
     ReadOptions glossy;
     glossy.kind = TransferKind::glossy;
     Asset gloss = read_paim(files.gloss, glossy);
     const BakeReader gloss_bake = bake.gloss();
-    const std::vector<uint32_t> vertices =
-        rows_in_whole(whole, gloss, 0, bake, gloss_bake, bake.gloss_rows());
-    std::vector<uint32_t> still;
-    if (gloss.still() != nullptr) {
-        const BakedStillMesh& mesh = bake.still_mesh().value();
-        still = rows_in_whole(whole, gloss, 1, bake, gloss_bake,
-                              glossy_rows(mesh.topology, mesh.materials));
-    }
+    set_frame_turns(gloss_bake, gloss);
+    const auto rows_in_whole = [&](size_t part) {
+        const std::vector<uint32_t> of_rows = vertices_of_rows(whole, part, bake);
+        std::vector<uint32_t> vertices = match_part(gloss, part, gloss_bake);
+        for (uint32_t& vertex : vertices) vertex = of_rows[vertex];
+        return vertices;
+    };
+    JoinedFile joined;
+    joined.frames = measure_frames(whole, bake, gloss_bake, power);
+    auto provenance = nlohmann::ordered_json::parse(gloss.provenance_json);
+    provenance["frames"] = {{"relative_rms", joined.frames.relative_rms},
+                            {"worst_row", joined.frames.worst_row}};
+    gloss.provenance_json = json_text(provenance);
+    const std::vector<uint32_t> vertices = rows_in_whole(0);
+    const std::vector<uint32_t> still =
+        gloss.still() != nullptr ? rows_in_whole(1) : std::vector<uint32_t>();
     join_gloss(std::move(gloss), vertices, still, whole);
     write_paim(output, whole);
-    return fs::file_size(output);
+    joined.size_bytes = fs::file_size(output);
+    return joined;
+}
+
+double GlossySummary::gloss_error() const {
+    return std::hypot(gloss.error.transfer.total(), both.frames.relative_rms);
 }
 
 GlossySummary encode_glossy_to_target(const BakeReader& bake, const EncodeOptions& options,
@@ -146,22 +210,25 @@ GlossySummary encode_glossy_to_target(const BakeReader& bake, const EncodeOption
         return
             [part, &on_step](const std::string& step, double done) { on_step(part, step, done); };
     };
-    EncodeTarget of_gloss = target.gloss;
-    of_gloss.size_bytes.reset();
-    const TransferFiles files{scratch / "diffuse.paim", scratch / "gloss.paim"};
-    GlossySummary summary;
-    summary.diffuse =
-        encode_to_target(bake, options, target.diffuse, files.diffuse, listener("diffuse"));
-    summary.gloss = encode_to_target(gloss, options, of_gloss, files.gloss, listener("gloss"));
-    summary.size_bytes = join_transfer_files(bake, files, scratch / "made.paim");
-    if (target.diffuse.size_bytes && summary.size_bytes > *target.diffuse.size_bytes) {
+    GlossyTarget errors = target;
+    errors.gloss.size_bytes.reset();
+    const auto with = [&](const BakeReader& reader, const char* part) {
+        return [&options, &reader, heard = listener(part)](const EncodeTarget& of,
+                                                           const fs::path& path) {
+            return encode_to_target(reader, options, of, path, heard);
+        };
+    };
+    GlossySummary summary = encode_both(bake, gloss, errors, with(bake, "diffuse"),
+                                        with(gloss, "gloss"), scratch, scratch / "made.paim");
+    const uint64_t size_bytes = summary.both.size_bytes;
+    if (target.diffuse.size_bytes && size_bytes > *target.diffuse.size_bytes) {
         throw_infeasible(fmt::format(
             "{}: a transfer error of {:.3g} % and a gloss error of {:.3g} % take {} "
             "bytes, --max-size allows {}",
             bake.directory().string(), 100.0 * *target.diffuse.transfer_error,
-            100.0 * *of_gloss.transfer_error, summary.size_bytes, *target.diffuse.size_bytes));
+            100.0 * *target.gloss.transfer_error, size_bytes, *target.diffuse.size_bytes));
     }
-    write_paim(output, read_paim(scratch / "made.paim"));
+    copy_whole_file(scratch / "made.paim", output);
     return summary;
 }
 

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "compressor/encode/search/target_encode.h"
+#include "paim/metrics/frame_error.h"
 
 namespace paim {
 
@@ -14,21 +15,30 @@ struct TransferFiles {
     std::filesystem::path diffuse, gloss;
 };
 
-// Joins them. Returns the size of the file, which is written completely or not at all.
-// bake  that both were made from
+struct JoinedFile {
+    uint64_t size_bytes = 0;
+    FrameError frames;  // of the gloss, in the part where it is larger; stated in the file
+};
+
+// Joins them. The file is written completely or not at all.
+// bake   that both were made from
+// power  weights errors of frames
 // Errors: those of reading and writing.
-uint64_t join_transfer_files(const BakeReader& bake, const TransferFiles& files,
-                             const std::filesystem::path& output);
+JoinedFile join_transfer_files(const BakeReader& bake, const TransferFiles& files,
+                               const BandPower& power, const std::filesystem::path& output);
 
 struct GlossySummary {
     TargetSummary diffuse, gloss;
-    uint64_t size_bytes = 0;  // of the file of both
+    JoinedFile both;
+    // The error of the gloss: √(coefficients² + frames²).
+    double gloss_error() const;
 };
 
 struct GlossyTarget {
     // Of the diffuse transfer; the size is that of the file of both.
     EncodeTarget diffuse;
-    // Of the gloss. Its error is relative to the glossy transfer alone. Its size is not used. It has an
+    // Of the gloss. Its error is relative to the glossy transfer alone, and covers that of the frames,
+    // which positions are made good enough for (frame_fit.h). Its size is not used. It has an
     // error if the diffuse target has one (checked).
     EncodeTarget gloss;
 };

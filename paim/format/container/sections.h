@@ -26,6 +26,9 @@ constexpr Tag kWeightSteps[3] = {Tag("GWST"), Tag("TWST"), Tag("XWST")};  // f32
 // transfer, with X as their first letter.
 constexpr Tag kGlossTint("XTNT");      // f32 [1 or R][3]
 constexpr Tag kGlossVertices("XVTX");  // u32 [R][1], only if not all vertices are rows
+// Only if frames of gloss are turned (CodedGloss::frame_turns): i16 [3][R], f32 [3].
+constexpr Tag kFrameTurns("XFRT");
+constexpr Tag kFrameTurnSteps("XFRS");
 // Only if geometry is smoothed: i16 [1 + K][3], rounds of the mean and each component.
 constexpr Tag kSmoothing("GSMO");
 
@@ -41,10 +44,12 @@ constexpr Tag kStillTransfer("STRN");   // f32, i16 or i8 [planes][S]
 constexpr Tag kStillPositionSteps("SPST");
 constexpr Tag kStillTransferSteps("STST");
 // Only if the still part has gloss; as those of the moving part.
-constexpr Tag kStillGloss("SGLS");          // f32, i16 or i8 [planes of gloss][R]
-constexpr Tag kStillGlossSteps("SGST");     // f32 [planes of gloss]
-constexpr Tag kStillGlossTint("SGTN");      // f32 [1 or R][3]
-constexpr Tag kStillGlossVertices("SGVX");  // u32 [R][1]
+constexpr Tag kStillGloss("SGLS");           // f32, i16 or i8 [planes of gloss][R]
+constexpr Tag kStillGlossSteps("SGST");      // f32 [planes of gloss]
+constexpr Tag kStillGlossTint("SGTN");       // f32 [1 or R][3]
+constexpr Tag kStillGlossVertices("SGVX");   // u32 [R][1]
+constexpr Tag kStillFrameTurns("SGFT");      // i16 [3][R]
+constexpr Tag kStillFrameTurnSteps("SGFS");  // f32 [3]
 
 // Only if faces have images: the texture of a mesh (texture_sections.h). In a .paim the second is of
 // the still part.

@@ -53,7 +53,9 @@ nlohmann::ordered_json gloss_json(const Asset& asset) {
     json["rows"] = gloss.num_rows;
     if (const CodedMesh* still = asset.still(); still != nullptr && still->gloss) {
         json["still_rows"] = still->gloss->num_rows;
+        if (still->gloss->frame_turns.num_points > 0) json["still_frame_turns"] = true;
     }
+    if (gloss.frame_turns.num_points > 0) json["frame_turns"] = true;
     json["bands"] = gloss.layout.in_bands;
     json["out_bands"] = gloss.layout.out_bands;
     json["channels"] = gloss.layout.channels;

@@ -106,6 +106,15 @@ LowRank start_matrix(const Metadata& metadata, const char* components, uint32_t 
     return matrix;
 }
 
+// A matrix of a mean alone, without values.
+LowRank start_still_matrix(uint32_t num_planes, uint32_t num_points) {
+    LowRank matrix;
+    matrix.num_points = num_points;
+    matrix.num_planes = num_planes;
+    matrix.num_poses = 1;
+    return matrix;
+}
+
 // The gloss of the file's moving part, without values; nothing if it has none.
 std::optional<CodedGloss> start_gloss(const Metadata& metadata, uint32_t num_vertices,
                                       uint32_t num_poses) {
@@ -116,6 +125,8 @@ std::optional<CodedGloss> start_gloss(const Metadata& metadata, uint32_t num_ver
     gloss.layout = read_layout(part, TransferKind::glossy);
     if (num_vertices == 0) throw_bad_input("{}: gloss without vertices", metadata.file());
     gloss.num_rows = part.integer("rows", 1, num_vertices);
+    if (part.root().contains("frame_turns"))
+        gloss.frame_turns = start_still_matrix(3, gloss.num_rows);
     gloss.transfer = start_transfer(part);
     const uint32_t num_points = gloss.transfer->start(gloss.num_rows);
     gloss.transfer->matrix =
@@ -162,23 +173,19 @@ CodedMesh start_still(const ContainerReader& reader, const Metadata& metadata,
     CodedMesh mesh;
     mesh.layout = moving.layout;
     mesh.topology.num_vertices = count_vertices(reader, section::kStillPositions);
-    const auto start = [&](uint32_t num_planes, uint32_t num_points) {
-        LowRank matrix;
-        matrix.num_points = num_points;
-        matrix.num_planes = num_planes;
-        matrix.num_poses = 1;
-        return matrix;
-    };
     const uint32_t num_vertices = mesh.topology.num_vertices;
-    mesh.positions = start(3, num_vertices);
-    mesh.transfer = plain_transfer(start(mesh.layout.num_planes(), num_vertices));
+    mesh.positions = start_still_matrix(3, num_vertices);
+    mesh.transfer = plain_transfer(start_still_matrix(mesh.layout.num_planes(), num_vertices));
     if (!moving.gloss) return mesh;
     const Metadata part = Metadata::part(metadata.root()["gloss"], metadata.file());
     if (!part.root().contains("still_rows")) return mesh;
     CodedGloss& gloss = mesh.gloss.emplace();
     gloss.layout = moving.gloss->layout;
     gloss.num_rows = part.integer("still_rows", 1, num_vertices);
-    gloss.transfer = plain_transfer(start(gloss.layout.num_planes(), gloss.num_rows));
+    gloss.transfer = plain_transfer(start_still_matrix(gloss.layout.num_planes(), gloss.num_rows));
+    if (part.root().contains("still_frame_turns")) {
+        gloss.frame_turns = start_still_matrix(3, gloss.num_rows);
+    }
     return mesh;
 }
 

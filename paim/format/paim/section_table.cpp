@@ -48,8 +48,9 @@ class TableBuilder {
                 &moving.root_motion);
         }
         for (const SectionRow& row : moving.transfer->sections()) add_codec_row(row, false);
-        if (moving.gloss) add_gloss_rows(moving, section::kGlossTint, section::kGlossVertices);
         if (moving.gloss) {
+            add_gloss_rows(moving, section::kGlossTint, section::kGlossVertices);
+            add_turns(moving.gloss->frame_turns, section::kFrameTurns, section::kFrameTurnSteps);
             for (const SectionRow& row : moving.gloss->transfer->sections()) {
                 add_codec_row(row, true);
             }
@@ -90,14 +91,22 @@ class TableBuilder {
         }
     }
 
+    // A matrix that is a mean alone.
+    void add_planes(Tag tag, Tag tag_of_steps, LowRank& matrix, PredictedFrom neighbours) {
+        add(tag_of_steps, {1, matrix.num_planes}, Steps{&matrix});
+        add(tag, {matrix.num_planes, matrix.num_points}, MatrixValues{&matrix, &matrix.mean},
+            neighbours);
+    }
+
+    // Most files have none.
+    void add_turns(LowRank& turns, Tag tag, Tag tag_of_steps) {
+        if (turns.num_points > 0) {
+            add_planes(tag, tag_of_steps, turns, PredictedFrom::rows_of_gloss);
+        }
+    }
+
     void add_still(CodedMesh& mesh) {
         add(section::kStillTriangles, {size_of(mesh.topology.triangles.size()), 3}, &mesh.topology);
-        const auto add_planes = [&](Tag tag, Tag tag_of_steps, LowRank& matrix,
-                                    PredictedFrom neighbours) {
-            add(tag_of_steps, {1, matrix.num_planes}, Steps{&matrix});
-            add(tag, {matrix.num_planes, matrix.num_points}, MatrixValues{&matrix, &matrix.mean},
-                neighbours);
-        };
         add_planes(section::kStillPositions, section::kStillPositionSteps, mesh.positions,
                    PredictedFrom::vertices);
         add(section::kStillAlbedo, {size_of(mesh.albedo.values.size()), 3}, &mesh.albedo);
@@ -105,6 +114,8 @@ class TableBuilder {
                    PredictedFrom::vertices);
         if (!mesh.gloss) return;
         add_gloss_rows(mesh, section::kStillGlossTint, section::kStillGlossVertices);
+        add_turns(mesh.gloss->frame_turns, section::kStillFrameTurns,
+                  section::kStillFrameTurnSteps);
         add_planes(section::kStillGloss, section::kStillGlossSteps, mesh.gloss->transfer->matrix,
                    PredictedFrom::rows_of_gloss);
     }

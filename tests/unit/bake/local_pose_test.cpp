@@ -63,8 +63,9 @@ TEST(MoveToLocal, KeepsTheRadiance) {
     }
 }
 
-// Light and view that turn with the axes see the same glossy radiance; rows of a floor stay.
-TEST(MoveToLocal, TurnsBothSidesOfGlossyTransfer) {
+// Light that turns with the axes makes the same glossy radiance, whose directions are in frames of the
+// vertices; rows of a floor stay.
+TEST(MoveToLocal, TurnsTheLightOfGlossyTransfer) {
     const TransferLayout layout{TransferKind::glossy, 3, 3, 2};
     constexpr uint32_t kFollowing = 3;
     BakedPose before;
@@ -81,9 +82,8 @@ TEST(MoveToLocal, TurnsBothSidesOfGlossyTransfer) {
         for (size_t r = 0; r < kVertices; ++r) {
             const bool follows = r < kFollowing;
             const std::vector<double>& local_light = follows ? turned : light;
-            const Vec3d local_view = follows ? Vec3d(to_local * view) : view;
             // Some 40 products of about 1, rounded to float.
-            EXPECT_NEAR(gloss_radiance(layout, after.*member, r, local_light, local_view, 2),
+            EXPECT_NEAR(gloss_radiance(layout, after.*member, r, local_light, view, 2),
                         gloss_radiance(layout, before.*member, r, light, view, 2), 1e-5)
                 << r;
         }

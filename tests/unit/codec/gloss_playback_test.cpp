@@ -5,16 +5,18 @@
 
 #include "paim/codec/gloss_player.h"
 #include "paim/codec/playback.h"
+#include "paim/codec/rebuild_planes.h"
 #include "paim/sh/basis.h"
+#include "paim/sh/rotate.h"
 #include "tests/gloss_example.h"
 #include "tests/random_light.h"
 
 namespace paim {
 namespace {
 
-// tint · Σ_i t_oi L_i of the decoded transfer, [O][R].
-std::vector<Vec3d> expected_exit(const CodedGloss& gloss, double time, const DecodeLimits& limits,
-                                 const LightCoefficients& light) {
+// tint · Σ_i t_oi L_i of the decoded transfer, in the frames of the rows, [K][R].
+std::vector<Vec3d> expected_in_frames(const CodedGloss& gloss, double time,
+                                      const DecodeLimits& limits, const LightCoefficients& light) {
     TransferLayout layout;
     std::vector<float> transfer;
     gloss.transfer->make_player(gloss.layout)
@@ -31,6 +33,47 @@ std::vector<Vec3d> expected_exit(const CodedGloss& gloss, double time, const Dec
                 }
             }
             exit.push_back(sum.cwiseProduct(gloss.tint.at(r).cast<double>()));
+        }
+    }
+    return exit;
+}
+
+// Those of rows among the vertices.
+std::vector<float> of_rows(const CodedGloss& gloss, std::span<const float> positions) {
+    const size_t num_vertices = positions.size() / 3;
+    std::vector<float> rows;
+    for (size_t axis = 0; axis < 3; ++axis) {
+        for (uint32_t r = 0; r < gloss.num_rows; ++r) {
+            rows.push_back(positions[axis * num_vertices + gloss.vertex(r)]);
+        }
+    }
+    return rows;
+}
+
+// The same in local axes, [O][R]. Turned by matrices of rotation.
+// positions  of the pose
+std::vector<Vec3d> expected_exit(const CodedMesh& mesh, std::span<const float> positions,
+                                 double time, const DecodeLimits& limits,
+                                 const LightCoefficients& light) {
+    const CodedGloss& gloss = *mesh.gloss;
+    const std::vector<Vec3d> in_frames = expected_in_frames(gloss, time, limits, light);
+    std::vector<float> first_pose;
+    PositionDecoder().decode(mesh.positions, 0.0, 100, first_pose);
+    const auto frames = GlossFrames(faces_of_gloss(mesh.topology, gloss.vertices),
+                                    of_rows(gloss, first_pose), gloss.frame_turns)
+                            .at(of_rows(gloss, positions));
+    const auto out_bands = static_cast<int>(gloss.layout.out_bands);
+    std::vector<Vec3d> exit(static_cast<size_t>(out_bands * out_bands) * gloss.num_rows,
+                            Vec3d::Zero());
+    for (uint32_t r = 0; r < gloss.num_rows; ++r) {
+        const sh::Rotation rotation(out_bands, frames[r].cast<double>());
+        for (int k = 0; k < sh::num_even_coefficients(out_bands); ++k) {
+            const int l = sh::band_of_even(k);
+            for (int i = 0; i < 2 * l + 1; ++i) {
+                exit[static_cast<size_t>(l * l + i) * gloss.num_rows + r] +=
+                    rotation.block(l)(i, sh::even_coefficient(k) - l * l) *
+                    in_frames[static_cast<size_t>(k) * gloss.num_rows + r];
+            }
         }
     }
     return exit;
@@ -57,6 +100,8 @@ TEST(GlossPlayback, SumsOutgoingCoefficientsTowardsTheEye) {
     const LightCoefficients light = random_light(3, 5);
     for (GlossVariant& variant : gloss_variants()) {
         SCOPED_TRACE(variant.name);
+        CodedGloss& turned = *variant.asset.moving().gloss;
+        turned.frame_turns = frame_turns(std::vector<Vec3f>(turned.num_rows, Vec3f(0.5f, 1, -2)));
         const auto asset = std::make_shared<const Asset>(std::move(variant.asset));
         const CodedGloss& gloss = *asset->moving().gloss;
         Playback playback(asset), diffuse(asset);
@@ -69,7 +114,8 @@ TEST(GlossPlayback, SumsOutgoingCoefficientsTowardsTheEye) {
             if (time > 2.0) limits = {2, 2, 2, 1, 1, 1};
             playback.update(time, limits);
             diffuse.update(time, limits);
-            const std::vector<Vec3d> exit = expected_exit(gloss, time, limits, light);
+            const std::vector<Vec3d> exit =
+                expected_exit(asset->moving(), playback.local_positions(), time, limits, light);
             const double scale = largest_norm(exit);
             ASSERT_EQ(playback.exit_radiance().size(), exit.size());
             for (size_t j = 0; j < exit.size(); ++j) {

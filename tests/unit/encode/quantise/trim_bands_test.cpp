@@ -136,6 +136,37 @@ TEST_P(TrimBands, KeepsWhatStandsStillHas) {
 INSTANTIATE_TEST_SUITE_P(Kinds, TrimBands, testing::Bool(),
                          [](const auto& kind) { return kind.param ? "Integers" : "Floats"; });
 
+// Bands of outgoing radiance go in the same way, and those of light stay.
+TEST(TrimBands, TakesEmptyBandsOfOutgoingRadiance) {
+    const TransferLayout layout{TransferKind::glossy, 3, 1, 4};
+    for (uint32_t bands = 1; bands <= 4; ++bands) {
+        Asset asset = make_example_asset(layout);
+        LowRank& matrix = asset.moving().transfer->matrix;
+        const auto clear = [&](StoredValues& values) {
+            std::vector<float> kept = values.floats();
+            for (uint32_t plane = 0; plane < layout.num_planes(); ++plane) {
+                if (layout.output_band(plane) < bands) continue;
+                std::fill_n(kept.begin() + static_cast<ptrdiff_t>(plane * kNumVertices),
+                            kNumVertices, 0.0f);
+            }
+            values = kept;
+        };
+        clear(matrix.mean);
+        for (StoredValues& component : matrix.components) clear(component);
+        const Asset whole = asset;
+        trim_bands(asset);
+        const TransferLayout trimmed = asset.moving().layout;
+        EXPECT_EQ(trimmed.in_bands, 3u);
+        ASSERT_EQ(trimmed.out_bands, bands);
+        for (uint32_t o = 0; o < trimmed.num_outgoing(); ++o) {
+            for (uint32_t i = 0; i < 9; ++i) {
+                EXPECT_EQ(decode_plane(asset.moving(), Attribute::transfer, trimmed.plane(0, i, o)),
+                          decode_plane(whole.moving(), Attribute::transfer, layout.plane(0, i, o)));
+            }
+        }
+    }
+}
+
 TEST(TrimBands, TakesThemFromBasesOfClusters) {
     Asset asset = make_clustered_example(3);
     LowRank& matrix = asset.moving().transfer->matrix;

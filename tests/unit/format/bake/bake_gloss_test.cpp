@@ -54,8 +54,8 @@ BakedPose make_pose(uint64_t seed, size_t num_vertices, size_t num_rows) {
     pose.normals = random_values(3 * num_vertices, seed + 1);
     pose.transfer = random_values(num_vertices, seed + 2);
     pose.noise = random_values(num_vertices, seed + 3);
-    pose.gloss = random_values(16 * num_rows, seed + 4);
-    pose.gloss_noise = random_values(16 * num_rows, seed + 5);
+    pose.gloss = random_values(12 * num_rows, seed + 4);
+    pose.gloss_noise = random_values(12 * num_rows, seed + 5);
     pose.statistics.transfer_rms = {0.5};
     pose.statistics.noise_rms = {0.25};
     pose.statistics.gloss_rms = {0.75, 1.5};

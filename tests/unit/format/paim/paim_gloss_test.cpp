@@ -6,6 +6,7 @@
 #include "paim/base/error.h"
 #include "paim/base/file.h"
 #include "paim/codec/cpca/cpca_transfer.h"
+#include "paim/codec/gloss_frames.h"
 #include "paim/format/paim/paim_read.h"
 #include "paim/format/paim/paim_write.h"
 #include "paim/format/paim/prefixes.h"
@@ -25,6 +26,7 @@ void expect_equal_gloss(const CodedGloss& a, const CodedGloss& b) {
     EXPECT_EQ(a.transfer->matrix.components, b.transfer->matrix.components);
     EXPECT_EQ(a.transfer->matrix.weights, b.transfer->matrix.weights);
     EXPECT_EQ(a.transfer->matrix.steps, b.transfer->matrix.steps);
+    EXPECT_EQ(a.frame_turns, b.frame_turns);
     if (const auto* clusters = a.transfer.as<CpcaTransfer>()) {
         const auto* others = b.transfer.as<CpcaTransfer>();
         ASSERT_NE(others, nullptr);
@@ -61,12 +63,29 @@ TEST(PaimGloss, RoundTrips) {
     }
 }
 
+// Turns of frames are there or not, whatever numbers the transfer has.
+TEST(PaimGloss, HasTurnsOfFrames) {
+    const TemporaryDirectory directory;
+    const std::vector<Vec3f> turns{{0.5f, 0, -0.25f}, {0, 0, 0}, {1, 2, -1}, {0, 0.001f, 0}};
+    for (GlossVariant& variant : gloss_variants()) {
+        SCOPED_TRACE(variant.name);
+        CodedGloss& gloss = *variant.asset.moving().gloss;
+        gloss.frame_turns = frame_turns(std::span(turns).first(gloss.num_rows));
+        write_paim(directory / "x.paim", variant.asset);
+        const Asset read = read_paim(directory / "x.paim");
+        expect_equal_gloss(*read.moving().gloss, gloss);
+        EXPECT_EQ(gloss_asset(read).moving().frame_turns, gloss.frame_turns);
+    }
+}
+
 TEST(PaimGloss, OfStillPartsRoundTrips) {
     const TemporaryDirectory directory;
     for (const bool integers : {false, true}) {
         Asset gloss = make_gloss_alone(1, false, integers);
         const auto make_still = integers ? make_quantised_still : make_example_still;
         gloss.parts.push_back(make_still(gloss.moving().layout));
+        gloss.still()->frame_turns = frame_turns(
+            std::vector<Vec3f>(gloss.still()->topology.num_vertices, Vec3f(0.25f, -0.5f, 1.0f)));
         Asset whole = make_example_asset(2, 1);
         whole.parts.push_back(make_still(whole.moving().layout));
         whole = with_gloss(std::move(gloss), std::move(whole));
@@ -151,7 +170,7 @@ TEST(PaimGloss, RefusesNumbersThatDoNotFit) {
     expect_refusal([](CodedGloss& gloss) { gloss.num_rows = 5; }, "'rows': expected 1 to 4, got 5");
     expect_refusal([](CodedGloss& gloss) { gloss.layout.out_bands = 9; },
                    "'out_bands': expected 1 to 8, got 9");
-    expect_refusal([](CodedGloss& gloss) { gloss.layout.in_bands = 2; }, "expected 16 x 3");
+    expect_refusal([](CodedGloss& gloss) { gloss.layout.in_bands = 2; }, "expected 12 x 3");
     expect_refusal([](CodedGloss& gloss) { gloss.layout.channels = 2; }, "2 transfer channels");
     expect_refusal([](CodedGloss& gloss) { gloss.tint.values.resize(2); },
                    "expected 1 or 3 colours");

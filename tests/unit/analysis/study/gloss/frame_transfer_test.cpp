@@ -9,6 +9,7 @@
 #include "compressor/material/brdfs.h"
 #include "compressor/material/open_gloss.h"
 #include "paim/base/seed.h"
+#include "paim/mesh/tangent_frames.h"
 #include "paim/sh/basis.h"
 #include "poses/octopus.h"
 #include "tests/unit/material/lambertian.h"
@@ -21,74 +22,9 @@ using Eigen::Index;
 struct Octopus {
     PoseSet set = poses::make_octopus(1000, 1);
     Pose pose = set.load_pose(0);
-    std::vector<Eigen::Matrix3f> frames = vertex_frames(set.topology(), pose);
+    std::vector<Eigen::Matrix3f> frames =
+        TangentFrames(set.topology(), pose.positions).at(pose.positions, pose.normals);
 };
-
-TEST(VertexFrames, AreRotationsAlongTheFirstEdge) {
-    const Octopus octopus;
-    const auto& triangles = octopus.set.topology().triangles;
-    for (size_t v = 0; v < octopus.frames.size(); ++v) {
-        const Eigen::Matrix3f& frame = octopus.frames[v];
-        EXPECT_LT((frame.transpose() * frame - Eigen::Matrix3f::Identity()).norm(), 1e-5f);
-        EXPECT_GT(frame.determinant(), 0.0f);
-        EXPECT_LT((frame.col(2) - octopus.pose.normals[v]).norm(), 1e-6f);
-    }
-    const Triangle& t = triangles[0];
-    for (size_t c = 0; c < 3; ++c) {
-        const Vec3f edge = octopus.pose.positions[t[(c + 1) % 3]] - octopus.pose.positions[t[c]];
-        const Vec3f local = octopus.frames[t[c]].transpose() * edge;
-        EXPECT_GT(local.x(), 0.0f);
-        EXPECT_NEAR(local.y(), 0.0f, 1e-5f * edge.norm());
-    }
-}
-
-// The first edge is along the normal, there is none, or there is no normal: still rotations.
-TEST(VertexFrames, OfOddVerticesAreRotations) {
-    const Topology topology{4, {{0, 1, 2}}};
-    const Pose pose{{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {5, 5, 5}},
-                    {{0, 0, 1}, {0, 1, 0}, {0, 0, 0}, {1, 0, 0}}};
-    const auto frames = vertex_frames(topology, pose);
-    for (const Eigen::Matrix3f& frame : frames) {
-        EXPECT_LT((frame.transpose() * frame - Eigen::Matrix3f::Identity()).norm(), 1e-5f);
-        EXPECT_GT(frame.determinant(), 0.0f);
-    }
-    EXPECT_EQ(frames[2], Eigen::Matrix3f::Identity());
-}
-
-std::vector<Eigen::Matrix3f> turned_frames(const Octopus& octopus,
-                                           const std::vector<float>& angles) {
-    std::vector<Eigen::Matrix3f> frames = octopus.frames;
-    for (size_t v = 0; v < frames.size(); ++v) {
-        frames[v] *= Eigen::AngleAxisf(angles[v], Vec3f::UnitZ()).toRotationMatrix();
-    }
-    return frames;
-}
-
-TEST(AgreeingAngles, TurnTangentsToTheFirstAxis) {
-    const Octopus octopus;
-    for (const auto& frame : turned_frames(octopus, agreeing_angles(octopus.frames))) {
-        EXPECT_NEAR(frame(0, 1), 0.0f, 1e-5f);
-        EXPECT_GE(frame(0, 0), 0.0f);
-    }
-}
-
-// The same rays in turned frames.
-TEST(FrameTransfer, TurnsAboutTheNormals) {
-    const Octopus octopus;
-    const ExitFunctions exit(*parse_brdf("phong:0.5,10"), 4);
-    FrameTransferOptions options;
-    options.in_bands = 3;
-    options.rays = 64;
-    const std::vector<float> angles = agreeing_angles(octopus.frames);
-    const auto bake = [&](const std::vector<Eigen::Matrix3f>& frames) {
-        return frame_transfer(octopus.set.topology(), octopus.pose, frames, exit, options);
-    };
-    const Eigen::MatrixXf turned = in_turned_frames(bake(octopus.frames), angles, exit);
-    const Eigen::MatrixXf expected = bake(turned_frames(octopus, angles));
-    // Roundings of floats of about 1.
-    EXPECT_LT((turned - expected).cwiseAbs().maxCoeff(), 1e-5f);
-    EXPECT_GT((turned - bake(octopus.frames)).cwiseAbs().maxCoeff(), 0.1f);
-}
 
 // A Lambertian surface sends out its diffuse transfer in every direction.
 TEST(FrameTransfer, OfALambertianSurfaceIsTheDiffuseTransfer) {
@@ -156,11 +92,11 @@ TEST(FrameTransfer, OfAnOpenVertexIsItsQuadrature) {
     FrameTransferOptions options;
     options.in_bands = 5;
     options.rays = 1 << 16;
-    const Eigen::MatrixXf transfer =
-        frame_transfer(topology, pose, vertex_frames(topology, pose), exit, options);
+    const std::vector<Eigen::Matrix3f> frames(3, Eigen::Matrix3f::Identity());
+    const Eigen::MatrixXf transfer = frame_transfer(topology, pose, frames, exit, options);
     const std::vector<double> open = open_gloss(exit, 5);
     ASSERT_EQ(static_cast<size_t>(transfer.cols()), open.size());
-    // The first edge of vertex 0 is the x axis: its frame is that of the pose. The lattice has 256
+    // The lattice has 256
     // points along a side, which counts the jump at the horizon to 1 / 256 of a ring, and smooth
     // values far better: 1e-3 of the largest value.
     const double largest = *std::max_element(open.begin(), open.end());

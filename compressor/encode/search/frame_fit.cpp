@@ -1,0 +1,36 @@
+// Positions from which gloss has its frames, good enough for its error.
+#include "compressor/encode/search/frame_fit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "compressor/encode/search/feasibility.h"
+
+namespace paim {
+
+FramedSummary encode_for_frames(const EncodeTarget& target, double most,
+                                const std::function<TargetSummary(const EncodeTarget&)>& encode,
+                                const std::function<double()>& measure) {
+    // Errors of frames grow about as angles of faces do. A little less than that is asked for, so that
+    // one more try is mostly enough.
+    constexpr double kLess = 0.9;
+    constexpr int kMostTries = 8;
+    EncodeTarget next = target;
+    FramedSummary summary;
+    for (int tries = 0; tries < kMostTries; ++tries) {
+        summary.diffuse = encode(next);
+        summary.frame_error = measure();
+        if (summary.frame_error <= most) return summary;
+        if (summary.diffuse.float_positions) break;
+        const double angle_deg = std::min(summary.diffuse.error.shape.worst.normal_angle_deg,
+                                          summary.diffuse.targets.surface.normal_angle_deg);
+        next.normal_angle_deg = kLess * angle_deg * most / summary.frame_error;
+    }
+    throw_infeasible(fmt::format(
+        "normals of the decoded positions leave an error of {:.3g} % of the gloss, expected at most "
+        "{:.3g} %: allow a --max-gloss-error of {:.3g} % or more",
+        100.0 * summary.frame_error, 100.0 * most, 100.0 * summary.frame_error / kFrameShare));
+}
+
+}  // namespace paim
