@@ -96,6 +96,7 @@ ObjSurface read_surface(const std::filesystem::path& file, ObjScan& scan,
     if (!choice.from_libraries && choice.overrides.empty()) {
         note_unread_gloss(name, scan, libraries, surface);
     }
+    set_diffuse_shares(choice, scan, gloss, libraries);
     surface.materials =
         find_gloss(name, choice, scan, libraries, gloss, topology, polygons, positions);
     if (has_material_colours(options, scan)) {
