@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <memory>
 
 #include "compressor/io/obj_text.h"
@@ -222,17 +221,17 @@ GlossyMaterials count_glossy(const ObjScan& scan, const ObjLibraries& libraries)
     return glossy;
 }
 
-Materials find_gloss(const std::string& name, const GlossChoice& choice, const ObjScan& scan,
-                     const ObjLibraries& libraries, std::span<const GlossMaterial> of_library,
-                     const Topology& topology, std::span<const uint32_t> polygons,
-                     std::span<const Vec3f> positions) {
+FoundGloss find_gloss(const std::string& name, const GlossChoice& choice, const ObjScan& scan,
+                      const ObjLibraries& libraries, std::span<const GlossMaterial> of_library,
+                      const Topology& topology, std::span<const uint32_t> polygons,
+                      std::span<const Vec3f> positions) {
     const Chooser chooser(choice, scan, libraries, of_library);
     check_names(name, choice, scan, chooser);
     PAIM_CHECK_EQ(polygons.size(), topology.triangles.size());
-    Materials materials;
-    std::map<int32_t, uint16_t> numbers;  // of the materials of faces, in Materials
+    FoundGloss found;
+    Materials& materials = found.materials;
     const auto number_of = [&](int32_t named) {
-        const auto [known, is_new] = numbers.try_emplace(named, uint16_t{0});
+        const auto [known, is_new] = found.of_name.try_emplace(named, uint16_t{0});
         if (!is_new) return known->second;
         const GlossMaterial gloss = chooser.gloss(named);
         if (gloss.brdf.empty()) return known->second;
@@ -253,7 +252,7 @@ Materials find_gloss(const std::string& name, const GlossChoice& choice, const O
     if (!materials.empty()) {
         materials.of_vertex = materials_of_vertices(topology, positions, of_face);
     }
-    return materials;
+    return found;
 }
 
 }  // namespace paim

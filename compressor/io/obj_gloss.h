@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -59,14 +60,21 @@ struct GlossyMaterials {
 };
 GlossyMaterials count_glossy(const ObjScan& scan, const ObjLibraries& libraries);
 
+struct FoundGloss {
+    Materials materials;
+    // By the number of a name in the scan, or -1: 0, or m for materials.glossy[m − 1]. Names of
+    // triangles, all of them.
+    std::map<int32_t, uint16_t> of_name;
+};
+
 // name         of the OBJ file, for messages
 // of_library   gloss_of_libraries(); empty: they are not read
 // polygons     [F] the face of the file that each triangle is of
 // positions    [V] of the first pose
 // Error (usage) if an override names a material that the file does not use.
-Materials find_gloss(const std::string& name, const GlossChoice& choice, const ObjScan& scan,
-                     const ObjLibraries& libraries, std::span<const GlossMaterial> of_library,
-                     const Topology& topology, std::span<const uint32_t> polygons,
-                     std::span<const Vec3f> positions);
+FoundGloss find_gloss(const std::string& name, const GlossChoice& choice, const ObjScan& scan,
+                      const ObjLibraries& libraries, std::span<const GlossMaterial> of_library,
+                      const Topology& topology, std::span<const uint32_t> polygons,
+                      std::span<const Vec3f> positions);
 
 }  // namespace paim

@@ -32,9 +32,9 @@ ObjOptions with_gloss(const Lines& overrides = {}, bool from_libraries = true) {
     return options;
 }
 
-// The gloss of a mesh whose only material has these lines.
+// The gloss of a mesh whose only material has these lines and no diffuse reflection.
 Materials gloss_of(const std::string& lines, Lines* warnings = nullptr) {
-    const GlossyFiles files("newmtl a\n" + lines, "usemtl a\nf 1 2 3 4\n");
+    const GlossyFiles files("newmtl a\nKd 0\n" + lines, "usemtl a\nf 1 2 3 4\n");
     const ObjSequence sequence(files.files(), with_gloss());
     if (warnings != nullptr) *warnings = files.warnings(sequence);
     return sequence.materials();
