@@ -45,16 +45,22 @@ ordered_json tell(const CompressOptions& options, const Report& report) {
     return report_json(report);
 }
 
-// Says, before a long bake, what gloss will take. Error if the disk has no room for the bake.
-void check_space(const CompressOptions& options, const BakeInput& input,
-                 const std::filesystem::path& directory) {
-    const std::optional<GlossPlan> gloss = plan_gloss(input, options.bake);
+// Chooses the bands of the gloss once, for all that follows, and says what gloss will take.
+std::optional<GlossPlan> choose_gloss(const BakeInput& input, BakeOptions& options) {
+    std::optional<GlossPlan> plan = plan_gloss(input, options);
+    if (!plan) return plan;
+    options.gloss_in_bands = plan->layout.in_bands;
+    options.gloss_out_bands = plan->layout.out_bands;
+    print_notes(gloss_notes(*plan, input.last_pose() - input.first_pose() + 1));
+    return plan;
+}
+
+// Error, before a long bake, if the disk has no room for it.
+void check_space(const BakeOptions& options, const BakeInput& input,
+                 const std::optional<GlossPlan>& gloss, const std::filesystem::path& directory) {
     const uint64_t pose_bytes =
-        pose_file_bytes(input.poses().topology().num_vertices, input.layout(options.bake)) +
+        pose_file_bytes(input.poses().topology().num_vertices, input.layout(options)) +
         (gloss ? gloss->pose_file_bytes() : 0);
-    if (gloss) {
-        print_notes(gloss_notes(*gloss, input, input.last_pose() - input.first_pose() + 1));
-    }
     check_bake_space(directory, pose_bytes, input.first_pose(), input.last_pose());
 }
 
@@ -198,10 +204,11 @@ ordered_json tell_with_outliers(const CompressOptions& options, const BakeIdenti
     return json;
 }
 
-ordered_json run_bake(const CompressOptions& options) {
+ordered_json run_bake(CompressOptions options) {
     check_output(options.output);
     const BakeInput input(options);
-    check_space(options, input, options.output);
+    const std::optional<GlossPlan> gloss = choose_gloss(input, options.bake);
+    check_space(options.bake, input, gloss, options.output);
     const BakeReport report = bake(options, input, options.output);
     warn_of_mesh(report);
     return tell(options, report);
@@ -344,7 +351,15 @@ ordered_json run_with_chosen_rays(CompressOptions options, const BakeInput& inpu
     }
 }
 
-ordered_json run_both(const CompressOptions& options) {
+// All that is checked before a long bake whose result is encoded.
+void check_both(CompressOptions& options, const BakeInput& input,
+                const std::filesystem::path& directory) {
+    const std::optional<GlossPlan> gloss = choose_gloss(input, options.bake);
+    check_encoding_memory(options, input);
+    check_space(options.bake, input, gloss, directory);
+}
+
+ordered_json run_both(CompressOptions options) {
     check_paim_output(options.output);
     check_band_power(options, options.bake.bands);
     std::filesystem::path directory = options.output;
@@ -353,14 +368,12 @@ ordered_json run_both(const CompressOptions& options) {
     ordered_json json;
     if (options.chooses_rays) {
         const BakeInput input(options);
-        check_encoding_memory(options, input);
-        check_space(options, input, directory);
+        check_both(options, input, directory);
         json = run_with_chosen_rays(options, input, directory);
     } else {
         {
             const BakeInput input(options);
-            check_encoding_memory(options, input);
-            check_space(options, input, directory);
+            check_both(options, input, directory);
             const BakeReport report = bake(options, input, directory);
             warn_of_mesh(report);
             json["bake"] = tell(options, report);

@@ -60,6 +60,23 @@ TEST_F(Gloss, SaysBeforehandWhatItTakesAndLoses) {
     EXPECT_EQ(reader.read_pose(1).transfer, BakeReader(path("d.bake")).read_pose(1).transfer);
 }
 
+// Bands are chosen before the bake, for the material that needs most of each, and are then as if they
+// had been given.
+TEST_F(Gloss, ChosenBandsAreThoseThatAreSaid) {
+    const ToolResult chosen = bake("c.bake", {"--material", "phong:0.1,2"});
+    expect_success(chosen);
+    const TransferLayout layout = BakeReader(path("c.bake")).identity().gloss->layout;
+    EXPECT_LT(layout.in_bands, 5u);  // fewer than the most that are chosen
+    EXPECT_LT(layout.out_bands, 4u);
+    EXPECT_TRUE(contains(chosen.err, fmt::format("({} bands of light, {} of outgoing radiance, ",
+                                                 layout.in_bands, layout.out_bands)))
+        << chosen.err;
+    EXPECT_FALSE(contains(chosen.err, "leave out")) << chosen.err;
+    expect_success(bake("g.bake", {"--material", "phong:0.1,2", "--gloss-bands",
+                                   fmt::format("{},{}", layout.in_bands, layout.out_bands)}));
+    expect_same(contents_of(path("c.bake")), contents_of(path("g.bake")));
+}
+
 TEST_F(Gloss, MatteMaterialsBakeAsBefore) {
     expect_success(bake("d.bake"));
     expect_success(bake("m.bake", {"--material", "matte"}));
