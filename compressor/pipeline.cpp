@@ -48,7 +48,12 @@ ordered_json tell(const CompressOptions& options, const Report& report) {
 // Chooses the bands of the gloss once, for all that follows, and says what gloss will take.
 std::optional<GlossPlan> choose_gloss(const BakeInput& input, BakeOptions& options) {
     std::optional<GlossPlan> plan = plan_gloss(input, options);
-    if (!plan) return plan;
+    if (!plan) {
+        if (options.gloss_in_bands > 0) {
+            print_notes({"--gloss-bands is not used: no material is glossy"});
+        }
+        return plan;
+    }
     options.gloss_in_bands = plan->layout.in_bands;
     options.gloss_out_bands = plan->layout.out_bands;
     print_notes(gloss_notes(*plan, input.last_pose() - input.first_pose() + 1));
@@ -186,6 +191,13 @@ GlossReport<TargetReport> encode_glossy_target(const CompressOptions& options,
             {"gloss", summary.gloss}};
 }
 
+// Forgets the option, so that it is said once.
+void say_if_no_gloss_error(CompressOptions& options, bool has_gloss) {
+    if (!options.gloss_error || has_gloss) return;
+    print_notes({"--max-gloss-error is not used: the bake has no gloss"});
+    options.gloss_error.reset();
+}
+
 // Checks the option before long work starts, and says how its map was read.
 void check_band_power(const CompressOptions& options, uint32_t bands) {
     if (!options.target) return;
@@ -250,7 +262,7 @@ ordered_json run_glossy_encode(const CompressOptions& options, const EncodeOptio
     return tell_with_outliers(options, reader.identity(), report, report.diffuse.summary.outliers);
 }
 
-ordered_json run_encode(const CompressOptions& options, const std::filesystem::path& directory) {
+ordered_json run_encode(CompressOptions options, const std::filesystem::path& directory) {
     check_paim_output(options.output);
     const BakeReader reader(directory);
     EncodeOptions encode_options = options.encode;
@@ -260,9 +272,7 @@ ordered_json run_encode(const CompressOptions& options, const std::filesystem::p
     reader.verify_all();
     say_if_dark(reader);
     say_if_fewer_bands(encode_options, reader);
-    if (options.gloss_error && reader.gloss_rows().empty()) {
-        fmt::print(stderr, "note: --max-gloss-error is not used: the bake has no gloss\n");
-    }
+    say_if_no_gloss_error(options, !reader.gloss_rows().empty());
     if (reader.identity().gloss && reader.gloss_rows().empty()) {
         fmt::print(stderr,
                    "note: no vertex of the poses is glossy: the gloss of still meshes alone is not "
@@ -355,6 +365,7 @@ ordered_json run_with_chosen_rays(CompressOptions options, const BakeInput& inpu
 void check_both(CompressOptions& options, const BakeInput& input,
                 const std::filesystem::path& directory) {
     const std::optional<GlossPlan> gloss = choose_gloss(input, options.bake);
+    say_if_no_gloss_error(options, gloss && gloss->num_rows > 0);
     check_encoding_memory(options, input);
     check_space(options.bake, input, gloss, directory);
 }

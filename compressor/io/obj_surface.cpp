@@ -94,7 +94,10 @@ ObjSurface read_surface(const std::filesystem::path& file, ObjScan& scan,
         surface.warnings = std::move(libraries.warnings);
     }
     std::vector<GlossMaterial> gloss;
-    if (choice.from_libraries) gloss = gloss_of_libraries(name, libraries, surface.warnings);
+    if (choice.from_libraries) {
+        gloss = gloss_of_libraries(name, libraries, surface.warnings);
+        surface.has_library_gloss = count_glossy(scan, libraries).number > 0;
+    }
     if (!choice.from_libraries && choice.overrides.empty()) {
         note_unread_gloss(name, scan, libraries, surface);
     }
