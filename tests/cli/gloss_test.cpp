@@ -143,6 +143,15 @@ TEST_F(Gloss, FilesMeetBothErrors) {
     }
 }
 
+TEST_F(Gloss, ErrorsThatCannotBeMetNameIts) {
+    bake_glossy("g.bake");
+    const ToolResult result =
+        compress({"encode", path("g.bake"), "-o", path("x.paim"), "--max-error", "10%",
+                  "--max-gloss-error", "0.01%", "--quiet"});
+    expect_failure(result, 5, {"g.bake: a gloss error of 0.01 % is asked for", "gloss"});
+    EXPECT_FALSE(contains(result.err, "transfer error")) << result.err;
+}
+
 TEST_F(Gloss, FilesWithoutATargetHaveItToo) {
     bake_glossy("g.bake");
     const json report = encode("g.bake", "x.paim", {"--measure"});
