@@ -175,12 +175,15 @@ GlossReport<TargetReport> encode_glossy_target(const CompressOptions& options,
     const HiddenDirectory scratch(options.output, "parts");
     cli::Progress encoding("encoding", "%", 200, options.quiet || options.json);
     auto shown = shown_on(encoding);
-    const std::string gloss = "gloss";
-    const GlossySummary summary = encode_glossy_to_target(
-        reader, encode_options, target, scratch.path(), options.output,
-        [&](const char* part, const std::string& step, double done) {
-            shown(part + std::string(", ") + step, part == gloss ? 1.0 + done : done);
-        });
+    // The diffuse part is the first half, and the gloss the second; both together are the whole.
+    const auto done_of_two = [](const std::string& part, double done) {
+        return part == "gloss" ? 1.0 + done : part == "both" ? 2.0 * done : done;
+    };
+    const GlossySummary summary =
+        encode_glossy_to_target(reader, encode_options, target, scratch.path(), options.output,
+                                [&](const char* part, const std::string& step, double done) {
+                                    shown(part + std::string(", ") + step, done_of_two(part, done));
+                                });
     encoding.set_label("encoding");
     encoding.finish();
     return {options.output,

@@ -38,10 +38,11 @@ std::vector<uint32_t> rows_in_whole(const Asset& whole, const Asset& gloss, size
 class JoinedFiles : public SizedFiles {
   public:
     JoinedFiles(const BakeReader& bake, const BakeReader& gloss, const EncodeOptions& options,
-                const GlossyTarget& target, const fs::path& scratch)
+                const GlossyTarget& target, const fs::path& scratch, SearchProgress& progress)
         : bake_(bake),
           target_(target),
           scratch_(scratch),
+          progress_(progress),
           diffuse_(bake, options, target.diffuse.spectrum),
           gloss_(gloss, options, target.gloss.spectrum) {}
 
@@ -58,9 +59,13 @@ class JoinedFiles : public SizedFiles {
         gloss.size_bytes.reset();
         diffuse.transfer_error = gloss.transfer_error = error;
         const TransferFiles files{scratch_ / "diffuse.paim", scratch_ / "gloss.paim"};
+        progress_.begin(fmt::format("fitting the size, error {:.3g} %", 100.0 * error), kFitted);
         try {
-            GlossySummary summary{diffuse_.encode(diffuse, files.diffuse),
-                                  gloss_.encode(gloss, files.gloss), 0};
+            GlossySummary summary;
+            summary.diffuse = diffuse_.encode(diffuse, files.diffuse);
+            progress_.advance(kShareOfAFile);
+            summary.gloss = gloss_.encode(gloss, files.gloss);
+            progress_.advance(kShareOfAFile);
             summary.size_bytes = join_transfer_files(bake_, files, scratch_ / "made.paim");
             made_ = std::move(summary);
         } catch (const Error& failure) {
@@ -82,9 +87,14 @@ class JoinedFiles : public SizedFiles {
     }
 
   private:
+    // Of the whole when sizes are fitted, and of what is left of that for each of the two files of an
+    // error: some ten errors are tried.
+    static constexpr double kFitted = 0.97, kShareOfAFile = 0.12;
+
     const BakeReader& bake_;
     const GlossyTarget& target_;
     const fs::path scratch_;
+    SearchProgress& progress_;
     TargetSeries diffuse_, gloss_;
     double error_ = 0.0;
     std::optional<GlossySummary> made_, best_;
@@ -96,8 +106,12 @@ GlossySummary fit_both(const BakeReader& bake, const BakeReader& gloss,
                        const GlossyListener& on_step) {
     constexpr double kLargestError = 0.5;
     const uint64_t most_bytes = *target.diffuse.size_bytes;
-    JoinedFiles files(bake, gloss, options, target, scratch);
-    if (on_step) on_step("both", "fitting the size", 0.5);
+    SearchProgress progress([&](const std::string& step, double done) {
+        if (on_step) on_step("both", step, done);
+    });
+    progress.begin("reading", 0.2);
+    JoinedFiles files(bake, gloss, options, target, scratch, progress);
+    progress.advance(1.0);
     const double least_error = std::min(kLargestError, 1.02 * std::max(1e-4, files.least_error()));
     if (!find_smallest_error(files, least_error, kLargestError, most_bytes)) {
         const std::optional<uint64_t> bytes = files.make(kLargestError);
@@ -106,7 +120,9 @@ GlossySummary fit_both(const BakeReader& bake, const BakeReader& gloss,
             bake.directory().string(), most_bytes, 100.0 * kLargestError,
             bytes ? fmt::format("it takes {}", *bytes) : "there is no file"));
     }
+    progress.begin("writing", 1.0);
     write_paim(output, read_paim(files.best_path()));
+    progress.advance(1.0);
     return files.best();
 }
 
