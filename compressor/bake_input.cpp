@@ -70,7 +70,11 @@ BakeInput::BakeInput(const CompressOptions& options)
     std::tie(first_pose_, last_pose_) = parse_pose_range(options.poses, sequence_.num_poses());
     find_motion(options);
     if (options.floor) add_floor(options);
+    has_library_gloss_ = sequence_.has_library_gloss();
     for (const std::string& file : options.statics) add_still_mesh(options, file);
+    if (options.gloss.from_libraries && !has_library_gloss_) {
+        print_notes({"--gloss is not used: no library has a glossy material of a face"});
+    }
 }
 
 void BakeInput::add_floor(const CompressOptions& options) {
@@ -104,6 +108,7 @@ void BakeInput::add_still_mesh(const CompressOptions& options, const std::string
     const ObjSequence still({file}, obj_options);
     print_warnings(still.warnings());
     print_notes(still.notes());
+    has_library_gloss_ = has_library_gloss_ || still.has_library_gloss();
     surroundings_.still_mesh.add(still);
     const Topology& mesh = still.topology();
     const auto positions =

@@ -43,6 +43,7 @@ class BakeInput {
     Surroundings surroundings_;
     RootMotion root_motion_;
     std::vector<StillMeshReport> still_meshes_;
+    bool has_library_gloss_ = false;  // of poses or still meshes
 };
 
 }  // namespace paim

@@ -1,26 +1,37 @@
-// What glossy transfer will take, known before the bake.
+// What glossy transfer will be and take, known before the bake.
 #include "compressor/gloss_plan.h"
 
 #include <fmt/format.h>
 
-#include "compressor/bake/transfer_baker.h"
+#include <algorithm>
+
+#include "compressor/bake/gloss_reflections.h"
 #include "compressor/encode/memory/memory_plan.h"
-#include "compressor/material/brdfs.h"
-#include "compressor/material/gloss_bands.h"
 
 namespace paim {
 
 std::optional<GlossPlan> plan_gloss(const BakeInput& input, const BakeOptions& options) {
-    const PoseSource& poses = input.poses();
-    const StillMesh& still_mesh = input.surroundings().still_mesh;
-    const auto layout =
-        TransferBaker::gloss_layout(options, poses.albedo(), still_mesh, poses.materials());
-    if (!layout) return std::nullopt;
-    return GlossPlan{layout->in_frames(), glossy_rows(poses.topology(), poses.materials()).size()};
+    const Materials& materials = input.poses().materials();
+    const Materials& still_materials = input.surroundings().still_mesh.materials;
+    if (materials.empty() && still_materials.empty()) return std::nullopt;
+    const uint32_t in_bands = options.gloss_in_bands, out_bands = options.gloss_out_bands;
+    const GlossEnergies energies =
+        gloss_energies({&materials, &still_materials},
+                       std::max({in_bands, out_bands, kMostChosenInBands, kMostChosenOutBands}));
+    GlossPlan plan{
+        choose_gloss_layout(energies, in_bands, out_bands, input.layout(options).channels)
+            .in_frames(),
+        glossy_rows(input.poses().topology(), materials).size()};
+    for (const auto& [brdf, energy] : energies) {
+        const GlossBands bands =
+            given_gloss_bands(energy, plan.layout.in_bands, plan.layout.out_bands);
+        std::string note = gloss_bands_note(brdf, bands);
+        if (!note.empty()) plan.left_out.push_back(std::move(note));
+    }
+    return plan;
 }
 
-std::vector<std::string> gloss_notes(const GlossPlan& plan, const BakeInput& input,
-                                     uint64_t num_poses) {
+std::vector<std::string> gloss_notes(const GlossPlan& plan, uint64_t num_poses) {
     const TransferLayout& layout = plan.layout;
     std::vector<std::string> notes{fmt::format(
         "gloss: {} vertices of {} coefficients ({} bands of light, {} of outgoing radiance, {} {}) "
@@ -29,15 +40,7 @@ std::vector<std::string> gloss_notes(const GlossPlan& plan, const BakeInput& inp
         layout.channels == 1 ? "channel" : "channels",
         memory_text(plan.pose_file_bytes() * num_poses), num_poses,
         num_poses == 1 ? "pose" : "poses", memory_text(plan.memory_bytes()))};
-    Materials all = input.poses().materials();
-    all.append(input.surroundings().still_mesh.materials, 0, 0);
-    for (const GlossMaterial& material : all.glossy) {
-        const auto brdf = parse_brdf(material.brdf);
-        const GlossBands bands = given_gloss_bands(*brdf, layout.in_bands, layout.out_bands);
-        if (std::string note = gloss_bands_note(*brdf, bands); !note.empty()) {
-            notes.push_back(std::move(note));
-        }
-    }
+    notes.insert(notes.end(), plan.left_out.begin(), plan.left_out.end());
     return notes;
 }
 

@@ -1,4 +1,4 @@
-// What glossy transfer will take, known before the bake.
+// What glossy transfer will be and take, known before the bake.
 #pragma once
 
 #include <cstdint>
@@ -13,22 +13,27 @@ namespace paim {
 struct GlossPlan {
     TransferLayout layout;
     uint64_t num_rows = 0;  // of the poses (mesh/materials.h)
+    // What the bands leave out of the reflection of each BRDF, for users, if that can be seen.
+    std::vector<std::string> left_out = {};
 
     // Of its transfer (f32) and noise (f16) in the file of a pose.
     uint64_t pose_file_bytes() const { return 6 * values(); }
-    // While a pose is baked: two halves of floats.
-    uint64_t memory_bytes() const { return 8 * values(); }
+    // While a pose is baked: two halves of floats, in the axes of the pose.
+    uint64_t memory_bytes() const {
+        TransferLayout baked = layout;
+        baked.kind = TransferKind::glossy_in_pose;
+        return 8 * num_rows * baked.num_planes();
+    }
 
   private:
     uint64_t values() const { return num_rows * layout.num_planes(); }
 };
 
-// Nothing if no material is glossy. Errors: those of parse_brdf().
+// Chooses the bands that the options leave open; those who follow the plan set them in the options, so
+// that nobody chooses them again. Nothing if no material is glossy. Errors: those of parse_brdf().
 std::optional<GlossPlan> plan_gloss(const BakeInput& input, const BakeOptions& options);
 
-// Lines for users: what the plan takes for this many poses, and what the bands leave out of each
-// material's reflection, if that can be seen.
-std::vector<std::string> gloss_notes(const GlossPlan& plan, const BakeInput& input,
-                                     uint64_t num_poses);
+// Lines for users: what the plan takes for this many poses, and what its bands leave out.
+std::vector<std::string> gloss_notes(const GlossPlan& plan, uint64_t num_poses);
 
 }  // namespace paim

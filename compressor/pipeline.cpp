@@ -45,16 +45,27 @@ ordered_json tell(const CompressOptions& options, const Report& report) {
     return report_json(report);
 }
 
-// Says, before a long bake, what gloss will take. Error if the disk has no room for the bake.
-void check_space(const CompressOptions& options, const BakeInput& input,
-                 const std::filesystem::path& directory) {
-    const std::optional<GlossPlan> gloss = plan_gloss(input, options.bake);
-    const uint64_t pose_bytes =
-        pose_file_bytes(input.poses().topology().num_vertices, input.layout(options.bake)) +
-        (gloss ? gloss->pose_file_bytes() : 0);
-    if (gloss) {
-        print_notes(gloss_notes(*gloss, input, input.last_pose() - input.first_pose() + 1));
+// Chooses the bands of the gloss once, for all that follows, and says what gloss will take.
+std::optional<GlossPlan> choose_gloss(const BakeInput& input, BakeOptions& options) {
+    std::optional<GlossPlan> plan = plan_gloss(input, options);
+    if (!plan) {
+        if (options.gloss_in_bands > 0) {
+            print_notes({"--gloss-bands is not used: no material is glossy"});
+        }
+        return plan;
     }
+    options.gloss_in_bands = plan->layout.in_bands;
+    options.gloss_out_bands = plan->layout.out_bands;
+    print_notes(gloss_notes(*plan, input.last_pose() - input.first_pose() + 1));
+    return plan;
+}
+
+// Error, before a long bake, if the disk has no room for it.
+void check_space(const BakeOptions& options, const BakeInput& input,
+                 const std::optional<GlossPlan>& gloss, const std::filesystem::path& directory) {
+    const uint64_t pose_bytes =
+        pose_file_bytes(input.poses().topology().num_vertices, input.layout(options)) +
+        (gloss ? gloss->pose_file_bytes() : 0);
     check_bake_space(directory, pose_bytes, input.first_pose(), input.last_pose());
 }
 
@@ -167,12 +178,15 @@ GlossReport<TargetReport> encode_glossy_target(const CompressOptions& options,
     const HiddenDirectory scratch(options.output, "parts");
     cli::Progress encoding("encoding", "%", 200, options.quiet || options.json);
     auto shown = shown_on(encoding);
-    const std::string gloss = "gloss";
-    const GlossySummary summary = encode_glossy_to_target(
-        reader, encode_options, target, scratch.path(), options.output,
-        [&](const char* part, const std::string& step, double done) {
-            shown(part + std::string(", ") + step, part == gloss ? 1.0 + done : done);
-        });
+    // The diffuse part is the first half, and the gloss the second; both together are the whole.
+    const auto done_of_two = [](const std::string& part, double done) {
+        return part == "gloss" ? 1.0 + done : part == "both" ? 2.0 * done : done;
+    };
+    const GlossySummary summary =
+        encode_glossy_to_target(reader, encode_options, target, scratch.path(), options.output,
+                                [&](const char* part, const std::string& step, double done) {
+                                    shown(part + std::string(", ") + step, done_of_two(part, done));
+                                });
     encoding.set_label("encoding");
     encoding.finish();
     return {options.output,
@@ -183,6 +197,13 @@ GlossReport<TargetReport> encode_glossy_target(const CompressOptions& options,
             {"gloss", summary.gloss},
             summary.both.frames,
             summary.gloss_error()};
+}
+
+// Forgets the option, so that it is said once.
+void say_if_no_gloss_error(CompressOptions& options, bool has_gloss) {
+    if (!options.gloss_error || has_gloss) return;
+    print_notes({"--max-gloss-error is not used: the bake has no gloss"});
+    options.gloss_error.reset();
 }
 
 // Checks the option before long work starts, and says how its map was read.
@@ -203,10 +224,11 @@ ordered_json tell_with_outliers(const CompressOptions& options, const BakeIdenti
     return json;
 }
 
-ordered_json run_bake(const CompressOptions& options) {
+ordered_json run_bake(CompressOptions options) {
     check_output(options.output);
     const BakeInput input(options);
-    check_space(options, input, options.output);
+    const std::optional<GlossPlan> gloss = choose_gloss(input, options.bake);
+    check_space(options.bake, input, gloss, options.output);
     const BakeReport report = bake(options, input, options.output);
     warn_of_mesh(report);
     return tell(options, report);
@@ -248,7 +270,7 @@ ordered_json run_glossy_encode(const CompressOptions& options, const EncodeOptio
     return tell_with_outliers(options, reader.identity(), report, report.diffuse.summary.outliers);
 }
 
-ordered_json run_encode(const CompressOptions& options, const std::filesystem::path& directory) {
+ordered_json run_encode(CompressOptions options, const std::filesystem::path& directory) {
     check_paim_output(options.output);
     const BakeReader reader(directory);
     EncodeOptions encode_options = options.encode;
@@ -258,9 +280,7 @@ ordered_json run_encode(const CompressOptions& options, const std::filesystem::p
     reader.verify_all();
     say_if_dark(reader);
     say_if_fewer_bands(encode_options, reader);
-    if (options.gloss_error && reader.gloss_rows().empty()) {
-        fmt::print(stderr, "note: --max-gloss-error is not used: the bake has no gloss\n");
-    }
+    say_if_no_gloss_error(options, !reader.gloss_rows().empty());
     if (reader.identity().gloss && reader.gloss_rows().empty()) {
         fmt::print(stderr,
                    "note: no vertex of the poses is glossy: the gloss of still meshes alone is not "
@@ -349,7 +369,16 @@ ordered_json run_with_chosen_rays(CompressOptions options, const BakeInput& inpu
     }
 }
 
-ordered_json run_both(const CompressOptions& options) {
+// All that is checked before a long bake whose result is encoded.
+void check_both(CompressOptions& options, const BakeInput& input,
+                const std::filesystem::path& directory) {
+    const std::optional<GlossPlan> gloss = choose_gloss(input, options.bake);
+    say_if_no_gloss_error(options, gloss && gloss->num_rows > 0);
+    check_encoding_memory(options, input);
+    check_space(options.bake, input, gloss, directory);
+}
+
+ordered_json run_both(CompressOptions options) {
     check_paim_output(options.output);
     check_band_power(options, options.bake.bands);
     std::filesystem::path directory = options.output;
@@ -358,14 +387,12 @@ ordered_json run_both(const CompressOptions& options) {
     ordered_json json;
     if (options.chooses_rays) {
         const BakeInput input(options);
-        check_encoding_memory(options, input);
-        check_space(options, input, directory);
+        check_both(options, input, directory);
         json = run_with_chosen_rays(options, input, directory);
     } else {
         {
             const BakeInput input(options);
-            check_encoding_memory(options, input);
-            check_space(options, input, directory);
+            check_both(options, input, directory);
             const BakeReport report = bake(options, input, directory);
             warn_of_mesh(report);
             json["bake"] = tell(options, report);

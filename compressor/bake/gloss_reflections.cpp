@@ -5,7 +5,6 @@
 #include <set>
 
 #include "compressor/material/brdfs.h"
-#include "compressor/material/gloss_bands.h"
 #include "compressor/material/open_gloss.h"
 
 namespace paim {
@@ -31,15 +30,21 @@ GlossReflections::GlossReflections(const TransferLayout& layout,
     }
 }
 
-TransferLayout choose_gloss_layout(const std::vector<const Materials*>& meshes, uint32_t in_bands,
+GlossEnergies gloss_energies(const std::vector<const Materials*>& meshes, uint32_t most_bands) {
+    GlossEnergies energies;
+    for (const std::string& text : brdfs_of(meshes)) {
+        energies.emplace(text, gloss_energy(*parse_brdf(text), most_bands));
+    }
+    return energies;
+}
+
+TransferLayout choose_gloss_layout(const GlossEnergies& energies, uint32_t in_bands,
                                    uint32_t out_bands, uint32_t channels) {
     GlossBands bands{in_bands, out_bands};
-    if (in_bands == 0 || out_bands == 0) {
-        for (const std::string& text : brdfs_of(meshes)) {
-            const GlossBands needed = choose_gloss_bands(*parse_brdf(text));
-            if (in_bands == 0) bands.in = std::max(bands.in, needed.in);
-            if (out_bands == 0) bands.out = std::max(bands.out, needed.out);
-        }
+    for (const auto& [brdf, energy] : energies) {
+        const GlossBands needed = choose_gloss_bands(energy);
+        if (in_bands == 0) bands.in = std::max(bands.in, needed.in);
+        if (out_bands == 0) bands.out = std::max(bands.out, needed.out);
     }
     return {TransferKind::glossy_in_pose, bands.in, channels, bands.out};
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "compressor/material/exit_functions.h"
+#include "compressor/material/gloss_bands.h"
 #include "paim/mesh/materials.h"
 #include "paim/transfer/layout.h"
 
@@ -31,10 +32,15 @@ class GlossReflections {
     std::map<std::string, GlossReflection> by_brdf_;
 };
 
+// The energy of the reflection of each BRDF of the materials (material/gloss_bands.h), up to this many
+// bands; by the BRDF in words. Errors: those of parse_brdf().
+using GlossEnergies = std::map<std::string, GlossEnergy>;
+GlossEnergies gloss_energies(const std::vector<const Materials*>& meshes, uint32_t most_bands);
+
 // The layout of the glossy transfer of all meshes, in the axes of the pose. Numbers of bands that are 0 are chosen for the
 // material that needs most.
-// materials  with at least one glossy one. Errors: those of parse_brdf()
-TransferLayout choose_gloss_layout(const std::vector<const Materials*>& meshes, uint32_t in_bands,
+// energies  of at least one BRDF, up to as many bands as may be chosen
+TransferLayout choose_gloss_layout(const GlossEnergies& energies, uint32_t in_bands,
                                    uint32_t out_bands, uint32_t channels);
 
 // Whether any tint is not grey.

@@ -338,9 +338,14 @@ std::optional<TransferLayout> TransferBaker::gloss_layout(const BakeOptions& opt
                                                           const StillMesh& still_mesh,
                                                           const Materials& materials) {
     if (materials.empty() && still_mesh.materials.empty()) return {};
-    const TransferLayout diffuse = bake_layout(options, albedo, still_mesh, materials);
-    return choose_gloss_layout({&materials, &still_mesh.materials}, options.gloss_in_bands,
-                               options.gloss_out_bands, diffuse.channels);
+    const uint32_t channels = bake_layout(options, albedo, still_mesh, materials).channels;
+    const uint32_t in_bands = options.gloss_in_bands, out_bands = options.gloss_out_bands;
+    if (in_bands > 0 && out_bands > 0) {
+        return TransferLayout{TransferKind::glossy, in_bands, channels, out_bands};
+    }
+    const GlossEnergies energies = gloss_energies(
+        {&materials, &still_mesh.materials}, std::max(kMostChosenInBands, kMostChosenOutBands));
+    return choose_gloss_layout(energies, in_bands, out_bands, channels);
 }
 
 BakedPose TransferBaker::bake_still_mesh() {

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <memory>
 
 #include "compressor/io/obj_text.h"
@@ -85,14 +84,20 @@ class Chooser {
         if (material != nullptr && !of_library_.empty()) {
             found = &of_library_[static_cast<size_t>(material - libraries_.materials.data())];
         }
+        const GlossChoice::Override* const chosen = override_of(named);
+        if (chosen != nullptr) return {chosen->brdf, Vec3f::Ones()};
+        return found != nullptr ? *found : GlossMaterial{};
+    }
+
+    // The override that counts for a face's material, or nullptr: that of the library.
+    const GlossChoice::Override* override_of(int32_t named) const {
         const GlossChoice::Override* chosen = nullptr;
         for (const GlossChoice::Override& entry : choice_.overrides) {
             const bool counts = entry.material.empty() ? chosen == nullptr || is_of_mesh(*chosen)
                                                        : has_name(named, entry.material);
             if (counts) chosen = &entry;
         }
-        if (chosen != nullptr) return {chosen->brdf, Vec3f::Ones()};
-        return found != nullptr ? *found : GlossMaterial{};
+        return chosen;
     }
 
     bool has_name(int32_t named, const std::string& name) const {
@@ -114,6 +119,12 @@ class Chooser {
     const ObjLibraries& libraries_;
     std::span<const GlossMaterial> of_library_;
 };
+
+// The share of a material's Kd that stays diffuse next to the gloss of its library.
+double diffuse_share(const ObjMaterial& material, const GlossMaterial& gloss) {
+    if (gloss.brdf.empty() || !material.metallic || !material.roughness) return 1.0;
+    return 1.0 - std::clamp(*material.metallic, 0.0, 1.0);
+}
 
 // Error if a name is none of the materials of faces.
 void check_names(const std::string& name, const GlossChoice& choice, const ObjScan& scan,
@@ -158,18 +169,16 @@ GlossChoice::Override parse_gloss_override(const std::string& text) {
     return entry;
 }
 
-std::vector<GlossMaterial> gloss_of_libraries(const std::string& name, ObjLibraries& libraries,
+std::vector<GlossMaterial> gloss_of_libraries(const std::string& name,
+                                              const ObjLibraries& libraries,
                                               std::vector<std::string>& warnings) {
     std::vector<GlossMaterial> gloss;
     size_t num_clamped = 0, num_alone = 0;
-    for (ObjMaterial& material : libraries.materials) {
+    for (const ObjMaterial& material : libraries.materials) {
         Clamp clamp;
         gloss.push_back(gloss_of(material, clamp));
         if (clamp.num_clamped() > 0) ++num_clamped;
         if (material.metallic && !material.roughness) ++num_alone;
-        if (material.metallic && material.roughness && !gloss.back().brdf.empty()) {
-            material.diffuse_share = 1.0 - std::clamp(*material.metallic, 0.0, 1.0);
-        }
     }
     if (num_clamped > 0) {
         warnings.push_back(fmt::format(
@@ -181,6 +190,18 @@ std::vector<GlossMaterial> gloss_of_libraries(const std::string& name, ObjLibrar
             fmt::format("{}: Pm of {} materials ignored, as they have no Pr", name, num_alone));
     }
     return gloss;
+}
+
+void set_diffuse_shares(const GlossChoice& choice, const ObjScan& scan,
+                        std::span<const GlossMaterial> of_library, ObjLibraries& libraries) {
+    if (of_library.empty()) return;
+    const Chooser chooser(choice, scan, libraries, of_library);
+    for (size_t named = 0; named < libraries.of_name.size(); ++named) {
+        const int32_t index = libraries.of_name[named];
+        if (index < 0 || chooser.override_of(static_cast<int32_t>(named)) != nullptr) continue;
+        ObjMaterial& material = libraries.materials[static_cast<size_t>(index)];
+        material.diffuse_share = diffuse_share(material, of_library[static_cast<size_t>(index)]);
+    }
 }
 
 GlossyMaterials count_glossy(const ObjScan& scan, const ObjLibraries& libraries) {
@@ -200,17 +221,17 @@ GlossyMaterials count_glossy(const ObjScan& scan, const ObjLibraries& libraries)
     return glossy;
 }
 
-Materials find_gloss(const std::string& name, const GlossChoice& choice, const ObjScan& scan,
-                     const ObjLibraries& libraries, std::span<const GlossMaterial> of_library,
-                     const Topology& topology, std::span<const uint32_t> polygons,
-                     std::span<const Vec3f> positions) {
+FoundGloss find_gloss(const std::string& name, const GlossChoice& choice, const ObjScan& scan,
+                      const ObjLibraries& libraries, std::span<const GlossMaterial> of_library,
+                      const Topology& topology, std::span<const uint32_t> polygons,
+                      std::span<const Vec3f> positions) {
     const Chooser chooser(choice, scan, libraries, of_library);
     check_names(name, choice, scan, chooser);
     PAIM_CHECK_EQ(polygons.size(), topology.triangles.size());
-    Materials materials;
-    std::map<int32_t, uint16_t> numbers;  // of the materials of faces, in Materials
+    FoundGloss found;
+    Materials& materials = found.materials;
     const auto number_of = [&](int32_t named) {
-        const auto [known, is_new] = numbers.try_emplace(named, uint16_t{0});
+        const auto [known, is_new] = found.of_name.try_emplace(named, uint16_t{0});
         if (!is_new) return known->second;
         const GlossMaterial gloss = chooser.gloss(named);
         if (gloss.brdf.empty()) return known->second;
@@ -231,7 +252,7 @@ Materials find_gloss(const std::string& name, const GlossChoice& choice, const O
     if (!materials.empty()) {
         materials.of_vertex = materials_of_vertices(topology, positions, of_face);
     }
-    return materials;
+    return found;
 }
 
 }  // namespace paim

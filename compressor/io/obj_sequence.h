@@ -68,6 +68,8 @@ class ObjSequence : public PoseSource {
     const std::vector<std::string>& notes() const { return surface_.notes; }
     // Of the first file.
     const VertexColours& vertex_colours() const { return surface_.vertex_colours; }
+    // Whether the libraries have gloss that was asked for (ObjSurface).
+    bool has_library_gloss() const { return surface_.has_library_gloss; }
 
   private:
     Triangulation check_files();

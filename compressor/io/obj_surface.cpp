@@ -7,6 +7,7 @@
 
 #include "compressor/io/obj_albedo.h"
 #include "compressor/io/obj_libraries.h"
+#include "compressor/io/obj_reflectance.h"
 #include "compressor/io/obj_text.h"
 #include "compressor/io/obj_texture.h"
 
@@ -37,11 +38,11 @@ void warn_of_unread_textures(const std::string& name, const ObjLibraries& librar
                                    name, num_textures, texture));
 }
 
-// Albedo and texture, where they come from materials.
-void find_material_colours(const std::string& name, const ObjScan& scan,
-                           const ObjSurfaceOptions& options, const ObjLibraries& libraries,
-                           const Topology& topology, std::span<const uint32_t> polygons,
-                           ObjSurface& surface) {
+// Albedo and texture, where they come from materials. Returns the colours of the faces of the scan.
+std::vector<Vec3d> find_material_colours(const std::string& name, const ObjScan& scan,
+                                         const ObjSurfaceOptions& options,
+                                         const ObjLibraries& libraries, const Topology& topology,
+                                         std::span<const uint32_t> polygons, ObjSurface& surface) {
     std::vector<Vec3d> colours = colours_of_faces(name, scan, libraries, surface.warnings);
     if (!options.textures) {
         warn_of_unread_textures(name, libraries, surface.warnings);
@@ -50,6 +51,7 @@ void find_material_colours(const std::string& name, const ObjScan& scan,
             read_texture(name, scan, libraries, topology, polygons, colours, surface.warnings);
     }
     surface.albedo = albedo_of_faces(scan, colours);
+    return colours;
 }
 
 Albedo find_albedo(const std::string& name, ObjScan& scan, const std::string& exporter,
@@ -92,17 +94,28 @@ ObjSurface read_surface(const std::filesystem::path& file, ObjScan& scan,
         surface.warnings = std::move(libraries.warnings);
     }
     std::vector<GlossMaterial> gloss;
-    if (choice.from_libraries) gloss = gloss_of_libraries(name, libraries, surface.warnings);
+    if (choice.from_libraries) {
+        gloss = gloss_of_libraries(name, libraries, surface.warnings);
+        surface.has_library_gloss = count_glossy(scan, libraries).number > 0;
+    }
     if (!choice.from_libraries && choice.overrides.empty()) {
         note_unread_gloss(name, scan, libraries, surface);
     }
-    surface.materials =
+    set_diffuse_shares(choice, scan, gloss, libraries);
+    FoundGloss found =
         find_gloss(name, choice, scan, libraries, gloss, topology, polygons, positions);
+    std::vector<Vec3d> colours;
     if (has_material_colours(options, scan)) {
-        find_material_colours(name, scan, options, libraries, topology, polygons, surface);
+        colours =
+            find_material_colours(name, scan, options, libraries, topology, polygons, surface);
     } else {
         surface.albedo = find_albedo(name, scan, exporter, options, surface);
     }
+    for (std::string& warning :
+         reflectance_warnings(name, scan, libraries, found, colours, surface.albedo)) {
+        surface.warnings.push_back(std::move(warning));
+    }
+    surface.materials = std::move(found.materials);
     return surface;
 }
 

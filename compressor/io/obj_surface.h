@@ -35,6 +35,8 @@ struct ObjSurface {
     VertexColours vertex_colours;
     Materials materials;
     Texture texture;
+    // Whether a material of faces is glossy in the libraries. False if their gloss is not read.
+    bool has_library_gloss = false;
     // Lines, each with the name of the file.
     std::vector<std::string> warnings;
     std::vector<std::string> notes;  // about what may well be meant

@@ -46,9 +46,9 @@ class BandEnergy {
     double all_ = 0.0;
 };
 
-uint32_t fewest(const std::vector<double>& left_out, double max_error) {
+uint32_t fewest(const std::vector<double>& left_out, double max_error, uint32_t most) {
     uint32_t bands = 1;
-    while (bands + 1 < left_out.size() && left_out[bands] > max_error) ++bands;
+    while (bands < most && left_out[bands] > max_error) ++bands;
     return bands;
 }
 
@@ -88,29 +88,25 @@ GlossEnergy gloss_energy(const Brdf& brdf, uint32_t most_bands) {
     return {in.left_out(), out.left_out()};
 }
 
-GlossBands choose_gloss_bands(const Brdf& brdf, double max_error, uint32_t most_in,
+GlossBands choose_gloss_bands(const GlossEnergy& energy, double max_error, uint32_t most_in,
                               uint32_t most_out) {
-    PAIM_CHECK(most_in >= 1 && most_out >= 1);
-    GlossEnergy energy = gloss_energy(brdf, std::max(most_in, most_out));
-    energy.left_out_in.resize(most_in + 1);
-    energy.left_out_out.resize(most_out + 1);
-    GlossBands bands{fewest(energy.left_out_in, max_error), fewest(energy.left_out_out, max_error)};
-    bands.error_in = energy.left_out_in[bands.in];
-    bands.error_out = energy.left_out_out[bands.out];
-    return bands;
+    PAIM_CHECK(most_in < energy.left_out_in.size() && most_out < energy.left_out_out.size());
+    return given_gloss_bands(energy, fewest(energy.left_out_in, max_error, most_in),
+                             fewest(energy.left_out_out, max_error, most_out));
 }
 
-GlossBands given_gloss_bands(const Brdf& brdf, uint32_t in, uint32_t out) {
-    const GlossEnergy energy = gloss_energy(brdf, std::max(in, out));
+GlossBands given_gloss_bands(const GlossEnergy& energy, uint32_t in, uint32_t out) {
+    PAIM_CHECK(in >= 1 && in < energy.left_out_in.size());
+    PAIM_CHECK(out >= 1 && out < energy.left_out_out.size());
     return {in, out, energy.left_out_in[in], energy.left_out_out[out]};
 }
 
-std::string gloss_bands_note(const Brdf& brdf, const GlossBands& bands, double max_error) {
+std::string gloss_bands_note(const std::string& brdf, const GlossBands& bands, double max_error) {
     if (bands.error_in <= max_error && bands.error_out <= max_error) return {};
     return fmt::format(
         "{}: {} bands of light leave out {:.0f} % and {} bands of outgoing radiance {:.0f} % of the "
         "energy of the reflection, so that it will look blurred",
-        brdf.text(), bands.in, 100.0 * bands.error_in, bands.out, 100.0 * bands.error_out);
+        brdf, bands.in, 100.0 * bands.error_in, bands.out, 100.0 * bands.error_out);
 }
 
 }  // namespace paim

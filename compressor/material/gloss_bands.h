@@ -38,16 +38,20 @@ struct GlossBands {
 };
 
 // The fewest bands that each leave out at most this share of the energy, or as many as there may be.
-GlossBands choose_gloss_bands(const Brdf& brdf, double max_error = kDefaultGlossError,
+// energy  of at least as many bands (checked)
+GlossBands choose_gloss_bands(const GlossEnergy& energy, double max_error = kDefaultGlossError,
                               uint32_t most_in = kMostChosenInBands,
                               uint32_t most_out = kMostChosenOutBands);
 
-// What so many bands leave out. in, out  at least 1
-GlossBands given_gloss_bands(const Brdf& brdf, uint32_t in, uint32_t out);
+// What so many bands leave out.
+// energy   of at least as many bands (checked)
+// in, out  at least 1
+GlossBands given_gloss_bands(const GlossEnergy& energy, uint32_t in, uint32_t out);
 
 // For users: what the bands leave out of the reflection, if it is more than this share of its energy;
 // otherwise empty.
-std::string gloss_bands_note(const Brdf& brdf, const GlossBands& bands,
+// brdf  in words
+std::string gloss_bands_note(const std::string& brdf, const GlossBands& bands,
                              double max_error = kDefaultGlossError);
 
 }  // namespace paim

@@ -22,26 +22,26 @@ CpuVertices::CpuVertices(std::shared_ptr<const Asset> asset, const DecodeLimits&
       playback_(std::move(asset)),
       most_(lower_of(limits, all_of(playback_.asset().moving()))) {
     playback_.keep_white_radiance(true);
-    playback_.keep_exit_radiance(true);
 }
 
 void CpuVertices::write(double time, const DecodeLimits& limits, const LightCoefficients* light,
                         std::span<const Changes> changes, std::span<SurfaceMesh> parts) {
-    const auto has_colors = [](const Changes& of) { return of.colors; };
-    const bool is_lit = std::any_of(changes.begin(), changes.end(), has_colors);
-    if (is_lit && light->values != light_) {
+    const auto is_lit = [](const Changes& of) { return of.colors || of.gloss; };
+    const auto is_glossy = [](const Changes& of) { return of.gloss; };
+    if (std::any_of(changes.begin(), changes.end(), is_lit) && light->values != light_) {
         playback_.set_light(DistantLight(*light));
         light_ = light->values;
     }
+    playback_.keep_exit_radiance(std::any_of(changes.begin(), changes.end(), is_glossy));
     playback_.update(time, lower_of(limits, most_));
     for (size_t j = 0; j < parts.size(); ++j) {
         if (changes[j].positions) parts[j].upload_positions(playback_.local_positions(j));
+        if (changes[j].gloss) parts[j].gloss()->upload(playback_.exit_radiance(j));
         if (!changes[j].colors) continue;
         parts[j].upload_colors(playback_.radiance(j));
         if (parts[j].has_white_radiance()) {
             parts[j].upload_white_radiance(playback_.white_radiance(j));
         }
-        if (parts[j].gloss() != nullptr) parts[j].gloss()->upload(playback_.exit_radiance(j));
     }
 }
 

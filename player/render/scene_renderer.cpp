@@ -78,7 +78,8 @@ void SceneRenderer::draw(const Frame& frame, float aspect) {
 
 void SceneRenderer::draw_instance(const Frame& frame, const Instance& instance, float aspect) {
     const double time = time_of(frame, instance, asset_->num_poses());
-    vertices_->update(time, frame.limits, frame.colors ? nullptr : &frame.light, surfaces_);
+    vertices_->update(time, frame.limits, frame.colors ? nullptr : &frame.light,
+                      frame.gloss != GlossDetail::none, surfaces_);
     if (frame.colors) {
         const PartColors& colors = frame.colors(time);
         vertices_->forget_colors();

@@ -35,9 +35,8 @@ void ShaderVertices::write(double time, const DecodeLimits& limits, const LightC
             meshes_[j]->decode(time, limits, parts[j].positions());
             is_placed_[j] = false;
         }
-        if (!changes[j].colors) continue;
-        meshes_[j]->light(time, limits, *light, parts[j].lit());
-        if (glosses_[j] == nullptr) continue;
+        if (changes[j].colors) meshes_[j]->light(time, limits, *light, parts[j].lit());
+        if (!changes[j].gloss) continue;
         // Outgoing coefficients are few, and are computed on the CPU, as are the frames.
         const CodedMesh& mesh = asset_->parts[j];
         const double own_time = mesh.num_poses() == 1 ? 0.0 : time;

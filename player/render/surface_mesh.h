@@ -42,15 +42,16 @@ class SurfaceMesh {
     void upload_colors(std::span<const Vec3f> colors);
     void upload_white_radiance(std::span<const Vec3f> radiance);
 
-    // How often positions, and radiance, were written (VertexSource), so that copies know when they
-    // are out of date.
+    // How often positions, radiance and outgoing coefficients were written (VertexSource), so that
+    // copies know when they are out of date.
     struct Writes {
-        uint64_t positions = 0, radiance = 0;
+        uint64_t positions = 0, radiance = 0, gloss = 0;
     };
     const Writes& writes() const { return writes_; }
-    void count_writes(bool positions, bool radiance) {
+    void count_writes(bool positions, bool radiance, bool gloss) {
         writes_.positions += positions ? 1 : 0;
         writes_.radiance += radiance ? 1 : 0;
+        writes_.gloss += gloss ? 1 : 0;
     }
 
     // Binds a vertex array and makes positions and colours its attributes 0 and 1.

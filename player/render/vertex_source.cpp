@@ -2,6 +2,7 @@
 #include "player/render/vertex_source.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "paim/base/error.h"
 #include "player/gl/context.h"
@@ -11,7 +12,10 @@
 namespace paim::player {
 
 VertexSource::VertexSource(const Asset& asset) : written_(asset.parts.size()) {
-    for (const CodedMesh& mesh : asset.parts) stands_still_.push_back(mesh.num_poses() == 1);
+    for (const CodedMesh& mesh : asset.parts) {
+        stands_still_.push_back(mesh.num_poses() == 1);
+        is_glossy_.push_back(mesh.gloss.has_value());
+    }
 }
 
 void VertexSource::forget_colors() {
@@ -19,27 +23,28 @@ void VertexSource::forget_colors() {
 }
 
 void VertexSource::update(double time, const DecodeLimits& limits, const LightCoefficients* light,
-                          std::span<SurfaceMesh> parts) {
-    std::vector<Written> wanted(written_.size());
+                          bool gloss, std::span<SurfaceMesh> parts) {
+    std::vector<Written> wanted = written_;
     std::vector<Changes> changes;
     for (size_t j = 0; j < written_.size(); ++j) {
         const double own_time = stands_still_[j] ? 0.0 : time;
         wanted[j].pose = {own_time, limits.geometry_components};
         if (light != nullptr) wanted[j].lit = {own_time, limits, light->values};
-        changes.push_back({written_[j].pose != wanted[j].pose,
-                           light != nullptr && written_[j].lit != wanted[j].lit});
+        if (light != nullptr && gloss && is_glossy_[j]) wanted[j].gloss = wanted[j].lit;
+        changes.push_back({written_[j].pose != wanted[j].pose, written_[j].lit != wanted[j].lit,
+                           written_[j].gloss != wanted[j].gloss});
         // Where writing fails, it is done again the next time.
         if (changes[j].positions) written_[j].pose.reset();
         if (changes[j].colors) written_[j].lit.reset();
+        if (changes[j].gloss) written_[j].gloss.reset();
     }
-    const auto is_change = [](const Changes& of) { return of.positions || of.colors; };
+    const auto is_change = [](const Changes& of) { return of.positions || of.colors || of.gloss; };
     if (std::none_of(changes.begin(), changes.end(), is_change)) return;
     write(time, limits, light, changes, parts);
     for (size_t j = 0; j < written_.size(); ++j) {
-        parts[j].count_writes(changes[j].positions, changes[j].colors);
-        written_[j].pose = wanted[j].pose;
-        if (light != nullptr) written_[j].lit = std::move(wanted[j].lit);
+        parts[j].count_writes(changes[j].positions, changes[j].colors, changes[j].gloss);
     }
+    written_ = std::move(wanted);
 }
 
 std::unique_ptr<VertexSource> make_vertex_source(const std::shared_ptr<const Asset>& asset,

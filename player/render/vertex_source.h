@@ -23,9 +23,11 @@ class VertexSource {
     // of the last call: nothing if all arguments are the same, colours alone if only the light is new, and
     // of parts that stand still nothing that only the time has changed.
     // time   in poses, clamped to 0 … P−1; fractions lie between poses
-    // light  of the scene, bands that it does not have are dark; nullptr leaves colours as they are
+    // light  of the scene, bands that it does not have are dark; nullptr leaves colours and gloss as
+    //        they are
+    // gloss  whether gloss is shown; if not, it is left as it is
     // parts  one for each part of the asset, the same at every call
-    void update(double time, const DecodeLimits& limits, const LightCoefficients* light,
+    void update(double time, const DecodeLimits& limits, const LightCoefficients* light, bool gloss,
                 std::span<SurfaceMesh> parts);
 
     // Something else has written colours into the parts.
@@ -43,14 +45,15 @@ class VertexSource {
     // What has changed of a part.
     struct Changes {
         bool positions, colors;
+        bool gloss;  // its outgoing coefficients
     };
     // changes  of each part
-    // light    there where colours of a part have changed
+    // light    there where colours or gloss of a part have changed
     virtual void write(double time, const DecodeLimits& limits, const LightCoefficients* light,
                        std::span<const Changes> changes, std::span<SurfaceMesh> parts) = 0;
 
   private:
-    std::vector<bool> stands_still_;  // [parts]
+    std::vector<bool> stands_still_, is_glossy_;  // [parts]
     // What the attributes of a part are of.
     struct Pose {
         double time;
@@ -65,7 +68,7 @@ class VertexSource {
     };
     struct Written {
         std::optional<Pose> pose;
-        std::optional<LitPose> lit;
+        std::optional<LitPose> lit, gloss;
     };
     std::vector<Written> written_;  // [parts]
 };

@@ -34,6 +34,17 @@ class Gloss : public ToolTest {
         arguments.insert(arguments.end(), options.begin(), options.end());
         return parse_object(compress(arguments));
     }
+    // The number of lines that say so of an option.
+    static size_t num_unused(const ToolResult& result, const std::string& option) {
+        expect_success(result);
+        const std::string line = "note: " + option + " is not used: ";
+        size_t count = 0;
+        for (size_t at = result.err.find(line); at != std::string::npos;
+             at = result.err.find(line, at + 1)) {
+            ++count;
+        }
+        return count;
+    }
     uint64_t size_of(const std::string& name) const {
         return std::filesystem::file_size(path(name));
     }
@@ -60,10 +71,54 @@ TEST_F(Gloss, SaysBeforehandWhatItTakesAndLoses) {
     EXPECT_EQ(reader.read_pose(1).transfer, BakeReader(path("d.bake")).read_pose(1).transfer);
 }
 
+// Bands are chosen before the bake, for the material that needs most of each, and are then as if they
+// had been given.
+TEST_F(Gloss, ChosenBandsAreThoseThatAreSaid) {
+    const ToolResult chosen = bake("c.bake", {"--material", "phong:0.1,2"});
+    expect_success(chosen);
+    const TransferLayout layout = BakeReader(path("c.bake")).identity().gloss->layout;
+    EXPECT_LT(layout.in_bands, 5u);  // fewer than the most that are chosen
+    EXPECT_LT(layout.out_bands, 4u);
+    EXPECT_TRUE(contains(chosen.err, fmt::format("({} bands of light, {} of outgoing radiance, ",
+                                                 layout.in_bands, layout.out_bands)))
+        << chosen.err;
+    EXPECT_FALSE(contains(chosen.err, "leave out")) << chosen.err;
+    expect_success(bake("g.bake", {"--material", "phong:0.1,2", "--gloss-bands",
+                                   fmt::format("{},{}", layout.in_bands, layout.out_bands)}));
+    expect_same(contents_of(path("c.bake")), contents_of(path("g.bake")));
+}
+
 TEST_F(Gloss, MatteMaterialsBakeAsBefore) {
     expect_success(bake("d.bake"));
     expect_success(bake("m.bake", {"--material", "matte"}));
     expect_same(contents_of(path("d.bake")), contents_of(path("m.bake")));
+}
+
+TEST_F(Gloss, OptionsWithoutEffectAreNamed) {
+    EXPECT_EQ(num_unused(bake("d.bake", {"--gloss-bands", "3,2"}), "--gloss-bands"), 1u);
+    EXPECT_EQ(num_unused(bake("d.bake", {"--gloss"}), "--gloss"), 1u);
+    // Gloss that an option sets is none of a library.
+    const ToolResult both =
+        bake("g.bake", {"--material", "phong:0.1,4", "--gloss-bands", "3,2", "--gloss"});
+    EXPECT_EQ(num_unused(both, "--gloss-bands"), 0u);
+    EXPECT_EQ(num_unused(both, "--gloss"), 1u);
+
+    write("still.obj", "mtllib m.mtl\nv -9 -9 -9\nv 9 -9 -9\nv 0 -9 9\nusemtl a\nf 1 3 2\n");
+    write("m.mtl", "newmtl a\nKd 0.2\nKs 0.5\nNs 4\n");
+    EXPECT_EQ(num_unused(bake("s.bake", {"--static", path("still.obj"), "--gloss"}), "--gloss"),
+              0u);
+
+    // Said once, before the bake and not after it.
+    const auto both_steps = [&](const std::string& name, const Arguments& options) {
+        Arguments arguments{path("p"),     "-o",  path(name),          "--rays", "64",
+                            "--max-error", "20%", "--max-gloss-error", "30%",    "--quiet"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        return compress(arguments);
+    };
+    EXPECT_EQ(num_unused(both_steps("two.paim", {}), "--max-gloss-error"), 1u);
+    EXPECT_EQ(
+        num_unused(both_steps("glossy.paim", {"--material", "phong:0.1,4"}), "--max-gloss-error"),
+        0u);
 }
 
 TEST_F(Gloss, FilesMeetBothErrors) {
@@ -96,6 +151,19 @@ TEST_F(Gloss, FilesMeetBothErrors) {
     for (const std::string& name : names_of(contents_of(path("")))) {
         EXPECT_FALSE(contains(name, "parts")) << name;
     }
+}
+
+TEST_F(Gloss, ErrorsThatCannotBeMetNameItsOptions) {
+    // Two plates that shadow one another, of 16 rays.
+    expect_success(
+        compress({"bake", make_poses("plates", 4, 60), "-o", path("n.bake"), "--rays", "16",
+                  "--bands", "3", "--material", "phong:0.1,4", "--gloss-bands", "3,2"}));
+    const ToolResult result =
+        compress({"encode", path("n.bake"), "-o", path("x.paim"), "--max-error", "50%",
+                  "--max-gloss-error", "0.01%", "--quiet"});
+    expect_failure(result, 5,
+                   {"n.bake: a gloss error of 0.01 % is asked for, but ", "bake with more"});
+    EXPECT_FALSE(contains(result.err, "transfer error")) << result.err;
 }
 
 TEST_F(Gloss, FilesWithoutATargetHaveItToo) {

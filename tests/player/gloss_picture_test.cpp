@@ -13,6 +13,7 @@
 #include "paim/mesh/planes.h"
 #include "paim/render/render.h"
 #include "paim/sh/basis.h"
+#include "player/render/vertex_source.h"
 #include "tests/player/surface_pictures.h"
 #include "tests/player/test_asset.h"
 
@@ -188,6 +189,46 @@ TEST_P(GlossPictures, AreOfLitSurfacesAlone) {
     const Image with = presenter.render(view, kWidth, kHeight, 1);
     view.gloss = GlossDetail::none;
     EXPECT_EQ(with.pixels, presenter.render(view, kWidth, kHeight, 1).pixels);
+}
+
+// Where no gloss is shown none is computed, and what has changed meanwhile is made up for.
+TEST_P(GlossPictures, GlossThatIsNotShownIsNotComputed) {
+    const auto asset = std::make_shared<const Asset>(glossy_asset(true));
+    const DecodeLimits all;
+    std::string note;
+    const auto source = make_vertex_source(asset, all, all, GetParam().decoder, note);
+    std::vector<SurfaceMesh> parts;
+    parts.emplace_back(asset->moving());
+    LightCoefficients light{3, std::vector<Vec3f>(9, Vec3f::Ones())};
+    const auto num_glosses = [&](double time, bool gloss) {
+        source->update(time, source->most(), &light, gloss, parts);
+        return parts[0].writes().gloss;
+    };
+    EXPECT_EQ(num_glosses(0.0, false), 0u);
+    EXPECT_EQ(num_glosses(1.0, false), 0u);
+    EXPECT_EQ(parts[0].writes().radiance, 2u);
+    EXPECT_EQ(num_glosses(1.0, true), 1u);
+    EXPECT_EQ(num_glosses(1.0, false), 1u);
+    EXPECT_EQ(num_glosses(1.0, true), 1u);  // nothing has changed
+    EXPECT_EQ(parts[0].writes().radiance, 2u);
+    light.values[0] *= 2.0f;
+    EXPECT_EQ(num_glosses(1.0, false), 1u);
+    EXPECT_EQ(num_glosses(1.0, true), 2u);
+    EXPECT_EQ(parts[0].writes().radiance, 3u);
+}
+
+TEST_P(GlossPictures, GlossThatIsShownAgainIsUpToDate) {
+    Presenter presenter = present(glossy_asset(true));
+    ViewState view = view_of(presenter, GlossDetail::pixel);
+    const Image before = presenter.render(view, kWidth, kHeight, 1);
+    view.gloss = GlossDetail::none;
+    view.animation.time = 0.5;
+    presenter.render(view, kWidth, kHeight, 1);
+    view.gloss = GlossDetail::pixel;
+    const Image again = presenter.render(view, kWidth, kHeight, 1);
+    Presenter other = present(glossy_asset(true));
+    EXPECT_EQ(again.pixels, other.render(view, kWidth, kHeight, 1).pixels);
+    EXPECT_NE(again.pixels, before.pixels);
 }
 
 }  // namespace

@@ -36,7 +36,20 @@ CodecMemory memory_of_all(const TargetSize& size) {
     return all;
 }
 
-// V and P are below 2^28 and 2^20, planes below 2^10, so that no product of these overflows.
+// More bytes than any machine has.
+constexpr uint64_t kBeyondAll = uint64_t{1} << 62;
+
+// Whether there are so many values that sums of their bytes might not fit into 64 bits. Gloss has up to
+// 2^20 planes, and files say what they like about their numbers. Up to 2^50 values (4 PB) all is well:
+// nothing here holds more than 2^7 bytes for one of them.
+bool is_beyond_all(const TargetSize& size) {
+    const double planes = 3.0 + size.num_planes;
+    const double columns = 1.0 + size.transfer_components + size.geometry_components +
+                           static_cast<double>(size.streamed.num_threads);
+    return planes * static_cast<double>(size.streamed.num_vertices) * columns > 0x1p50;
+}
+
+// The size is not beyond all, so that no sum or product of these overflows.
 struct Need {
     const TargetSize& size;
     CodecMemory codecs = memory_of_all(size);
@@ -146,10 +159,12 @@ uint64_t reading_bytes(const TargetSize& size, uint32_t num_in_flight) {
 }  // namespace
 
 uint64_t target_held_bytes(const TargetSize& size) {
+    if (is_beyond_all(size)) return kBeyondAll;
     return kProgramBytes + Need{size}.held();
 }
 
 uint64_t target_memory_bytes(const TargetSize& size) {
+    if (is_beyond_all(size)) return kBeyondAll;
     const Need need{size};
     return std::max(reading_bytes(size, 1),
                     target_held_bytes(size) + std::max(need.best_achievable(), need.searching()));

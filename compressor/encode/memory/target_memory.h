@@ -41,7 +41,8 @@ struct TargetSize {
 // Memory that is held from the reading of the factors to the end.
 uint64_t target_held_bytes(const TargetSize& size);
 
-// Peak memory of the process, an upper bound for this many threads: the least there must be.
+// Peak memory of the process, an upper bound for this many threads: the least there must be. 2^62
+// where sizes are so large that their bytes cannot be added up.
 uint64_t target_memory_bytes(const TargetSize& size);
 
 // Error (unsupported), naming `what` and the memory that is needed, if that is more than

@@ -10,6 +10,7 @@
 
 #include "compressor/encode/data/provenance.h"
 #include "compressor/encode/search/quantise_still.h"
+#include "compressor/encode/search/target_words.h"
 #include "paim/base/json_text.h"
 #include "paim/codec/codecs.h"
 #include "paim/codec/frame_cost.h"
@@ -148,9 +149,10 @@ std::optional<EncodedFile> EncodedFiles::meet(double transfer_error, std::string
                                            targets.worst_vertex);
     }
     reason = fmt::format(
-        "{}: a worst vertex of {:.3g} % is asked for, and was not met by any transfer error down to "
+        "{}: a worst vertex of {:.3g} % is asked for, and was not met by any {} down to "
         "{:.3g} %: allow a larger --max-vertex-error",
-        bake_name(), 100.0 * targets.worst_vertex, 100.0 * aim.transfer);
+        bake_name(), 100.0 * targets.worst_vertex, target_words(problem_.layout).error,
+        100.0 * aim.transfer);
     return std::nullopt;
 }
 
@@ -174,9 +176,10 @@ std::optional<EncodedFile> EncodedFiles::pack(const Targets& targets,
     // Floats may have needed a component more than was asked about.
     if (target_.decode_cost && cost > *target_.decode_cost) {
         reason = fmt::format(
-            "{}: a transfer error of {:.3g} % takes {} multiply-adds a vertex, --max-decode-cost "
+            "{}: a {} of {:.3g} % takes {} multiply-adds a vertex, --max-decode-cost "
             "allows {}",
-            bake_name(), 100.0 * targets.transfer, cost, *target_.decode_cost);
+            bake_name(), target_words(problem_.layout).error, 100.0 * targets.transfer, cost,
+            *target_.decode_cost);
         return std::nullopt;
     }
     for (Candidate& candidate : candidates) {

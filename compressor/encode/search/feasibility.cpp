@@ -11,6 +11,7 @@
 
 #include "compressor/bake/bake_options.h"
 #include "compressor/encode/search/less_noise.h"
+#include "compressor/encode/search/target_words.h"
 #include "paim/base/check.h"
 #include "paim/base/error.h"
 
@@ -33,21 +34,23 @@ namespace {
 void check_part(const EncodeProblem& problem, const TransferError& best, const char* whose,
                 double transfer_error) {
     if (best.total() < transfer_error) return;
+    const TargetWords words = target_words(problem.layout);
     const std::string asked =
-        fmt::format("{}: a transfer error of {:.3g} % is asked for, but {}",
-                    problem.bake.directory().string(), 100.0 * transfer_error, whose);
+        fmt::format("{}: a {} of {:.3g} % is asked for, but {}", problem.bake.directory().string(),
+                    words.error, 100.0 * transfer_error, whose);
     const uint32_t baked = problem.bake.identity().layout.in_bands;
     if (best.missing_bands > best.error || best.missing_bands >= transfer_error) {
         const char* const more = best.error < transfer_error ? "" : " and more --rays";
         throw_infeasible(fmt::format(
-            "{}its {} bands leave out {:.3g} % of what light of this spectrum shows: the best is "
-            "{:.3g} %; bake with more --bands{}",
-            asked, baked, 100.0 * best.missing_bands, 100.0 * best.total(), more));
+            "{}its {} {} leave out {:.3g} % of what light of this spectrum shows: the best is "
+            "{:.3g} %; bake with more {}{}",
+            asked, baked, words.bands, 100.0 * best.missing_bands, 100.0 * best.total(),
+            words.option, more));
     }
     if (problem.layout.in_bands < baked) {
-        throw_infeasible(
-            fmt::format("{}{} of its {} bands leave {:.3g} % at best: keep more --bands", asked,
-                        problem.layout.in_bands, baked, 100.0 * best.total()));
+        throw_infeasible(fmt::format("{}{} of its {} {} leave {:.3g} % at best: keep more --bands",
+                                     asked, problem.layout.in_bands, baked, words.bands,
+                                     100.0 * best.total()));
     }
     throw_noisy(
         fmt::format("{}the bake's noise leaves {:.3g} % at best: {}", asked, 100.0 * best.total(),
@@ -68,12 +71,11 @@ void check_vertex_feasible(const EncodeProblem& problem, double vertex_error) {
     const TransferError best = worst_vertex(problem.best_achievable.transfer);
     if (best.error < vertex_error) return;
     throw_noisy(
-        fmt::format(
-            "{}: a worst vertex of {:.3g} % is asked for, but one has {:.3g} % at best once "
-            "noise is taken out: bake with more --rays, or allow a --max-vertex-error of "
-            "{:.3g}% or more",
-            problem.bake.directory().string(), 100.0 * vertex_error, 100.0 * best.error,
-            105.0 * best.error),
+        fmt::format("{}: a worst vertex of {:.3g} % is asked for, but {} has {:.3g} % at best once "
+                    "noise is taken out: bake with more --rays, or allow a --max-vertex-error of "
+                    "{:.3g}% or more",
+                    problem.bake.directory().string(), 100.0 * vertex_error,
+                    target_words(problem.layout).of_vertex, 100.0 * best.error, 105.0 * best.error),
         rays_for(problem.bake.identity(), best, vertex_error));
 }
 

@@ -85,11 +85,12 @@ GlossySummary encode_both(const BakeReader& bake, const BakeReader& gloss,
 class JoinedFiles : public SizedFiles {
   public:
     JoinedFiles(const BakeReader& bake, const BakeReader& gloss, const EncodeOptions& options,
-                const GlossyTarget& target, const fs::path& scratch)
+                const GlossyTarget& target, const fs::path& scratch, SearchProgress& progress)
         : bake_(bake),
           gloss_bake_(gloss),
           target_(target),
           scratch_(scratch),
+          progress_(progress),
           diffuse_(bake, options, target.diffuse.spectrum),
           gloss_(gloss, options, target.gloss.spectrum) {}
 
@@ -105,11 +106,15 @@ class JoinedFiles : public SizedFiles {
         diffuse.size_bytes.reset();
         gloss.size_bytes.reset();
         diffuse.transfer_error = gloss.transfer_error = error;
-        const auto with = [](TargetSeries& series) {
-            return [&series](const EncodeTarget& of, const fs::path& path) {
-                return series.encode(of, path);
+        // Where positions have to be better for the frames, files of the diffuse transfer count again.
+        const auto with = [this](TargetSeries& series) {
+            return [this, &series](const EncodeTarget& of, const fs::path& path) {
+                TargetSummary summary = series.encode(of, path);
+                progress_.advance(kShareOfAFile);
+                return summary;
             };
         };
+        progress_.begin(fmt::format("fitting the size, error {:.3g} %", 100.0 * error), kFitted);
         try {
             made_ = encode_both(bake_, gloss_bake_, {diffuse, gloss}, with(diffuse_), with(gloss_),
                                 scratch_, scratch_ / "made.paim");
@@ -132,10 +137,15 @@ class JoinedFiles : public SizedFiles {
     }
 
   private:
+    // Of the whole when sizes are fitted, and of what is left of that for each of the two files of an
+    // error: some ten errors are tried.
+    static constexpr double kFitted = 0.97, kShareOfAFile = 0.12;
+
     const BakeReader& bake_;
     const BakeReader& gloss_bake_;
     const GlossyTarget& target_;
     const fs::path scratch_;
+    SearchProgress& progress_;
     TargetSeries diffuse_, gloss_;
     double error_ = 0.0;
     std::optional<GlossySummary> made_, best_;
@@ -147,8 +157,12 @@ GlossySummary fit_both(const BakeReader& bake, const BakeReader& gloss,
                        const GlossyListener& on_step) {
     constexpr double kLargestError = 0.5;
     const uint64_t most_bytes = *target.diffuse.size_bytes;
-    JoinedFiles files(bake, gloss, options, target, scratch);
-    if (on_step) on_step("both", "fitting the size", 0.5);
+    SearchProgress progress([&](const std::string& step, double done) {
+        if (on_step) on_step("both", step, done);
+    });
+    progress.begin("reading", 0.2);
+    JoinedFiles files(bake, gloss, options, target, scratch, progress);
+    progress.advance(1.0);
     const double least_error = std::min(kLargestError, 1.02 * std::max(1e-4, files.least_error()));
     if (!find_smallest_error(files, least_error, kLargestError, most_bytes)) {
         const std::optional<uint64_t> bytes = files.make(kLargestError);
@@ -157,7 +171,9 @@ GlossySummary fit_both(const BakeReader& bake, const BakeReader& gloss,
             bake.directory().string(), most_bytes, 100.0 * kLargestError,
             bytes ? fmt::format("it takes {}", *bytes) : "there is no file"));
     }
+    progress.begin("writing", 1.0);
     copy_whole_file(files.best_path(), output);
+    progress.advance(1.0);
     return files.best();
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "compressor/bake/bake_options.h"
+#include "compressor/encode/search/target_words.h"
 
 namespace paim {
 
@@ -74,7 +75,8 @@ std::string less_noise_hint(const BakeIdentity& identity, const TransferError& b
     }
     const std::optional<uint32_t> rays = rays_for(identity, best, transfer_error);
     if (!rays) {
-        return fmt::format("not even --rays {} would do: ask for a larger error", kMostRays);
+        return fmt::format("not even --rays {} would do: {}", kMostRays,
+                           target_words(identity.layout).larger);
     }
     return fmt::format("bake with more --rays: {} instead of {} should do",
                        even_rays(two_digits(*rays, &std::ceil)), identity.rays);

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "compressor/encode/search/target_words.h"
+
 namespace paim {
 
 std::optional<Coding> CodingSearch::choose(const Targets& targets,
@@ -60,7 +62,8 @@ std::string CodingSearch::missed_positions(const SurfaceTarget& target) const {
 }
 
 std::string CodingSearch::missed_transfer(double target) {
-    const std::string asked = fmt::format("a transfer error of {:.3g} % ", 100.0 * target);
+    const std::string asked =
+        fmt::format("a {} of {:.3g} % ", target_words(problem_.layout).error, 100.0 * target);
     if (target_.decode_cost) {
         const auto least = search_.least_multiply_adds(transfer_budget(target));
         return asked +

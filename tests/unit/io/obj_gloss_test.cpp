@@ -32,9 +32,9 @@ ObjOptions with_gloss(const Lines& overrides = {}, bool from_libraries = true) {
     return options;
 }
 
-// The gloss of a mesh whose only material has these lines.
+// The gloss of a mesh whose only material has these lines and no diffuse reflection.
 Materials gloss_of(const std::string& lines, Lines* warnings = nullptr) {
-    const GlossyFiles files("newmtl a\n" + lines, "usemtl a\nf 1 2 3 4\n");
+    const GlossyFiles files("newmtl a\nKd 0\n" + lines, "usemtl a\nf 1 2 3 4\n");
     const ObjSequence sequence(files.files(), with_gloss());
     if (warnings != nullptr) *warnings = files.warnings(sequence);
     return sequence.materials();
@@ -120,6 +120,23 @@ TEST(ObjGloss, MetalsReflectTheirColourAndKeepNoneOfIt) {
     Lines warnings;
     EXPECT_TRUE(gloss_of("Pm 1\n", &warnings).empty());
     EXPECT_EQ(warnings, Lines{"0.obj: Pm of 1 materials ignored, as they have no Pr"});
+}
+
+// What is left of Kd goes with the gloss of the library: where an option sets another, all of it is
+// there, as without --gloss.
+TEST(ObjGloss, MetalsWhoseGlossIsReplacedKeepTheirColour) {
+    const GlossyFiles files(
+        "newmtl gold\nKd 0.8 0.4 0\nPr 0.3\nPm 1\nnewmtl other\nKd 0.8 0.4 0\nPr 0.3\nPm 1\n",
+        "usemtl gold\nf 1 2 3\nusemtl other\nf 5 6 7\n", kQuad + "v 0 0 1\nv 1 0 1\nv 1 1 1\n");
+    const auto colours = [&](const Lines& overrides) {
+        const ObjSequence sequence(files.files(), with_gloss(overrides));
+        return std::pair(sequence.albedo().at(0), sequence.albedo().at(5));
+    };
+    const Vec3f whole(0.8f, 0.4f, 0), none(0, 0, 0);
+    EXPECT_EQ(colours({}), std::pair(none, none));
+    EXPECT_EQ(colours({"gold=matte"}), std::pair(whole, none));
+    EXPECT_EQ(colours({"gold=phong:0.1,5"}), std::pair(whole, none));
+    EXPECT_EQ(colours({"matte"}), std::pair(whole, whole));
 }
 
 TEST(ObjGloss, DamagedLinesWarnOnlyWhereTheyCount) {

@@ -29,13 +29,14 @@ TEST(GlossBands, OfALambertianSurfaceAreThoseOfItsCosine) {
 TEST(GlossBands, NarrowerLobesNeedMore) {
     uint32_t in = 0, out = 0;
     for (const char* text : {"phong:0.5,1", "phong:0.5,4", "phong:0.5,12"}) {
-        const GlossBands bands = choose_gloss_bands(*parse_brdf(text), 0.1, 16, 16);
+        const GlossEnergy energy = gloss_energy(*parse_brdf(text), 16);
+        const GlossBands bands = choose_gloss_bands(energy, 0.1, 16, 16);
         EXPECT_GE(bands.in, in) << text;
         EXPECT_GE(bands.out, out) << text;
         EXPECT_LE(bands.error_in, 0.1) << text;
         EXPECT_LE(bands.error_out, 0.1) << text;
         // One band fewer is too few.
-        const GlossBands fewer = given_gloss_bands(*parse_brdf(text), bands.in - 1, bands.out - 1);
+        const GlossBands fewer = given_gloss_bands(energy, bands.in - 1, bands.out - 1);
         EXPECT_GT(fewer.error_in, 0.1) << text;
         EXPECT_GT(fewer.error_out, 0.1) << text;
         in = bands.in;
@@ -58,18 +59,19 @@ TEST(GlossBands, OfANarrowLobeAreGaussian) {
 }
 
 TEST(GlossBands, ANoteSaysWhatIsLeftOut) {
-    const auto narrow = parse_brdf("phong:0.5,500");
-    const GlossBands bands = choose_gloss_bands(*narrow);
+    const std::string narrow = "phong:0.5,500", wide = "phong:0.5,2";
+    const GlossEnergy energy = gloss_energy(*parse_brdf(narrow), 8);
+    const GlossBands bands = choose_gloss_bands(energy);
     EXPECT_EQ(bands.in, kMostChosenInBands);
     EXPECT_EQ(bands.out, kMostChosenOutBands);
-    const std::string note = gloss_bands_note(*narrow, given_gloss_bands(*narrow, 8, 6));
+    EXPECT_EQ(bands.error_in, energy.left_out_in[kMostChosenInBands]);
+    const std::string note = gloss_bands_note(narrow, given_gloss_bands(energy, 8, 6));
     EXPECT_NE(note.find("phong:0.5,500: 8 bands of light leave out 88 % and 6 bands"),
               std::string::npos)
         << note;
-    const auto wide = parse_brdf("phong:0.5,2");
-    EXPECT_EQ(gloss_bands_note(*wide, choose_gloss_bands(*wide)), "");
+    EXPECT_EQ(gloss_bands_note(wide, choose_gloss_bands(gloss_energy(*parse_brdf(wide), 5))), "");
     // Nothing is reflected.
-    const GlossBands none = choose_gloss_bands(*parse_brdf("phong:0,500"));
+    const GlossBands none = choose_gloss_bands(gloss_energy(*parse_brdf("phong:0,500"), 5));
     EXPECT_EQ(none.in, 1u);
     EXPECT_EQ(none.error_out, 0.0);
 }

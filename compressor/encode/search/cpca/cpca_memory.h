@@ -30,7 +30,7 @@ constexpr uint64_t most_clusters(uint64_t num_vertices) {
     return std::max<uint64_t>(1, num_vertices / kMinPerCluster);
 }
 
-// V is below 2^28, planes below 2^10, components below 2^20, so that nothing overflows.
+// For sizes that target_memory_bytes() adds up, of which nothing overflows.
 CodecMemory cpca_memory(const TargetSize& size);
 
 }  // namespace paim

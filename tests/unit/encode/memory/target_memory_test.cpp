@@ -64,6 +64,23 @@ TEST(TargetMemory, DoesNotOverflow) {
     EXPECT_LT(target_memory_bytes(size), uint64_t{1} << 60);
 }
 
+// Gloss of 64 bands of light, 8 outgoing ones and three channels, as large as numbers can be, and a size
+// at the end of what is added up.
+TEST(TargetMemory, IsBeyondAllWhereItWouldOverflow) {
+    TargetSize size = kOctopus;
+    size.num_planes = 3 * 64 * 64 * 64;
+    size.streamed.num_vertices = uint64_t{1} << 27;
+    size.streamed.num_poses = 1 << 20;
+    size.geometry_components = size.transfer_components = 1 << 20;
+    EXPECT_EQ(target_memory_bytes(size), uint64_t{1} << 62);
+    EXPECT_EQ(target_held_bytes(size), uint64_t{1} << 62);
+    EXPECT_THROW(check_target_memory(size, kAllCodecs, uint64_t{1} << 40, "x.bake"), Error);
+    size.streamed.num_vertices = 1 << 16;
+    size.geometry_components = size.transfer_components = 4000;
+    EXPECT_GT(target_memory_bytes(size), uint64_t{4} * size.num_planes * 4000 << 16);
+    EXPECT_LT(target_memory_bytes(size), uint64_t{1} << 57);
+}
+
 TEST(TargetMemory, RefusesAndSaysWhatItNeeds) {
     const uint64_t least = target_memory_bytes(kOctopus);
     const uint64_t of_svd = target_memory_bytes(octopus_of_svd());

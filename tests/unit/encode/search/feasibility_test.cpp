@@ -77,6 +77,34 @@ TEST_F(Feasibility, SaysWhetherNoiseOrBandsAreInTheWay) {
                   "5 % at best: keep more --bands");
 }
 
+// Of gloss it is the gloss, and its options.
+TEST_F(Feasibility, NamesTheOptionsOfGloss) {
+    problem_->layout.kind = TransferKind::glossy;
+    TransferError& best = problem_->best_achievable.transfer;
+    best.error = 0.04;
+    best.missing_bands = 0.03;
+    best.worst_vertex_error_to_bake = 0.2;
+    const std::string asked = name() + ": a gloss error of ";
+    EXPECT_EQ(refusal(0.035), asked +
+                                  "3.5 % is asked for, but the bake's noise leaves 5 % at best: " +
+                                  less_noise_hint(bake_.identity(), best, 0.035));
+    EXPECT_EQ(refusal(0.02), asked +
+                                 "2 % is asked for, but its 4 bands of light leave out 3 % of what "
+                                 "light of this spectrum shows: the best is 5 %; bake with more "
+                                 "--gloss-bands and more --rays");
+    try {
+        check_vertex_feasible(*problem_, 0.1);
+        FAIL();
+    } catch (const TooNoisy& error) {
+        EXPECT_EQ(
+            error.what(),
+            name() +
+                ": a worst vertex of 10 % is asked for, but the gloss of one has 20 % at best "
+                "once noise is taken out: bake with more --rays, or allow a "
+                "--max-vertex-error of 21% or more");
+    }
+}
+
 TEST_F(Feasibility, CountsWhatStandsStillToo) {
     problem_->best_achievable.transfer = {};
     problem_->best_achievable.still.emplace();

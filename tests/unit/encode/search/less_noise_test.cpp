@@ -65,6 +65,10 @@ TEST(LessNoise, CountsRays) {
 TEST(LessNoise, SaysWhereNoNumberOfRaysDoes) {
     EXPECT_EQ(less_noise_hint(identity("cosine", 512), noisy(0.5), 1e-4),
               "not even --rays 16777216 would do: ask for a larger error");
+    BakeIdentity glossy = identity("cosine", 512);
+    glossy.layout.kind = TransferKind::glossy;
+    EXPECT_EQ(less_noise_hint(glossy, noisy(0.5), 1e-4),
+              "not even --rays 16777216 would do: ask for a larger --max-gloss-error");
 }
 
 }  // namespace
