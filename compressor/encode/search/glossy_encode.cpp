@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "compressor/encode/search/size_search.h"
 #include "paim/base/check.h"
 #include "paim/base/error.h"
+#include "paim/base/json_text.h"
 #include "paim/codec/gloss_asset.h"
 #include "paim/format/paim/paim_read.h"
 #include "paim/format/paim/paim_write.h"
@@ -32,6 +34,20 @@ std::vector<uint32_t> rows_in_whole(const Asset& whole, const Asset& gloss, size
     std::vector<uint32_t> vertices = match_part(gloss, part, gloss_bake);
     for (uint32_t& vertex : vertices) vertex = new_number[rows[vertex]];
     return vertices;
+}
+
+// Takes what a file of gloss alone states of its positions, and met for them, out of its provenance: the
+// file of both kinds has the positions of the diffuse one.
+void forget_positions(const fs::path& file, Asset& gloss) {
+    auto provenance = nlohmann::json::parse(gloss.provenance_json);
+    if (!provenance.contains("measured")) return;
+    for (const NamedError& error : read_error_statement(gloss, file).errors) {
+        if (error.of_light) continue;
+        for (const char* const member : {"measured", "targets"}) {
+            if (provenance.contains(member)) provenance[member].erase(error.name);
+        }
+    }
+    gloss.provenance_json = json_text(provenance);
 }
 
 // The files of one error for both kinds of transfer.
@@ -127,6 +143,7 @@ uint64_t join_transfer_files(const BakeReader& bake, const TransferFiles& files,
         still = rows_in_whole(whole, gloss, 1, bake, gloss_bake,
                               glossy_rows(mesh.topology, mesh.materials));
     }
+    forget_positions(files.gloss, gloss);
     join_gloss(std::move(gloss), vertices, still, whole);
     write_paim(output, whole);
     return fs::file_size(output);
