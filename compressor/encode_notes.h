@@ -1,0 +1,17 @@
+// What paim-compress says on stderr about an encoding, where a person may not expect its result.
+#pragma once
+
+#include "compressor/encode/options.h"
+#include "paim/format/bake/bake_directory.h"
+
+namespace paim {
+
+// That errors of the transfer mean nothing, if it is zero.
+void say_if_dark(const BakeReader& reader);
+
+// That the bake has fewer bands than were asked for.
+void say_if_fewer_bands(const EncodeOptions& asked, const BakeReader& reader);
+
+void say_more_rays_help();
+
+}  // namespace paim
