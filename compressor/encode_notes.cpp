@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "compressor/gloss_plan.h"
+
 namespace paim {
 
 // Nothing can be said about errors of transfer that is zero.
@@ -28,6 +30,20 @@ void say_more_rays_help() {
     fmt::print(stderr,
                "note: most of the error is bake noise: more rays would help more than more "
                "components (bake again with more --rays, into another .bake)\n");
+}
+
+void say_if_without_gloss(bool asks_for_gloss, const BakeReader& reader) {
+    const bool still_meshes_have_gloss = reader.identity().gloss.has_value();
+    if (asks_for_gloss) {
+        fmt::print(
+            stderr, "note: --max-gloss-error is not used: {}\n",
+            still_meshes_have_gloss ? "no vertex of the poses is glossy" : "the bake has no gloss");
+    }
+    if (!still_meshes_have_gloss) return;
+    fmt::print(stderr,
+               "note: no vertex of the poses is glossy, and the gloss of still meshes alone is not "
+               "encoded (bake again {}, into another .bake)\n",
+               how_to_keep_still_gloss());
 }
 
 }  // namespace paim

@@ -14,4 +14,9 @@ void say_if_fewer_bands(const EncodeOptions& asked, const BakeReader& reader);
 
 void say_more_rays_help();
 
+// That still meshes have gloss that is not encoded, and that an error of the gloss is not used.
+// reader          of poses without gloss
+// asks_for_gloss  whether an error of the gloss was given
+void say_if_without_gloss(bool asks_for_gloss, const BakeReader& reader);
+
 }  // namespace paim

@@ -232,14 +232,7 @@ ordered_json run_encode(const CompressOptions& options, const std::filesystem::p
     reader.verify_all();
     say_if_dark(reader);
     say_if_fewer_bands(encode_options, reader);
-    if (options.gloss_error && reader.gloss_rows().empty()) {
-        fmt::print(stderr, "note: --max-gloss-error is not used: the bake has no gloss\n");
-    }
-    if (reader.identity().gloss && reader.gloss_rows().empty()) {
-        fmt::print(stderr,
-                   "note: no vertex of the poses is glossy: the gloss of still meshes alone is not "
-                   "encoded\n");
-    }
+    if (reader.gloss_rows().empty()) say_if_without_gloss(options.gloss_error.has_value(), reader);
     if (!reader.gloss_rows().empty()) return run_glossy_encode(options, encode_options, reader);
     if (options.target) {
         const TargetReport report = encode_target(options, encode_options, reader);
