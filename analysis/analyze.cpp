@@ -49,6 +49,7 @@ void check_inputs(const AnalyzeOptions& options, const BakeReader& bake) {
     for (const auto& file : {options.budget, options.curves_of, options.temporal}) {
         if (!file.empty()) files.push_back(file);
     }
+    bool has_gloss = false;  // in addition to the transfer that is measured
     for (const std::filesystem::path& file : files) {
         const Asset asset = read_file_of(bake, file);
         try {
@@ -58,6 +59,13 @@ void check_inputs(const AnalyzeOptions& options, const BakeReader& bake) {
             throw Error(error.code(), fmt::format("{}: {}", file.string(), error.what()));
         }
         say_if_of_another_bake("paim-analyze", file, asset, bake);
+        has_gloss = has_gloss || asset.moving().gloss.has_value();
+    }
+    if (has_gloss && !options.compare.empty()) {
+        fmt::print(
+            stderr,
+            "paim-analyze: note: --compare does not compare gloss, which counts in sizes and times "
+            "alone; --gloss --compare compares gloss alone\n");
     }
     const auto need_poses = [&](const char* option, uint32_t least) {
         if (bake.num_poses() >= least) return;

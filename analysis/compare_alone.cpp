@@ -49,7 +49,8 @@ void compare_alone(const AnalyzeOptions& options) {
     const ThreadLimit limit(options.num_threads);
     uint32_t bands = 1;
     for (const std::filesystem::path& path : options.compare) {
-        bands = std::max(bands, read_paim(path).moving().layout.in_bands);
+        for (const CodedMesh& part : read_paim(path).parts)
+            bands = std::max(bands, part.light_bands());
     }
     const std::vector<NamedLight> lights =
         load_lights(options.environments, options.env_mapping, bands);

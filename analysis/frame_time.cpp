@@ -8,6 +8,7 @@ namespace paim {
 PoseTime time_frames(const std::shared_ptr<const Asset>& asset, const LightCoefficients& light,
                      double most_seconds) {
     Playback playback(asset);
+    playback.keep_exit_radiance(true);
     const DistantLight distant(light);
     const auto frame = [&](uint32_t p) {
         playback.set_light(distant);  // else a single pose would be no work

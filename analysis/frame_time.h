@@ -9,7 +9,7 @@
 
 namespace paim {
 
-// Positions and radiance of a frame by Playback.
+// Positions, radiance and outgoing coefficients of gloss of a frame by Playback.
 // most_seconds  as of time_poses()
 PoseTime time_frames(const std::shared_ptr<const Asset>& asset, const LightCoefficients& light,
                      double most_seconds);

@@ -21,6 +21,10 @@ std::string text_of(const ordered_json& object, const std::string& name) {
     return (value.is_string() ? value.get<std::string>() : json_text(value)).substr(0, 200);
 }
 
+std::string rows_text(size_t num_rows) {
+    return num_rows == 0 ? std::string() : fmt::format("{} vertices", num_rows);
+}
+
 // "rays 16 (here 64), seed … (here …)"
 std::string differences_text(const std::vector<BakeDifference>& differences) {
     const auto or_none = [](const std::string& text) { return text.empty() ? "none" : text; };
@@ -49,6 +53,10 @@ std::vector<BakeDifference> bake_differences(const Asset& asset, const BakeReade
         BakeDifference one{name, text_of(of_file, name), text_of(of_bake, name)};
         if (one.of_file != one.of_bake) differences.push_back(std::move(one));
     }
+    const std::optional<CodedGloss>& gloss = asset.moving().gloss;
+    BakeDifference rows{"gloss", rows_text(gloss ? gloss->num_rows : 0),
+                        rows_text(bake.gloss_rows().size())};
+    if (rows.of_file != rows.of_bake) differences.push_back(std::move(rows));
     return differences;
 }
 

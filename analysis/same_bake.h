@@ -13,7 +13,8 @@ namespace paim {
 // One thing that the file says of the bake that it was made from, and what this bake has instead.
 // Empty where there is none.
 struct BakeDifference {
-    std::string name;  // as in the provenance (docs/format.md)
+    // As in the provenance (docs/format.md), or "gloss": how many vertices of the poses are glossy.
+    std::string name;
     std::string of_file, of_bake;
 };
 

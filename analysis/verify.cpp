@@ -13,6 +13,7 @@
 #include "paim/base/json_text.h"
 #include "paim/base/tbb_parallel.h"
 #include "paim/cli/light_options.h"
+#include "paim/codec/gloss_asset.h"
 #include "paim/format/paim/paim_read.h"
 #include "paim/metrics/asset_error.h"
 
@@ -29,6 +30,20 @@ struct Comparison {
 
     // Written so that NaN is never within.
     bool within() const { return !stated || measured.value <= *stated * (1.0 + kRounding); }
+};
+
+// What is checked: the geometry and the diffuse transfer of a file, or its gloss.
+struct Check {
+    std::string of;  // behind the name of an error in messages: empty, or " of the gloss"
+    BandPower spectrum;
+    AssetError error;
+    std::vector<Comparison> comparisons;
+    std::vector<BakeDifference> differences;
+
+    bool all_compared() const {
+        return std::all_of(comparisons.begin(), comparisons.end(),
+                           [](const Comparison& one) { return one.stated.has_value(); });
+    }
 };
 
 BandPower choose_band_power(const AnalyzeOptions& options, const ErrorStatement& statement,
@@ -58,35 +73,71 @@ std::vector<Comparison> compare(const AssetError& error, const ErrorStatement& s
     return comparisons;
 }
 
-std::vector<Comparison> those_above(const std::vector<Comparison>& comparisons) {
-    std::vector<Comparison> above;
-    std::copy_if(comparisons.begin(), comparisons.end(), std::back_inserter(above),
-                 [](const Comparison& one) { return !one.within(); });
+// bake  verified
+Check check(const AnalyzeOptions& options, const Asset& asset, const ErrorStatement& statement,
+            const BakeReader& bake) {
+    Check check;
+    check.spectrum = choose_band_power(options, statement, bake.identity().layout.in_bands);
+    check.differences = bake_differences(asset, bake);
+    check.error = measure_asset(asset, bake, check.spectrum);
+    check.comparisons =
+        compare(check.error, statement, check.spectrum.name == statement.band_power);
+    return check;
+}
+
+// The gloss of the file. Its positions are those of the file, which are checked without it, and only
+// where they are stated again.
+Check check_gloss(const AnalyzeOptions& options, const Asset& whole, const BakeReader& bake) {
+    if (bake.gloss_rows().empty()) {
+        throw_bad_input(
+            "{}: expected a file made from this bake, without gloss, got one with gloss",
+            bake.directory().string());
+    }
+    const Asset asset = gloss_asset(whole);
+    const BakeReader gloss_bake = bake.gloss();
+    const std::string name = options.verify.string() + ": gloss";
+    const ErrorStatement statement = read_error_statement(asset, name);
+    if (bake_differences(whole, bake).empty()) {
+        say_if_of_another_bake("", name, asset, gloss_bake);
+    }
+    Check gloss = check(options, asset, statement, gloss_bake);
+    gloss.of = " of the gloss";
+    std::erase_if(gloss.comparisons,
+                  [](const Comparison& one) { return !one.measured.of_light && !one.stated; });
+    return gloss;
+}
+
+struct Above {
+    const Comparison& comparison;
+    std::string name;  // in messages
+};
+
+std::vector<Above> those_above(const std::vector<Check>& checks) {
+    std::vector<Above> above;
+    for (const Check& check : checks) {
+        for (const Comparison& one : check.comparisons) {
+            if (!one.within()) above.push_back({one, one.measured.name + check.of});
+        }
+    }
     return above;
 }
 
 // "within what it states", or which errors are above it.
-std::string verdict_text(const std::vector<Comparison>& comparisons) {
-    const std::vector<Comparison> above = those_above(comparisons);
-    std::string text = above.empty() ? "within what it states" : "above what it states: ";
-    for (const Comparison& one : above) {
-        if (&one != &above.front()) text += ", ";
-        text += one.measured.name;
+std::string verdict_text(const std::vector<Check>& checks) {
+    std::string text;
+    for (const Above& one : those_above(checks)) {
+        text += (text.empty() ? "above what it states: " : ", ") + one.name;
     }
-    const bool all_compared = std::all_of(comparisons.begin(), comparisons.end(),
-                                          [](const Comparison& one) { return one.stated; });
+    if (text.empty()) text = "within what it states";
+    const bool all_compared = std::all_of(checks.begin(), checks.end(),
+                                          [](const Check& check) { return check.all_compared(); });
     return all_compared ? text : text + " (what it does not state for this light is not compared)";
 }
 
-void print_json(const AnalyzeOptions& options, const AssetError& error, const BandPower& spectrum,
-                const std::vector<Comparison>& comparisons,
-                const std::vector<BakeDifference>& differences) {
-    nlohmann::ordered_json json;
-    json["paim"] = options.verify.string();
-    json["bake"] = options.bake_directory.string();
-    json["light_spectrum"] = spectrum.name;
-    json["bake_noise"] = error.transfer.bake_noise;
-    for (const Comparison& comparison : comparisons) {
+void add_to_json(const Check& check, nlohmann::ordered_json& json) {
+    json["light_spectrum"] = check.spectrum.name;
+    json["bake_noise"] = check.error.transfer.bake_noise;
+    for (const Comparison& comparison : check.comparisons) {
         nlohmann::ordered_json& entry = json["errors"][comparison.measured.name];
         if (comparison.stated) {
             entry["stated"] = *comparison.stated;
@@ -96,30 +147,41 @@ void print_json(const AnalyzeOptions& options, const AssetError& error, const Ba
         entry["measured"] = comparison.measured.value;
         entry["within"] = comparison.within();
     }
-    json["worst"] = {{"transfer_vertex", error.transfer.worst_vertex},
-                     {"transfer_pose", error.transfer.worst_pose},
-                     {"position_vertex", error.geometry.distance.worst_vertex},
-                     {"position_pose", error.geometry.distance.worst_pose}};
+    json["worst"] = {{"transfer_vertex", check.error.transfer.worst_vertex},
+                     {"transfer_pose", check.error.transfer.worst_pose},
+                     {"position_vertex", check.error.geometry.distance.worst_vertex},
+                     {"position_pose", check.error.geometry.distance.worst_pose}};
     json["bake_differences"] = nlohmann::ordered_json::object();
-    for (const BakeDifference& one : differences) {
+    for (const BakeDifference& one : check.differences) {
         json["bake_differences"][one.name] = {{"file", one.of_file}, {"bake", one.of_bake}};
     }
-    json["within"] = those_above(comparisons).empty();
+}
+
+// checks  of the whole file, and of its gloss if it has any
+void print_json(const AnalyzeOptions& options, const std::vector<Check>& checks) {
+    nlohmann::ordered_json json;
+    json["paim"] = options.verify.string();
+    json["bake"] = options.bake_directory.string();
+    add_to_json(checks.front(), json);
+    if (checks.size() > 1) add_to_json(checks[1], json["gloss"]);
+    json["within"] = those_above(checks).empty();
     fmt::print("{}\n", json_text(json, 2));
 }
 
-void print_text(const AnalyzeOptions& options, const BandPower& spectrum,
-                const std::vector<Comparison>& comparisons) {
-    fmt::print("{} against {}, light spectrum {}\n", options.verify.string(),
-               options.bake_directory.string(), spectrum.name);
-    fmt::print("  {:<40}{:>14}{:>14}\n", "", "stated", "measured");
-    for (const Comparison& comparison : comparisons) {
-        const std::string stated =
-            comparison.stated ? fmt::format("{:.6g}", *comparison.stated) : "-";
-        fmt::print("  {:<40}{:>14}{:>14.6g}{}\n", comparison.measured.name, stated,
-                   comparison.measured.value, comparison.within() ? "" : "  above");
+void print_text(const AnalyzeOptions& options, const std::vector<Check>& checks) {
+    for (const Check& check : checks) {
+        fmt::print("{}{} against {}, light spectrum {}\n", options.verify.string(),
+                   check.of.empty() ? "" : ", its gloss,", options.bake_directory.string(),
+                   check.spectrum.name);
+        fmt::print("  {:<40}{:>14}{:>14}\n", "", "stated", "measured");
+        for (const Comparison& comparison : check.comparisons) {
+            const std::string stated =
+                comparison.stated ? fmt::format("{:.6g}", *comparison.stated) : "-";
+            fmt::print("  {:<40}{:>14}{:>14.6g}{}\n", comparison.measured.name, stated,
+                       comparison.measured.value, comparison.within() ? "" : "  above");
+        }
     }
-    fmt::print("{}: {}\n", options.verify.string(), verdict_text(comparisons));
+    fmt::print("{}: {}\n", options.verify.string(), verdict_text(checks));
 }
 
 }  // namespace
@@ -129,30 +191,30 @@ void verify(const AnalyzeOptions& options) {
     const Asset asset = read_paim(options.verify);
     const ErrorStatement statement = read_error_statement(asset, options.verify);
     const BakeReader bake(options.bake_directory);
-    const BandPower spectrum =
-        choose_band_power(options, statement, bake.identity().layout.in_bands);
-    cli::print_notes("paim-analyze", options.band_power, spectrum.notes);
+    cli::print_notes("paim-analyze", options.band_power,
+                     choose_band_power(options, statement, bake.identity().layout.in_bands).notes);
     bake.verify_all();
-    const std::vector<BakeDifference> differences = bake_differences(asset, bake);
     say_if_of_another_bake("", options.verify, asset, bake);
-    const AssetError error = measure_asset(asset, bake, spectrum);
-    const std::vector<Comparison> comparisons =
-        compare(error, statement, spectrum.name == statement.band_power);
+    std::vector<Check> checks{check(options, asset, statement, bake)};
+    if (asset.moving().gloss) checks.push_back(check_gloss(options, asset, bake));
     if (options.json) {
-        print_json(options, error, spectrum, comparisons, differences);
+        print_json(options, checks);
     } else {
-        print_text(options, spectrum, comparisons);
+        print_text(options, checks);
     }
-    const std::vector<Comparison> above = those_above(comparisons);
+    const std::vector<Above> above = those_above(checks);
     if (above.empty()) return;
-    const Comparison& first = above.front();
+    const Above& first = above.front();
+    const bool is_of_another = std::any_of(checks.begin(), checks.end(), [](const Check& check) {
+        return !check.differences.empty();
+    });
     throw Error(
         ExitCode::threshold_exceeded,
         fmt::format("{}: expected a {} of at most {:.6g}, as it states, got {:.6g}{}{}",
-                    options.verify.string(), first.measured.name, *first.stated,
-                    first.measured.value,
+                    options.verify.string(), first.name, *first.comparison.stated,
+                    first.comparison.measured.value,
                     above.size() > 1 ? fmt::format(" ({} errors are above)", above.size()) : "",
-                    differences.empty() ? "" : "; it was made from another bake"));
+                    is_of_another ? "; it was made from another bake" : ""));
 }
 
 }  // namespace paim

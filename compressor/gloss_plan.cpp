@@ -31,15 +31,32 @@ std::optional<GlossPlan> plan_gloss(const BakeInput& input, const BakeOptions& o
     return plan;
 }
 
-std::vector<std::string> gloss_notes(const GlossPlan& plan, uint64_t num_poses) {
+namespace {
+
+std::string what_it_takes(const GlossPlan& plan, uint64_t num_poses) {
+    if (plan.num_rows == 0) {
+        return "gloss: no vertex of the poses is glossy, and the gloss of still meshes alone is not "
+               "encoded: it is kept " +
+               how_to_keep_still_gloss();
+    }
     const TransferLayout& layout = plan.layout;
-    std::vector<std::string> notes{fmt::format(
+    return fmt::format(
         "gloss: {} vertices of {} coefficients ({} bands of light, {} of outgoing radiance, {} {}) "
         "take {} on disk for {} {} and {} of memory",
         plan.num_rows, layout.num_planes(), layout.in_bands, layout.out_bands, layout.channels,
         layout.channels == 1 ? "channel" : "channels",
         memory_text(plan.pose_file_bytes() * num_poses), num_poses,
-        num_poses == 1 ? "pose" : "poses", memory_text(plan.memory_bytes()))};
+        num_poses == 1 ? "pose" : "poses", memory_text(plan.memory_bytes()));
+}
+
+}  // namespace
+
+std::string how_to_keep_still_gloss() {
+    return "with --material phong:0,1, which makes the poses glossy and reflects nothing";
+}
+
+std::vector<std::string> gloss_notes(const GlossPlan& plan, uint64_t num_poses) {
+    std::vector<std::string> notes{what_it_takes(plan, num_poses)};
     notes.insert(notes.end(), plan.left_out.begin(), plan.left_out.end());
     return notes;
 }

@@ -33,7 +33,11 @@ struct GlossPlan {
 // that nobody chooses them again. Nothing if no material is glossy. Errors: those of parse_brdf().
 std::optional<GlossPlan> plan_gloss(const BakeInput& input, const BakeOptions& options);
 
-// Lines for users: what the plan takes for this many poses, and what its bands leave out.
+// What keeps the gloss of still meshes among poses that have none, as a phrase.
+std::string how_to_keep_still_gloss();
+
+// Lines for users: what the plan takes for this many poses, or that the gloss of still meshes alone will not
+// be encoded, and what its bands leave out.
 std::vector<std::string> gloss_notes(const GlossPlan& plan, uint64_t num_poses);
 
 }  // namespace paim

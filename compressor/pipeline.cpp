@@ -15,6 +15,7 @@
 #include "compressor/encode/search/glossy_encode.h"
 #include "compressor/encode/search/less_noise.h"
 #include "compressor/encode/search/target_encode.h"
+#include "compressor/encode_notes.h"
 #include "compressor/encode_report.h"
 #include "compressor/gloss_plan.h"
 #include "compressor/gloss_report.h"
@@ -234,28 +235,6 @@ ordered_json run_bake(CompressOptions options) {
     return tell(options, report);
 }
 
-// Nothing can be said about errors of transfer that is zero.
-void say_if_dark(const BakeReader& reader) {
-    const std::vector<double> rms = reader.total_statistics().transfer_rms;
-    if (std::any_of(rms.begin(), rms.end(), [](double value) { return value > 0.0; })) return;
-    fmt::print(stderr,
-               "note: no light reaches any vertex: errors of the transfer are 0 and mean nothing "
-               "(where faces look inwards, bake again with --orient into another .bake)\n");
-}
-
-void say_if_fewer_bands(const EncodeOptions& asked, const BakeReader& reader) {
-    const uint32_t bands = reader.identity().layout.in_bands;
-    if (asked.bands <= bands || asked.bands == EncodeOptions().bands) return;
-    fmt::print(stderr, "note: --bands {}: the bake has {}, which are all kept\n", asked.bands,
-               bands);
-}
-
-void say_more_rays_help() {
-    fmt::print(stderr,
-               "note: most of the error is bake noise: more rays would help more than more "
-               "components (bake again with more --rays, into another .bake)\n");
-}
-
 ordered_json run_glossy_encode(const CompressOptions& options, const EncodeOptions& encode_options,
                                const BakeReader& reader) {
     if (options.target) {
@@ -280,12 +259,7 @@ ordered_json run_encode(CompressOptions options, const std::filesystem::path& di
     reader.verify_all();
     say_if_dark(reader);
     say_if_fewer_bands(encode_options, reader);
-    say_if_no_gloss_error(options, !reader.gloss_rows().empty());
-    if (reader.identity().gloss && reader.gloss_rows().empty()) {
-        fmt::print(stderr,
-                   "note: no vertex of the poses is glossy: the gloss of still meshes alone is not "
-                   "encoded\n");
-    }
+    if (reader.gloss_rows().empty()) say_if_without_gloss(options.gloss_error.has_value(), reader);
     if (!reader.gloss_rows().empty()) return run_glossy_encode(options, encode_options, reader);
     if (options.target) {
         const TargetReport report = encode_target(options, encode_options, reader);

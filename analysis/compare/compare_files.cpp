@@ -4,9 +4,9 @@
 #include <memory>
 #include <utility>
 
+#include "analysis/bake_file.h"
 #include "analysis/file_poses.h"
 #include "analysis/frame_time.h"
-#include "paim/format/paim/paim_read.h"
 #include "paim/metrics/image_error.h"
 
 namespace paim {
@@ -30,7 +30,7 @@ FileComparison compare_files(const std::vector<std::filesystem::path>& paths,
     std::vector<std::shared_ptr<const Asset>> assets;
     std::vector<std::unique_ptr<FilePoses>> poses;
     for (const std::filesystem::path& path : paths) {
-        assets.push_back(std::make_shared<const Asset>(read_paim(path)));
+        assets.push_back(std::make_shared<const Asset>(read_file_of(bake, path)));
         poses.push_back(std::make_unique<FilePoses>(*assets.back(), bake));
         static_cast<FileCosts&>(comparison.files.emplace_back()) = costs_of(path, *assets.back());
         comparison.files.back().seen.resize(num_lights);

@@ -31,7 +31,7 @@ struct FileComparison {
 };
 
 // on_step  called compare_steps() times
-// Errors: those of read_paim() and measure_asset().
+// Errors: those of read_file_of() and measure_asset().
 FileComparison compare_files(const std::vector<std::filesystem::path>& paths,
                              const BakeReader& bake, const Stage& stage,
                              const ReferenceSource& reference,

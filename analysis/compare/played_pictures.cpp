@@ -43,21 +43,30 @@ std::vector<Vec3f> PlayedPictures::positions() const {
     return all;
 }
 
+std::vector<Vec3f> PlayedPictures::radiance() const {
+    std::vector<Vec3f> all;
+    for (size_t part = 0; part < playback_.num_parts(); ++part) {
+        const std::span<const Vec3f> of_part = playback_.radiance(part);
+        all.insert(all.end(), of_part.begin(), of_part.end());
+    }
+    return all;
+}
+
 std::vector<Image> PlayedPictures::at(double time) {
-    std::vector<std::vector<Vec3f>> radiance(lights_.size());
-    for (size_t light = 0; light < lights_.size(); ++light) {
-        playback_.set_light(DistantLight(lights_[light].coefficients));
-        playback_.update(time);
-        for (size_t part = 0; part < playback_.num_parts(); ++part) {
-            const std::span<const Vec3f> of_part = playback_.radiance(part);
-            radiance[light].insert(radiance[light].end(), of_part.begin(), of_part.end());
+    std::vector<std::vector<std::vector<Vec3f>>> seen(views_.num_views());  // [views][lights][V]
+    for (const NamedLight& light : lights_) {
+        playback_.set_light(DistantLight(light.coefficients));
+        for (size_t view = 0; view < seen.size(); ++view) {
+            playback_.set_eye(Vec3f(views_.cameras()[view].eye / views_.scale()));
+            playback_.update(time);
+            seen[view].push_back(radiance());
         }
     }
     const std::vector<Vec3f> places = positions();
     std::vector<Image> pictures;
-    for (const Camera& camera : views_.cameras()) {
-        for (Image& image : render_images(topology_, places, radiance, camera, views_.size_pixels(),
-                                          views_.size_pixels())) {
+    for (size_t view = 0; view < seen.size(); ++view) {
+        for (Image& image : render_images(topology_, places, seen[view], views_.cameras()[view],
+                                          views_.size_pixels(), views_.size_pixels())) {
             pictures.push_back(std::move(image));
         }
     }

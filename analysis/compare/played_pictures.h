@@ -33,11 +33,13 @@ class PlayedPictures {
     PlayedPictures(std::shared_ptr<const Asset> asset, const PlayedViews& views,
                    const std::vector<NamedLight>& lights);
 
-    // At a time in poses, against black. returns [views · lights + light]
+    // At a time in poses, against black, with gloss. returns [views · lights + light]
     std::vector<Image> at(double time);
 
   private:
+    // Of all parts, one after another, at the last update.
     std::vector<Vec3f> positions() const;
+    std::vector<Vec3f> radiance() const;
 
     const PlayedViews& views_;
     const std::vector<NamedLight>& lights_;

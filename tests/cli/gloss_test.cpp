@@ -5,35 +5,15 @@
 
 #include "paim/format/bake/bake_directory.h"
 #include "paim/format/paim/paim_read.h"
-#include "tests/cli/tool_test.h"
+#include "tests/cli/gloss_tool.h"
 
 namespace paim {
 namespace {
 
 using nlohmann::json;
 
-class Gloss : public ToolTest {
+class Gloss : public GlossTool {
   protected:
-    void SetUp() override {
-        expect_success(run(PAIM_POSES, {"sphere", "-o", path("p"), "--poses", "3", "--vertices",
-                                        "200", "--json"}));
-    }
-
-    ToolResult bake(const std::string& name, const Arguments& options = {}) const {
-        Arguments arguments{"bake", path("p"), "-o", path(name), "--rays",
-                            "64",   "--bands", "3",  "--quiet"};
-        arguments.insert(arguments.end(), options.begin(), options.end());
-        return compress(arguments);
-    }
-    void bake_glossy(const std::string& name) const {
-        expect_success(bake(name, {"--material", "phong:0.5,4", "--gloss-bands", "3,2"}));
-    }
-    json encode(const std::string& bake, const std::string& name,
-                const Arguments& options = {}) const {
-        Arguments arguments{"encode", path(bake), "-o", path(name), "--json"};
-        arguments.insert(arguments.end(), options.begin(), options.end());
-        return parse_object(compress(arguments));
-    }
     // The number of lines that say so of an option.
     static size_t num_unused(const ToolResult& result, const std::string& option) {
         expect_success(result);
@@ -44,9 +24,6 @@ class Gloss : public ToolTest {
             ++count;
         }
         return count;
-    }
-    uint64_t size_of(const std::string& name) const {
-        return std::filesystem::file_size(path(name));
     }
 };
 
@@ -175,8 +152,12 @@ TEST_F(Gloss, FilesWithoutATargetHaveItToo) {
     EXPECT_EQ(asset.moving().gloss->layout.out_bands, 2u);
 }
 
+// Of a body whose files are so large that their size falls with the error: that of the sphere goes up and
+// down by 2 %, which is as much as from 10 % of error to 12 %.
 TEST_F(Gloss, FilesOfASizeHaveBothKinds) {
-    bake_glossy("g.bake");
+    const std::string octopus = make_poses("octopus", 3, 1000);
+    expect_success(compress({"bake", octopus, "-o", path("g.bake"), "--rays", "64", "--bands", "3",
+                             "--material", "phong:0.5,4", "--gloss-bands", "3,2", "--quiet"}));
     const auto size =
         encode("g.bake", "x.paim", {"--max-error", "10%"})["size_bytes"].get<uint64_t>();
     const json report = encode("g.bake", "y.paim", {"--max-size", std::to_string(size)});

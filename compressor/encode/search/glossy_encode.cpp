@@ -81,6 +81,20 @@ GlossySummary encode_both(const BakeReader& bake, const BakeReader& gloss,
     return summary;
 }
 
+// Takes what a file of gloss alone states of its positions, and met for them, out of its provenance: the
+// file of both kinds has the positions of the diffuse one.
+void forget_positions(const fs::path& file, Asset& gloss) {
+    auto provenance = nlohmann::json::parse(gloss.provenance_json);
+    if (!provenance.contains("measured")) return;
+    for (const NamedError& error : read_error_statement(gloss, file).errors) {
+        if (error.of_light) continue;
+        for (const char* const member : {"measured", "targets"}) {
+            if (provenance.contains(member)) provenance[member].erase(error.name);
+        }
+    }
+    gloss.provenance_json = json_text(provenance);
+}
+
 // The files of one error for both kinds of transfer.
 class JoinedFiles : public SizedFiles {
   public:
@@ -193,6 +207,7 @@ JoinedFile join_transfer_files(const BakeReader& bake, const TransferFiles& file
         for (uint32_t& vertex : vertices) vertex = of_rows[vertex];
         return vertices;
     };
+    forget_positions(files.gloss, gloss);
     JoinedFile joined;
     joined.frames = measure_frames(whole, bake, gloss_bake, power);
     auto provenance = nlohmann::ordered_json::parse(gloss.provenance_json);
