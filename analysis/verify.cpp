@@ -16,6 +16,7 @@
 #include "paim/codec/gloss_asset.h"
 #include "paim/format/paim/paim_read.h"
 #include "paim/metrics/asset_error.h"
+#include "paim/metrics/frame_error.h"
 
 namespace paim {
 
@@ -85,6 +86,23 @@ Check check(const AnalyzeOptions& options, const Asset& asset, const ErrorStatem
     return check;
 }
 
+// The errors of the frames, which stand beside the statement of the coefficients.
+void add_frames(const Asset& asset, const BakeReader& gloss, const ErrorStatement& statement,
+                Check& check) {
+    const FrameError frames = measure_frames(gloss, asset, check.spectrum);
+    const auto stated =
+        nlohmann::json::parse(asset.provenance_json).value("frames", nlohmann::json());
+    const bool same_light = check.spectrum.name == statement.band_power;
+    for (const auto& [name, value] : {std::pair("relative_rms", frames.relative_rms),
+                                      std::pair("worst_row", frames.worst_row)}) {
+        Comparison comparison{{std::string("frames_") + name, value, true}, {}};
+        const bool is_stated =
+            stated.is_object() && stated.contains(name) && stated[name].is_number();
+        if (is_stated && same_light) comparison.stated = stated[name].get<double>();
+        check.comparisons.push_back(std::move(comparison));
+    }
+}
+
 // The gloss of the file. Its positions are those of the file, which are checked without it, and only
 // where they are stated again.
 Check check_gloss(const AnalyzeOptions& options, const Asset& whole, const BakeReader& bake) {
@@ -104,6 +122,7 @@ Check check_gloss(const AnalyzeOptions& options, const Asset& whole, const BakeR
     gloss.of = " of the gloss";
     std::erase_if(gloss.comparisons,
                   [](const Comparison& one) { return !one.measured.of_light && !one.stated; });
+    add_frames(asset, gloss_bake, statement, gloss);
     return gloss;
 }
 

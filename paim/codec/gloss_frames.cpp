@@ -15,9 +15,9 @@ namespace {
 // A turn of π is the largest integer of 16 bits.
 constexpr double kTurnStep_rad = kPi / 32767.0;
 
-std::vector<Eigen::Matrix3f> rotations(const LowRank& turns) {
+std::vector<Eigen::Matrix3f> rotations(std::span<const Vec3f> vectors) {
     std::vector<Eigen::Matrix3f> matrices;
-    for (const Vec3f& vector : from_planes(turns.mean_floats())) {
+    for (const Vec3f& vector : vectors) {
         matrices.push_back(rotation_of(vector.cast<double>()).toRotationMatrix().cast<float>());
     }
     return matrices;
@@ -42,12 +42,15 @@ LowRank frame_turns(std::span<const Vec3f> vectors) {
         return {};
     }
     const auto step = static_cast<float>(kTurnStep_rad);
-    LowRank turns = LowRank::still(3, std::move(integers), {step, step, step});
-    return turns;
+    return LowRank::still(3, std::move(integers), {step, step, step});
+}
+
+std::vector<Vec3f> turn_vectors(const LowRank& turns) {
+    return from_planes(turns.mean_floats());
 }
 
 GlossFrames::GlossFrames(const Topology& faces, std::span<const float> reference,
-                         const LowRank& turns)
+                         std::span<const Vec3f> turns)
     : frames_(faces, from_planes(reference)), turns_(rotations(turns)) {}
 
 std::vector<Eigen::Matrix3f> GlossFrames::at(std::span<const float> positions) const {

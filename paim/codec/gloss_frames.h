@@ -18,14 +18,17 @@ Topology faces_of_gloss(const Topology& whole, std::span<const uint32_t> rows);
 // vectors  [R], of at most π
 // returns  a matrix without points if all are zero, up to the step of the integers
 LowRank frame_turns(std::span<const Vec3f> vectors);
+// [R], or empty if there are none.
+std::vector<Vec3f> turn_vectors(const LowRank& turns);
 
 class GlossFrames {
   public:
     // faces      of faces_of_gloss()
     // reference  [3][R] positions of the first pose, in local axes
-    // turns      of frame_turns(): the frame of a vertex is that of the positions (tangent_frames.h)
-    //            times its turn
-    GlossFrames(const Topology& faces, std::span<const float> reference, const LowRank& turns);
+    // turns      [R] or empty: the frame of a vertex is that of the positions (tangent_frames.h) times
+    //            its turn
+    GlossFrames(const Topology& faces, std::span<const float> reference,
+                std::span<const Vec3f> turns);
 
     // positions  [3][R] of a pose, in local axes
     // returns    [R] rotations from the frames to local axes

@@ -19,7 +19,7 @@ GlossPlayer::GlossPlayer(const CodedMesh& mesh)
     std::vector<float> first_pose;
     PositionDecoder().decode(mesh.positions, 0.0, mesh.positions.num_components, first_pose);
     frames_ = std::make_unique<GlossFrames>(faces_of_gloss(mesh.topology, gloss_.vertices),
-                                            at_rows(first_pose), gloss_.frame_turns);
+                                            at_rows(first_pose), turn_vectors(gloss_.frame_turns));
 }
 
 std::vector<float> GlossPlayer::at_rows(std::span<const float> positions) const {

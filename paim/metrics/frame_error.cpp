@@ -34,8 +34,9 @@ struct TurnedRow {
 };
 
 // turn  from one frame to the other
-TurnedRow error_of_turn(const TransferLayout& layout, const BandPower& power, const Eigen::Matrix3d& turn,
-              std::span<const float> planes, size_t num_rows, size_t row) {
+TurnedRow error_of_turn(const TransferLayout& layout, const BandPower& power,
+                        const Eigen::Matrix3d& turn, std::span<const float> planes, size_t num_rows,
+                        size_t row) {
     const int out_bands = static_cast<int>(layout.out_bands);
     const sh::Rotation rotation(out_bands, turn);
     TurnedRow sums;
@@ -92,19 +93,10 @@ std::vector<Vec3f> turns_to_baked(const BakeReader& gloss, size_t part) {
     return turns;
 }
 
-}  // namespace
-
-void set_frame_turns(const BakeReader& gloss, Asset& asset) {
-    for (size_t part = 0; part < asset.parts.size(); ++part) {
-        const std::vector<Vec3f> baked = turns_to_baked(gloss, part);
-        std::vector<Vec3f> turns;
-        for (const uint32_t row : match_part(asset, part, gloss)) turns.push_back(baked[row]);
-        asset.parts[part].frame_turns = frame_turns(turns);
-    }
-}
-
-FrameError measure_frames(const BakeReader& gloss, size_t part, const LowRank& positions,
-                          std::span<const uint32_t> vertices, const BandPower& power) {
+// turns  [R] in the order of the bake
+FrameError compare_frames(const BakeReader& gloss, size_t part, const LowRank& positions,
+                          std::span<const uint32_t> vertices, std::span<const Vec3f> turns,
+                          const BandPower& power) {
     const Topology& topology = topology_of(gloss, part);
     const size_t num_rows = topology.num_vertices;
     PAIM_CHECK_EQ(vertices.size(), num_rows);
@@ -112,8 +104,7 @@ FrameError measure_frames(const BakeReader& gloss, size_t part, const LowRank& p
     PositionDecoder decoder;
     std::vector<float> decoded;
     decoder.decode(positions, 0.0, positions.num_components, decoded);
-    const GlossFrames of_file(topology, gathered(decoded, vertices),
-                              frame_turns(turns_to_baked(gloss, part)));
+    const GlossFrames of_file(topology, gathered(decoded, vertices), turns);
     const BakedFrames of_bake(topology, read_pose(gloss, part, 0).positions);
     std::vector<TurnedRow> sums(num_rows);
     const uint32_t num_poses = part == 0 ? gloss.num_poses() : 1;
@@ -126,7 +117,8 @@ FrameError measure_frames(const BakeReader& gloss, size_t part, const LowRank& p
             for (size_t r = begin; r < end; ++r) {
                 const Eigen::Matrix3d turn =
                     wanted[r].transpose().cast<double>() * got[r].cast<double>();
-                const TurnedRow of_row = error_of_turn(layout, power, turn, pose.transfer, num_rows, r);
+                const TurnedRow of_row =
+                    error_of_turn(layout, power, turn, pose.transfer, num_rows, r);
                 sums[r].error += of_row.error;
                 sums[r].energy += of_row.energy;
             }
@@ -142,6 +134,40 @@ FrameError measure_frames(const BakeReader& gloss, size_t part, const LowRank& p
     if (total.energy == 0.0) return {};
     return {std::sqrt(std::max(0.0, total.error) / total.energy),
             std::sqrt(worst * static_cast<double>(num_rows) / total.energy)};
+}
+
+}  // namespace
+
+void set_frame_turns(const BakeReader& gloss, Asset& asset) {
+    for (size_t part = 0; part < asset.parts.size(); ++part) {
+        const std::vector<Vec3f> baked = turns_to_baked(gloss, part);
+        std::vector<Vec3f> turns;
+        for (const uint32_t row : match_part(asset, part, gloss)) turns.push_back(baked[row]);
+        asset.parts[part].frame_turns = frame_turns(turns);
+    }
+}
+
+FrameError measure_frames(const BakeReader& gloss, size_t part, const LowRank& positions,
+                          std::span<const uint32_t> vertices, const BandPower& power) {
+    const LowRank turns = frame_turns(turns_to_baked(gloss, part));
+    return compare_frames(gloss, part, positions, vertices, turn_vectors(turns), power);
+}
+
+FrameError measure_frames(const BakeReader& gloss, const Asset& asset, const BandPower& power) {
+    FrameError worst;
+    for (size_t part = 0; part < asset.parts.size(); ++part) {
+        const CodedMesh& mesh = asset.parts[part];
+        const std::vector<uint32_t> rows = match_part(asset, part, gloss);
+        const std::vector<Vec3f> of_file = turn_vectors(mesh.frame_turns);
+        std::vector<uint32_t> vertices(rows.size());
+        std::vector<Vec3f> turns(of_file.size());
+        for (uint32_t v = 0; v < rows.size(); ++v) vertices[rows[v]] = v;
+        for (size_t v = 0; v < of_file.size(); ++v) turns[rows[v]] = of_file[v];
+        const FrameError error =
+            compare_frames(gloss, part, mesh.positions, vertices, turns, power);
+        if (error.relative_rms >= worst.relative_rms) worst = error;
+    }
+    return worst;
 }
 
 }  // namespace paim

@@ -31,4 +31,8 @@ void set_frame_turns(const BakeReader& gloss, Asset& asset);
 FrameError measure_frames(const BakeReader& gloss, size_t part, const LowRank& positions,
                           std::span<const uint32_t> vertices, const BandPower& power);
 
+// Those of a file, as it has them, in the part where they are larger.
+// asset  codec/gloss_asset.h, made from the bake
+FrameError measure_frames(const BakeReader& gloss, const Asset& asset, const BandPower& power);
+
 }  // namespace paim

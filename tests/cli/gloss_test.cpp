@@ -5,6 +5,7 @@
 
 #include "paim/format/bake/bake_directory.h"
 #include "paim/format/paim/paim_read.h"
+#include "paim/format/paim/paim_write.h"
 #include "tests/cli/gloss_tool.h"
 
 namespace paim {
@@ -188,6 +189,25 @@ TEST_F(Gloss, HasErrorCurvesOfItsOwn) {
     EXPECT_TRUE(contains(diffuse.err, "--max-gloss-error is not used")) << diffuse.err;
     expect_failure(analyze({path("d.bake"), "-o", path("c"), "--gloss"}), 3,
                    {"no vertex of the poses is glossy"});
+}
+
+// What a file states of its frames is measured again.
+TEST_F(Gloss, FramesAreVerified) {
+    bake_glossy("g.bake");
+    encode("g.bake", "x.paim", {"--max-error", "5%"});
+    const json report =
+        parse_object(analyze({path("g.bake"), "--verify", path("x.paim"), "--json", "--quiet"}));
+    const json& frames = report["gloss"]["errors"]["frames_relative_rms"];
+    EXPECT_GT(frames["measured"].get<double>(), 0.0);
+    EXPECT_NEAR(frames["measured"].get<double>(), frames["stated"].get<double>(), 1e-9);
+    Asset asset = read_paim(path("x.paim"));
+    json provenance = json::parse(asset.provenance_json);
+    json& stated = provenance["gloss"]["frames"]["relative_rms"];
+    stated = 0.5 * stated.get<double>();
+    asset.provenance_json = provenance.dump();
+    write_paim(path("y.paim"), asset);
+    expect_failure(analyze({path("g.bake"), "--verify", path("y.paim"), "--quiet"}), 5,
+                   {"frames_relative_rms of the gloss"});
 }
 
 TEST_F(Gloss, OtherMaterialsAreAnotherBake) {

@@ -60,7 +60,7 @@ std::vector<Vec3d> expected_exit(const CodedMesh& mesh, std::span<const float> p
     std::vector<float> first_pose;
     PositionDecoder().decode(mesh.positions, 0.0, 100, first_pose);
     const auto frames = GlossFrames(faces_of_gloss(mesh.topology, gloss.vertices),
-                                    of_rows(gloss, first_pose), gloss.frame_turns)
+                                    of_rows(gloss, first_pose), turn_vectors(gloss.frame_turns))
                             .at(of_rows(gloss, positions));
     const auto out_bands = static_cast<int>(gloss.layout.out_bands);
     std::vector<Vec3d> exit(static_cast<size_t>(out_bands * out_bands) * gloss.num_rows,
