@@ -22,7 +22,6 @@
 #include "paim/light/load_light.h"
 #include "paim/light/sky.h"
 #include "paim/mesh/bounds.h"
-#include "paim/mesh/face_vertices.h"
 #include "paim/mesh/planes.h"
 #include "paim/sh/basis.h"
 
@@ -186,6 +185,7 @@ void study(const Options& options) {
         throw_usage("--pose {}: expected 0 to {}", options.pose, bake.num_poses() - 1);
     }
     const auto asset = std::make_shared<const Asset>(read_paim(options.file));
+    if (!asset->moving().gloss) throw_bad_input("{}: has no gloss", options.file.string());
     const EnvironmentLight map =
         options.env.empty() ? EnvironmentLight(make_sky()) : load_light(options.env).light;
     const PathScene scene(bake, options.pose);
@@ -194,11 +194,11 @@ void study(const Options& options) {
     Playback playback(asset);
     playback.keep_exit_radiance(true);
     playback.update(options.pose);
+    // What is glossy fills the picture.
+    const CodedGloss& gloss = asset->moving().gloss.value();
     Bounds bounds;
     const std::vector<Vec3f> placed = from_planes(playback.positions());
-    for (const uint32_t v : face_vertices(asset->moving().topology)) {
-        if (v < asset->moving().num_following) bounds.extend(placed[v]);
-    }
+    for (uint32_t r = 0; r < gloss.num_rows; ++r) bounds.extend(placed[gloss.vertex(r)]);
     const Camera camera = frame_bounds(bounds, 1.0f, kDefaultAzimuth_rad, kDefaultElevation_rad);
     const VisiblePoints visible =
         find_visible(scene.mesh.topology, scene.mesh.positions, camera, options.size, options.size);

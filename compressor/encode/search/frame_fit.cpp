@@ -22,7 +22,6 @@ FramedSummary encode_for_frames(const EncodeTarget& target, double most,
         summary.diffuse = encode(next);
         summary.frame_error = measure();
         if (summary.frame_error <= most) return summary;
-        if (summary.diffuse.float_positions) break;
         const double angle_deg = std::min(summary.diffuse.error.shape.worst.normal_angle_deg,
                                           summary.diffuse.targets.surface.normal_angle_deg);
         next.normal_angle_deg = kLess * angle_deg * most / summary.frame_error;

@@ -19,7 +19,7 @@ struct FramedSummary {
 };
 
 // Encodes the diffuse transfer, with ever smaller angles of face normals until the error of the frames
-// is at most `most`, or positions are floats and cannot be better.
+// is at most `most`.
 // encode   writes the file of a target
 // measure  the error of the frames of the file that was written last
 // Errors: threshold exceeded, if no positions are good enough.
