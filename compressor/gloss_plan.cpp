@@ -21,7 +21,9 @@ std::optional<GlossPlan> plan_gloss(const BakeInput& input, const BakeOptions& o
     GlossPlan plan{
         choose_gloss_layout(energies, in_bands, out_bands, input.layout(options).channels)
             .in_frames(),
-        glossy_rows(input.poses().topology(), materials).size()};
+        glossy_rows(input.poses().topology(), materials).size(),
+        glossy_rows(input.surroundings().still_mesh.topology, still_materials).size(),
+        options.bounces};
     for (const auto& [brdf, energy] : energies) {
         const GlossBands bands =
             given_gloss_bands(energy, plan.layout.in_bands, plan.layout.out_bands);
@@ -29,6 +31,22 @@ std::optional<GlossPlan> plan_gloss(const BakeInput& input, const BakeOptions& o
         if (!note.empty()) plan.left_out.push_back(std::move(note));
     }
     return plan;
+}
+
+uint64_t GlossPlan::memory_bytes() const {
+    TransferLayout baked = layout;
+    baked.kind = TransferKind::glossy_in_pose;
+    const uint64_t floats = sizeof(float) * uint64_t{baked.num_planes()};
+    const uint64_t poses = floats * num_rows, still = floats * num_still_rows;
+    // Both halves, and one of them in frames while they are turned (gloss_to_frames.h).
+    if (bounces == 0) {
+        return (2 * floats + sizeof(float) * layout.num_planes()) *
+               std::max(num_rows, num_still_rows);
+    }
+    // Both halves, twice: all light and the last bounce alone (glossy_bounces.h). What all meshes send
+    // out in one half. Both halves of every bounce of the still meshes, which stay.
+    const uint64_t of_still = 2 * bounces * still;
+    return std::max(5 * poses + still, 5 * still) + of_still;
 }
 
 namespace {

@@ -12,21 +12,16 @@ namespace paim {
 
 struct GlossPlan {
     TransferLayout layout;
-    uint64_t num_rows = 0;  // of the poses (mesh/materials.h)
+    uint64_t num_rows = 0;        // of the poses (mesh/materials.h)
+    uint64_t num_still_rows = 0;  // of the still meshes
+    uint32_t bounces = 0;
     // What the bands leave out of the reflection of each BRDF, for users, if that can be seen.
     std::vector<std::string> left_out = {};
 
     // Of its transfer (f32) and noise (f16) in the file of a pose.
-    uint64_t pose_file_bytes() const { return 6 * values(); }
-    // While a pose is baked: two halves of floats, in the axes of the pose.
-    uint64_t memory_bytes() const {
-        TransferLayout baked = layout;
-        baked.kind = TransferKind::glossy_in_pose;
-        return 8 * num_rows * baked.num_planes();
-    }
-
-  private:
-    uint64_t values() const { return num_rows * layout.num_planes(); }
+    uint64_t pose_file_bytes() const { return 6 * num_rows * layout.num_planes(); }
+    // Of the gloss while poses or still meshes are baked, whichever is more.
+    uint64_t memory_bytes() const;
 };
 
 // Chooses the bands that the options leave open; those who follow the plan set them in the options, so

@@ -70,8 +70,20 @@ void check_space(const BakeOptions& options, const BakeInput& input,
     check_bake_space(directory, pose_bytes, input.first_pose(), input.last_pose());
 }
 
-// Error, before a long bake, if its result could not be encoded in the memory allowed.
-void check_encoding_memory(const CompressOptions& options, const BakeInput& input) {
+// Error, before a long bake, if transfer of this layout could not be encoded in the memory allowed. How
+// many components a target takes, and with them its memory, is known from the bake alone.
+void check_encoding_memory(const CompressOptions& options, const EncodeSize& size,
+                           const TransferLayout& layout) {
+    const std::string what = options.output.string();
+    choose_num_in_flight(encode_size(size, options.encode), options.encode.memory_bytes, what);
+    if (options.encode.measure && !options.target) {
+        check_measuring_memory(size, layout, options.encode, what);
+    }
+}
+
+// The same for all that a bake will hold.
+void check_encoding_memory(const CompressOptions& options, const BakeInput& input,
+                           const std::optional<GlossPlan>& gloss) {
     const PoseSource& poses = input.poses();
     const StillMesh& still_mesh = input.surroundings().still_mesh;
     const TransferLayout layout = input.layout(options.bake);
@@ -84,11 +96,12 @@ void check_encoding_memory(const CompressOptions& options, const BakeInput& inpu
     size.bands = layout.in_bands;
     size.texture_bytes = poses.texture().size_bytes() + still_mesh.texture.size_bytes();
     size.still_mesh_bytes = still_mesh_bytes(still_mesh.topology, still_mesh.albedo, layout);
-    const std::string what = options.output.string();
-    choose_num_in_flight(encode_size(size, options.encode), options.encode.memory_bytes, what);
-    if (options.encode.measure && !options.target) {
-        check_measuring_memory(size, layout, options.encode, what);
-    }
+    check_encoding_memory(options, size, layout);
+    if (!gloss || gloss->num_rows == 0) return;
+    size.num_vertices = gloss->num_rows;
+    size.bands = gloss->layout.in_bands;
+    size.still_mesh_bytes = baked_pose_bytes(gloss->num_still_rows, gloss->layout);
+    check_encoding_memory(options, size, gloss->layout);
 }
 
 BakeReport bake(const CompressOptions& options, const BakeInput& input,
@@ -255,6 +268,7 @@ ordered_json run_encode(CompressOptions options, const std::filesystem::path& di
     EncodeOptions encode_options = options.encode;
     encode_options.name = options.output.stem().string();
     check_memory(reader, encode_options);
+    if (!reader.gloss_rows().empty()) check_memory(reader.gloss(), encode_options);
     check_band_power(options, reader.identity().layout.in_bands);
     reader.verify_all();
     say_if_dark(reader);
@@ -348,7 +362,7 @@ void check_both(CompressOptions& options, const BakeInput& input,
                 const std::filesystem::path& directory) {
     const std::optional<GlossPlan> gloss = choose_gloss(input, options.bake);
     say_if_no_gloss_error(options, gloss && gloss->num_rows > 0);
-    check_encoding_memory(options, input);
+    check_encoding_memory(options, input, gloss);
     check_space(options.bake, input, gloss, directory);
 }
 

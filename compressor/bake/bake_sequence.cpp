@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <future>
 #include <ranges>
+#include <utility>
 
 #include "compressor/bake/gloss_to_frames.h"
 #include "compressor/bake/local_pose.h"
@@ -155,7 +156,7 @@ BakeSummary bake_sequence(const PoseSource& given, const BakeOptions& options,
                 gloss_to_frames(identity.gloss->layout, frames.at(still_mesh.pose), baked);
             }
             if (!found) {
-                writer.write_still_mesh({still_mesh.topology, still_mesh.albedo, baked,
+                writer.write_still_mesh({still_mesh.topology, still_mesh.albedo, std::move(baked),
                                          still_mesh.materials, still_mesh.texture});
             }
         }

@@ -161,6 +161,8 @@ std::vector<GlossyTerm> add_glossy_bounces(const GlossyBounceScene& scene, uint3
     const uint32_t channels = scene.layout.channels;
     const GlossRows& rows = *scene.own.rows;
     const size_t num_vertices = scene.own.num_vertices, num_rows = rows.vertices.size();
+    const size_t still_rows =
+        scene.still_mesh.num_vertices > 0 ? scene.still_mesh.rows->vertices.size() : 0;
     std::vector<uint32_t> row_of(num_vertices, kNoRow);
     for (size_t r = 0; r < num_rows; ++r) row_of[rows.vertices[r]] = static_cast<uint32_t>(r);
     GlossyTerm term;
@@ -173,6 +175,7 @@ std::vector<GlossyTerm> add_glossy_bounces(const GlossyBounceScene& scene, uint3
         if (keep_terms) terms.push_back(term);
         for (uint32_t half = 0; half < 2; ++half) {
             SentLight source(scene.layout, scene.gloss_layout);
+            source.reserve(num_vertices + scene.still_mesh.num_vertices, num_rows + still_rows);
             source.add(scene.own, term, half);
             if (scene.still_mesh.num_vertices > 0) {
                 source.add(scene.still_mesh, (*scene.still_terms)[b - 1], half);

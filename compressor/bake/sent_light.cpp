@@ -12,6 +12,12 @@ SentLight::SentLight(const TransferLayout& layout, const TransferLayout& gloss_l
       gloss_layout_(gloss_layout),
       num_light_(std::max(layout.num_coefficients(), gloss_layout.num_coefficients())) {}
 
+void SentLight::reserve(size_t num_vertices, size_t num_rows) {
+    row_of_.reserve(num_vertices);
+    diffuse_.reserve(num_vertices * layout_.num_planes());
+    gloss_.reserve(num_rows * gloss_layout_.num_planes());
+}
+
 void SentLight::add(const ReflectingMesh& mesh, const GlossyTerm& term, size_t half) {
     const size_t num_coefficients = layout_.num_coefficients();
     const std::vector<float>& diffuse = term.diffuse[half];

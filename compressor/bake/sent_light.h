@@ -33,6 +33,9 @@ class SentLight {
     // layout, gloss_layout  of the same channels
     SentLight(const TransferLayout& layout, const TransferLayout& gloss_layout);
 
+    // Makes room for so many vertices and rows of all meshes, so that adding them copies nothing.
+    void reserve(size_t num_vertices, size_t num_rows);
+
     // Adds the vertices of a mesh after those that are there.
     void add(const ReflectingMesh& mesh, const GlossyTerm& term, size_t half);
 

@@ -210,6 +210,34 @@ TEST_F(Gloss, FramesAreVerified) {
                    {"frames_relative_rms of the gloss"});
 }
 
+// Three times 250 planes of 6000 vertices, each with its mean and 2 components, are 54 MB of floats; of
+// diffuse transfer it is a 28th.
+TEST_F(Gloss, FilesThatCannotBeMeasuredAreRefusedBeforeTheBake) {
+    expect_success(run(PAIM_POSES, {"sphere", "-o", path("many"), "--poses", "3", "--vertices",
+                                    "6000", "--json"}));
+    const auto both = [&](const std::string& name, const Arguments& options) {
+        Arguments arguments{path("many"),
+                            "-o",
+                            path(name),
+                            "--rays",
+                            "2",
+                            "--bands",
+                            "3",
+                            "--memory",
+                            "64M",
+                            "--measure",
+                            "--transfer-components",
+                            "all",
+                            "--quiet"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        return compress(arguments);
+    };
+    expect_failure(both("g.paim", {"--material", "phong:0.1,4", "--gloss-bands", "5,4"}), 3,
+                   {"g.paim", "--memory allows"});
+    EXPECT_FALSE(std::filesystem::exists(path("g.bake")));
+    expect_success(both("d.paim", {}));
+}
+
 TEST_F(Gloss, OtherMaterialsAreAnotherBake) {
     bake_glossy("g.bake");
     expect_failure(bake("g.bake", {"--material", "phong:0.5,5", "--gloss-bands", "3,2"}), 2,

@@ -72,6 +72,39 @@ TEST_F(Memory, OfABakeDoesNotGrowWithItsPoses) {
     EXPECT_LT(of_many, of_few + 8'000'000);
 }
 
+// What is said of gloss beforehand is what it takes: two halves, and what bounces keep of both meshes.
+TEST_F(Memory, OfGlossIsSaidBeforeABake) {
+    const std::string poses = make_poses("sphere", 1, 4000);
+    write("still.obj", "mtllib a.mtl\nusemtl a\n" + text_of("sphere/sphere_0000.obj"));
+    write("a.mtl", "newmtl a\nKd 0.5\nKs 0.1\nNs 9\n");
+    const auto expect_said = [&](const Arguments& options) {
+        const auto command = [&](const std::string& name, const Arguments& gloss) {
+            Arguments arguments{"bake",   poses, "-o",      path(name + ".bake"),
+                                "--rays", "2",   "--bands", "2"};
+            arguments.insert(arguments.end(), options.begin(), options.end());
+            arguments.insert(arguments.end(), gloss.begin(), gloss.end());
+            return arguments;
+        };
+        const Arguments gloss{"--material", "phong:0.1,9", "--gloss-bands", "6,5", "--gloss"};
+        const std::string err = compress(command("said", gloss)).err;
+        const size_t at = err.find(" MB of memory");
+        EXPECT_NE(at, std::string::npos) << err;
+        if (at == std::string::npos) return 0L;
+        const long said = 1'000'000 * std::stol(err.substr(err.rfind(' ', at - 1) + 1));
+        const long took = peak_bytes(command("g", gloss)) - peak_bytes(command("d", {}));
+        // Observed: within 3 MB. The rest are tables of the BRDF and what the allocator keeps.
+        EXPECT_NEAR(took, said, 6'000'000);
+        for (const std::string name : {"said", "g", "d"}) {
+            std::filesystem::remove_all(path(name + ".bake"));
+        }
+        return said;
+    };
+    // Two halves of 900 planes of 4000 vertices are 29 MB.
+    EXPECT_GT(expect_said({}), 29'000'000);
+    EXPECT_GT(expect_said({"--bounces", "1"}), 5 * 14'400'000);
+    EXPECT_GT(expect_said({"--bounces", "2", "--static", path("still.obj")}), 10 * 14'400'000);
+}
+
 TEST_F(Memory, TooManyPosesAreRefusedBeforeAnyWork) {
     bench::SyntheticBake{4, 700, 1}.write(directory_ / "long.bake");
     const Contents before = contents_of(directory_.path());

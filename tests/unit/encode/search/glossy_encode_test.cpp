@@ -76,7 +76,7 @@ TEST(GlossyEncode, SaysWhichErrorsASizeIsFittedBy) {
     const std::filesystem::path scratch = directory / "parts";
     std::filesystem::create_directory(scratch);
     const uint64_t size =
-        encode_glossy_to_target(bake, {}, target, scratch, directory / "x.paim").size_bytes;
+        encode_glossy_to_target(bake, {}, target, scratch, directory / "x.paim").both.size_bytes;
 
     target.diffuse.transfer_error.reset();
     target.gloss.transfer_error.reset();
