@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <functional>
 #include <sstream>
 #include <string>
 
@@ -11,6 +12,25 @@
 #include "tests/cli/tool_test.h"
 
 namespace paim {
+
+// The text of an OBJ file whose vertices are moved.
+inline std::string moved_obj(const std::string& obj,
+                             const std::function<Vec3d(const Vec3d&)>& move) {
+    std::istringstream lines(obj);
+    std::string text;
+    for (std::string line; std::getline(lines, line);) {
+        Vec3d x;
+        int length = 0;
+        if (std::sscanf(line.c_str(), "v %lf %lf %lf%n", &x[0], &x[1], &x[2], &length) == 3) {
+            x = move(x);
+            // Colours stay.
+            line = fmt::format("v {:.9g} {:.9g} {:.9g}", x[0], x[1], x[2]) +
+                   line.substr(static_cast<size_t>(length));
+        }
+        text += line + "\n";
+    }
+    return text;
+}
 
 class GlossTool : public ToolTest {
   protected:
@@ -39,21 +59,13 @@ class GlossTool : public ToolTest {
     }
 
     // A sphere of radius 1, whose material library NAME.mtl gives it a tinted Phong lobe.
-    void write_shiny_sphere(const std::string& name, const Vec3f& centre) const {
+    void write_shiny_sphere(const std::string& name, const Vec3d& centre) const {
         const std::string folder = name + "-poses";
         expect_success(
             run(PAIM_POSES, {"sphere", "-o", path(folder), "--poses", "1", "--vertices", "200"}));
-        std::istringstream unmoved(text_of(folder + "/sphere_0000.obj"));
-        std::string text = "mtllib " + name + ".mtl\nusemtl shiny\n";
-        for (std::string line; std::getline(unmoved, line);) {
-            Vec3f x;
-            if (std::sscanf(line.c_str(), "v %f %f %f", &x[0], &x[1], &x[2]) == 3) {
-                x += centre;
-                line = fmt::format("v {} {} {}", x[0], x[1], x[2]);
-            }
-            text += line + "\n";
-        }
-        write(name + ".obj", text);
+        write(name + ".obj", "mtllib " + name + ".mtl\nusemtl shiny\n" +
+                                 moved_obj(text_of(folder + "/sphere_0000.obj"),
+                                           [&](const Vec3d& x) { return Vec3d(x + centre); }));
         write(name + ".mtl", "newmtl shiny\nKd 0.2 0.2 0.2\nKs 0.6 0.3 0.15\nNs 6\n");
     }
 };

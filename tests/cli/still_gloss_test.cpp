@@ -21,7 +21,7 @@ class StillGloss : public GlossTool {
     // Poses of a sphere of radius 1 at the origin, next to a shiny one.
     void SetUp() override {
         GlossTool::SetUp();
-        write_shiny_sphere("shiny", Vec3f(0.5f, 0.25f, 3.0f));
+        write_shiny_sphere("shiny", Vec3d(0.5, 0.25, 3.0));
     }
 
     ToolResult bake_scene(const std::string& name, const Arguments& more = {}) const {
@@ -119,7 +119,7 @@ TEST_F(StillGloss, IsThatOfTheMeshAlone) {
     EXPECT_LT(largest_difference(exit_radiance("g.paim", 1), alone), 3e-6);
 
     // Another mesh in its light shows that the two could differ.
-    write_shiny_sphere("near", Vec3f(0.5f, 0.25f, 5.2f));
+    write_shiny_sphere("near", Vec3d(0.5, 0.25, 5.2));
     Arguments shadowed = scene;
     for (const std::string& word : {std::string("--static"), path("near.obj")}) {
         shadowed.push_back(word);
