@@ -210,11 +210,11 @@ TEST_F(Gloss, FramesAreVerified) {
                    {"frames_relative_rms of the gloss"});
 }
 
-// Three times 250 planes of 6000 vertices, each with its mean and 2 components, are 54 MB of floats; of
+// Three times 250 planes of 8000 vertices, each with its mean and 2 components, are 72 MB of floats; of
 // diffuse transfer it is a 28th.
 TEST_F(Gloss, FilesThatCannotBeMeasuredAreRefusedBeforeTheBake) {
     expect_success(run(PAIM_POSES, {"sphere", "-o", path("many"), "--poses", "3", "--vertices",
-                                    "6000", "--json"}));
+                                    "8000", "--json"}));
     const auto both = [&](const std::string& name, const Arguments& options) {
         Arguments arguments{path("many"),
                             "-o",
