@@ -21,6 +21,8 @@ std::vector<float> in_order_of_bake(const std::vector<float>& planes,
 void put_in_order(const std::vector<uint32_t>& old_vertex, DecodedPose& pose) {
     pose.positions = in_order_of_bake(pose.positions, old_vertex);
     pose.transfer = in_order_of_bake(pose.transfer, old_vertex);
+    const std::vector<Eigen::Matrix3f> frames = pose.frames;
+    for (size_t v = 0; v < frames.size(); ++v) pose.frames[old_vertex[v]] = frames[v];
 }
 
 }  // namespace

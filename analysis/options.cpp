@@ -160,11 +160,12 @@ void check_gloss(const AnalyzeOptions& options) {
     const bool others = !options.verify.empty() || options.bake_directory.empty() ||
                         options.held_out || options.trade || !options.budget.empty() ||
                         !options.temporal.empty() || !options.curves_rays.empty() ||
+                        !options.curves_of.empty() || !options.curves_groups.empty() ||
                         options.reference != ReferenceKind::bake;
     if (!options.gloss || !others) return;
     throw_usage(
-        "--gloss: expected --curves, --curves-of, --curves-groups or --compare of a bake; other questions, and "
-        "other references than the bake, are about the diffuse transfer");
+        "--gloss: expected --curves or --compare of a bake; other questions, and other references than the "
+        "bake, are about the diffuse transfer");
 }
 
 }  // namespace
@@ -222,7 +223,7 @@ std::optional<AnalyzeOptions> parse_options(int argc, const char* const* argv, i
     app.add_flag(
         "--gloss", options.gloss,
         "Measure the glossy transfer of the bake and of files, instead of the diffuse one: "
-        "error curves and files side by side alone (--curves, --curves-of, --curves-groups, --compare)");
+        "error curves and files side by side alone (--curves, --compare)");
     app.add_flag("--json", options.json, "Write one JSON object on stdout and nothing else");
     app.add_flag("--quiet", options.quiet, "Show no progress");
     exit_code = cli::parse(app, argc, argv);

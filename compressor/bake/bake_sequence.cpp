@@ -11,6 +11,7 @@
 #include "compressor/scene/isolated_at_rest.h"
 #include "paim/base/check.h"
 #include "paim/base/parallel.h"
+#include "paim/mesh/planes.h"
 
 namespace paim {
 
@@ -74,16 +75,36 @@ uint32_t num_following_rows(const PoseSource& source) {
     return static_cast<uint32_t>(end - rows.begin());
 }
 
-// The first pose in local axes. Gloss that nothing bakes needs none.
-RowFrames frames_of_rows(const PoseSource& source, const RootMotion& root_motion) {
+// The offset of a pose to the origin of its root motion.
+Vec3d offset_of(const PoseSource& source, uint32_t p, bool near_body) {
+    return near_body ? source.pose_offset(p) : Vec3d::Zero();
+}
+
+// Frames of the glossy rows, by the first pose as it is stored. Gloss that nothing bakes needs none.
+RowFrames frames_of_rows(const PoseSource& source, const RootMotion& root_motion, bool near_body) {
     if (source.materials().empty()) return {source.topology(), {}, {}};
-    std::vector<Vec3f> first = load_positions_from_origin(source, 0);
+    BakedPose first;
+    first.positions =
+        to_planes((near_body ? source.load_pose(0) : load_from_origin(source, 0)).positions);
     if (!root_motion.empty()) {
-        for (Vec3f& position : first) {
-            position = root_motion[0].to_local(position.cast<double>()).cast<float>();
-        }
+        const TransferLayout none{TransferKind::diffuse, 1};
+        move_to_local(root_motion[0], offset_of(source, 0, near_body), none, first,
+                      source.num_moving_vertices());
     }
-    return {source.topology(), source.materials(), first};
+    return {source.topology(), source.materials(), first.positions};
+}
+
+// Turns gloss, which is in the axes of the scene, into frames of a pose that is in local axes.
+void gloss_to_local_frames(const RigidTransform& root, const TransferLayout& layout,
+                           const RowFrames& row_frames, uint32_t num_following_rows,
+                           BakedPose& baked) {
+    std::vector<Eigen::Matrix3f> frames = row_frames.at(baked);
+    const Eigen::Matrix3f to_scene = root.rotation.toRotationMatrix().cast<float>();
+    for (size_t r = 0; r < std::min<size_t>(num_following_rows, frames.size()); ++r) {
+        frames[r] = to_scene * frames[r];
+    }
+    gloss_to_frames(layout, frames, baked);
+    turn_gloss(root, layout, baked, num_following_rows);
 }
 
 }  // namespace
@@ -92,7 +113,6 @@ BakeIdentity bake_identity(const PoseSource& source, const BakeOptions& options,
                            const std::string& normals, const Surroundings& surroundings,
                            const RootMotion& root_motion) {
     BakeIdentity identity;
-    identity.baker = baker_version(options.sampler);
     const StillMesh& still_mesh = surroundings.still_mesh;
     const Materials& materials = source.materials();
     identity.layout = TransferBaker::bake_layout(options, source.albedo(), still_mesh, materials);
@@ -101,6 +121,7 @@ BakeIdentity bake_identity(const PoseSource& source, const BakeOptions& options,
         identity.gloss = GlossIdentity{layout->in_frames(), materials.glossy};
         add_materials(still_mesh.materials.glossy, identity.gloss->materials);
     }
+    identity.baker = baker_version(options.sampler, identity.gloss.has_value());
     identity.bounces = options.bounces;
     identity.sampler = sampler_name(options.sampler);
     identity.streams = streams_name(options.streams);
@@ -151,9 +172,8 @@ BakeSummary bake_sequence(const PoseSource& given, const BakeOptions& options,
         if (!found || needed) {
             BakedPose baked = baker.bake_still_mesh();
             if (identity.gloss) {
-                const RowFrames frames(still_mesh.topology, still_mesh.materials,
-                                       still_mesh.pose.positions);
-                gloss_to_frames(identity.gloss->layout, frames.at(still_mesh.pose), baked);
+                const RowFrames frames(still_mesh.topology, still_mesh.materials, baked.positions);
+                gloss_to_frames(identity.gloss->layout, frames.at(baked), baked);
             }
             if (!found) {
                 writer.write_still_mesh({still_mesh.topology, still_mesh.albedo, std::move(baked),
@@ -164,7 +184,7 @@ BakeSummary bake_sequence(const PoseSource& given, const BakeOptions& options,
     // Rays are traced in the coordinates of the floor and the still meshes, or else near the body.
     const bool near_body = !root_motion.empty() && surroundings.still_mesh.empty() &&
                            identity.num_following == kAllVertices;
-    const RowFrames frames = frames_of_rows(source, root_motion);
+    const RowFrames frames = frames_of_rows(source, root_motion, near_body);
     ReadAhead ahead(source, near_body);
     BakeSummary summary;
     std::vector<PoseStatistics> poses;
@@ -177,17 +197,14 @@ BakeSummary bake_sequence(const PoseSource& given, const BakeOptions& options,
             const Pose pose = ahead.take(p);
             if (p < last && !writer.has_pose(p + 1)) ahead.start(p + 1);
             BakedPose baked = baker.bake(source.topology(), pose, p);
-            if (identity.gloss) {
-                gloss_to_frames(identity.gloss->layout, frames.at(pose), baked);
-            }
             baked.statistics.mesh = report_pose(source.topology(), pose.positions);
             if (!root_motion.empty()) {
-                const Vec3d offset = near_body ? source.pose_offset(p) : Vec3d::Zero();
-                move_to_local(source, root_motion, p, offset, identity.layout, baked);
-                if (identity.gloss) {
-                    turn_gloss(root_motion[p], identity.gloss->layout, baked,
-                               num_following_rows(source));
-                }
+                move_to_local(source, root_motion, p, offset_of(source, p, near_body),
+                              identity.layout, baked);
+            }
+            if (identity.gloss) {
+                gloss_to_local_frames(root_at(root_motion, p), identity.gloss->layout, frames,
+                                      num_following_rows(source), baked);
             }
             writer.write_pose(p, baked);
             statistics = baked.statistics;

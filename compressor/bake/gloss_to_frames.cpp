@@ -16,9 +16,13 @@ std::vector<uint32_t> rows_of(const Topology& topology, const Materials& materia
     return materials.empty() ? std::vector<uint32_t>() : glossy_rows(topology, materials);
 }
 
-std::vector<Vec3f> chosen(std::span<const Vec3f> points, const std::vector<uint32_t>& rows) {
+// [3][V] to [R].
+std::vector<Vec3f> chosen(std::span<const float> planes, const std::vector<uint32_t>& rows) {
+    const size_t num_vertices = planes.size() / 3;
     std::vector<Vec3f> of_rows;
-    for (const uint32_t v : rows) of_rows.push_back(points[v]);
+    for (const uint32_t v : rows) {
+        of_rows.emplace_back(planes[v], planes[num_vertices + v], planes[2 * num_vertices + v]);
+    }
     return of_rows;
 }
 
@@ -59,11 +63,11 @@ std::vector<float> to_frames(const TransferLayout& layout, std::span<const Eigen
 }  // namespace
 
 RowFrames::RowFrames(const Topology& topology, const Materials& materials,
-                     std::span<const Vec3f> first_pose)
+                     std::span<const float> first_pose)
     : rows_(rows_of(topology, materials)),
       frames_(faces_among(topology, rows_), chosen(first_pose, rows_)) {}
 
-std::vector<Eigen::Matrix3f> RowFrames::at(const Pose& pose) const {
+std::vector<Eigen::Matrix3f> RowFrames::at(const BakedPose& pose) const {
     return frames_.at(chosen(pose.positions, rows_), chosen(pose.normals, rows_));
 }
 

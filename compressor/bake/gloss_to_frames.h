@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "paim/format/bake/bake_directory.h"
-#include "paim/mesh/pose_source.h"
-#include "paim/mesh/root_motion.h"
+#include "paim/mesh/materials.h"
 #include "paim/mesh/tangent_frames.h"
 
 namespace paim {
@@ -14,14 +13,15 @@ namespace paim {
 // Frames of the glossy rows of a mesh in all of its poses, from its faces among them.
 class RowFrames {
   public:
-    // first_pose  of the mesh, in the axes that the files have (local axes)
+    // first_pose  [3][V] positions, as they are stored (in local axes); empty if nothing is glossy
     RowFrames(const Topology& topology, const Materials& materials,
-              std::span<const Vec3f> first_pose);
+              std::span<const float> first_pose);
 
     bool empty() const { return rows_.empty(); }
     // The z axes are the normals of the pose.
-    // returns  [R] rotations from the frames to the axes of the pose
-    std::vector<Eigen::Matrix3f> at(const Pose& pose) const;
+    // pose     its positions and normals, as they are stored
+    // returns  [R] rotations from the frames to the axes of these
+    std::vector<Eigen::Matrix3f> at(const BakedPose& pose) const;
 
   private:
     const std::vector<uint32_t> rows_;

@@ -341,7 +341,7 @@ std::optional<TransferLayout> TransferBaker::gloss_layout(const BakeOptions& opt
     const uint32_t channels = bake_layout(options, albedo, still_mesh, materials).channels;
     const uint32_t in_bands = options.gloss_in_bands, out_bands = options.gloss_out_bands;
     if (in_bands > 0 && out_bands > 0) {
-        return TransferLayout{TransferKind::glossy, in_bands, channels, out_bands};
+        return TransferLayout{TransferKind::glossy_in_pose, in_bands, channels, out_bands};
     }
     const GlossEnergies energies = gloss_energies(
         {&materials, &still_mesh.materials}, std::max(kMostChosenInBands, kMostChosenOutBands));

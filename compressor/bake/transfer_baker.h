@@ -23,8 +23,10 @@
 namespace paim {
 
 // Raised whenever the same options give other bytes, so that results of different builds are not
-// mixed. Bakes of a sampler whose directions alone change have a version of their own.
-constexpr uint32_t baker_version(SamplerKind sampler) {
+// mixed. Bakes of a sampler whose directions alone change, and bakes with gloss, have versions of their
+// own.
+constexpr uint32_t baker_version(SamplerKind sampler, bool has_gloss) {
+    if (has_gloss) return 8;
     return sampler == SamplerKind::uniform_sobol ? 7 : 6;
 }
 

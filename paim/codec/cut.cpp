@@ -23,10 +23,6 @@ StoredValues keep_planes(const StoredValues& values, const std::vector<uint32_t>
         values.values());
 }
 
-}  // namespace
-
-namespace {
-
 // layout  the same with fewer bands
 void keep_layout(const TransferLayout& layout, TransferLayout& whole, LowRank& matrix) {
     if (layout == whole) return;

@@ -11,8 +11,9 @@
 
 namespace paim {
 
-// The z axis of a frame is the normal of the vertex. In the reference pose the x axis is the first axis
-// of the coordinates, projected into the plane of the normal, so that frames of neighbours are alike.
+// The z axis of a frame is the normal of the vertex. In the reference pose the x axis is a direction
+// that is the same for all, (0.8, 0.36, 0.48), projected into the plane of the normal, so that frames of
+// neighbours are alike.
 // In other poses it follows the edges around the vertex: it is t = Σ_e w_e e, without its part along
 // the normal of the faces, of unit length. The weights w_e are those with Σ_e w_e e = x axis in the reference pose
 // whose Σ w_e² is smallest. So t is the deformation of the edges in the least-squares sense, applied

@@ -165,7 +165,10 @@ std::vector<uint32_t> match_part(const Asset& asset, size_t number, const BakeRe
             bake.directory().string(), layout.in_bands, layout.channels, mesh.layout.in_bands,
             mesh.layout.channels);
     }
-    expect_equal(bake, "bands of outgoing radiance", layout.out_bands, mesh.layout.out_bands);
+    // A file may have fewer than its bake: the highest are left out where they are zero.
+    if (mesh.layout.out_bands > layout.out_bands) {
+        expect_equal(bake, "bands of outgoing radiance", layout.out_bands, mesh.layout.out_bands);
+    }
     return old_vertex;
 }
 

@@ -116,11 +116,11 @@ TEST_F(GlossFramesOfBakes, ShowTheSameInEveryDirection) {
     const TransferLayout in_pose = *baker.gloss_layout(), in_frames = in_pose.in_frames();
     EXPECT_EQ(in_pose.num_planes(), 16u * 9u);
     EXPECT_EQ(in_frames.num_planes(), 10u * 9u);
-    const RowFrames row_frames(poses.topology(), kGlossy, poses.load_pose(0).positions);
+    const RowFrames row_frames(poses.topology(), kGlossy, to_planes(poses.load_pose(0).positions));
     const Pose pose = poses.load_pose(1);
     const BakedPose before = baker.bake(poses.topology(), pose, 1);
     BakedPose after = before;
-    const auto frames = row_frames.at(pose);
+    const auto frames = row_frames.at(before);
     gloss_to_frames(in_frames, frames, after);
     EXPECT_EQ(after.statistics.gloss_rms, rms_by_band(in_frames, after.gloss));
     RandomStream random(3);

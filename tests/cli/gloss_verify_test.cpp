@@ -208,12 +208,8 @@ TEST_F(GlossVerify, RefusesWhatCannotBeTold) {
         provenance["gloss"]["measured"]["transfer_error"] = "small";
     });
     expect_failure(verify("g.bake", "bad.paim"), 2, {"bad.paim: gloss", "transfer_error"});
-    for (const char* const bands : {"3,1", "3,3"}) {
-        std::filesystem::remove_all(path("o.bake"));
-        expect_success(bake("o.bake", {"--material", "phong:0.5,4", "--gloss-bands", bands}));
-        expect_failure(verify("o.bake", "x.paim"), 2,
-                       {"o.bake", "bands of outgoing radiance, got 2"});
-    }
+    expect_success(bake("o.bake", {"--material", "phong:0.5,4", "--gloss-bands", "3,1"}));
+    expect_failure(verify("o.bake", "x.paim"), 2, {"o.bake", "bands of outgoing radiance, got 2"});
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "compressor/encode/search/feasibility.h"
+#include "paim/base/error.h"
 
 namespace paim {
 
@@ -19,7 +20,13 @@ FramedSummary encode_for_frames(const EncodeTarget& target, double most,
     EncodeTarget next = target;
     FramedSummary summary;
     for (int tries = 0; tries < kMostTries; ++tries) {
-        summary.diffuse = encode(next);
+        try {
+            summary.diffuse = encode(next);
+        } catch (const Error& failure) {
+            // What was asked for is possible; what frames would need is not.
+            if (tries == 0 || failure.code() != ExitCode::threshold_exceeded) throw;
+            break;
+        }
         summary.frame_error = measure();
         if (summary.frame_error <= most) return summary;
         const double angle_deg = std::min(summary.diffuse.error.shape.worst.normal_angle_deg,

@@ -77,7 +77,7 @@ struct BakedPose {
     std::vector<float> noise;
     PoseStatistics statistics;
     // The same of the glossy transfer, [planes of GlossIdentity::layout][R] (mesh/materials.h:
-    // glossy_rows()). Empty if the bake has none.
+    // glossy_rows()), with its outgoing side in frames (baked_frames.h). Empty if the bake has none.
     std::vector<float> gloss;
     std::vector<float> gloss_noise;
 };

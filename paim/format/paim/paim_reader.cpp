@@ -203,7 +203,7 @@ ContainerReader open(std::shared_ptr<const ByteSource> source, const std::string
             section::kKindAnimation, options.prefix ? Extent::prefix : Extent::whole};
 }
 
-// Error (bad input) if a vertex of a floor's face is glossy: gloss is in the axes of the body.
+// Error (bad input) if a vertex of a floor's face is glossy: light of gloss is in the axes of the body.
 void check_matte_floor(const CodedMesh& mesh, const std::string& file) {
     if (!mesh.gloss || mesh.num_following >= mesh.topology.num_vertices) return;
     std::vector<bool> is_row(mesh.topology.num_vertices, mesh.gloss->vertices.empty());

@@ -8,6 +8,8 @@
 #include <string>
 
 #include "paim/format/bake/bake_directory.h"
+#include "paim/mesh/normals.h"
+#include "paim/mesh/planes.h"
 #include "tests/temporary_directory.h"
 
 namespace paim {
@@ -31,10 +33,10 @@ std::vector<float> waves(uint32_t num_planes, uint32_t pose, float scale) {
     return values;
 }
 
-BakedPose pose_of(uint32_t p) {
+BakedPose pose_of(const Topology& mesh, uint32_t p) {
     BakedPose pose;
     pose.positions = waves(3, 0, 1.0f);
-    pose.normals = waves(3, p, 1.0f);
+    pose.normals = to_planes(vertex_normals(mesh, from_planes(pose.positions)));
     pose.transfer = waves(4, p, 0.5f);
     pose.noise = waves(4, 2 * p + 1, 0.0005f);
     pose.gloss = waves(kGloss.num_planes(), p + 1, 0.5f);
@@ -63,7 +65,7 @@ BakeReader write_sheet(const std::filesystem::path& directory) {
     identity.mesh_xxh3 = mesh_checksum(mesh, {}, {}, kShiny);
     for (uint32_t p = 0; p < kPoses; ++p) identity.poses.push_back({std::to_string(p), p});
     const BakeWriter writer(directory, identity, mesh, {}, {}, kShiny);
-    for (uint32_t p = 0; p < kPoses; ++p) writer.write_pose(p, pose_of(p));
+    for (uint32_t p = 0; p < kPoses; ++p) writer.write_pose(p, pose_of(mesh, p));
     return BakeReader(directory);
 }
 
