@@ -13,6 +13,7 @@
 #include "paim/mesh/planes.h"
 #include "paim/render/render.h"
 #include "paim/sh/basis.h"
+#include "player/gl/target.h"
 #include "player/render/vertex_source.h"
 #include "tests/player/surface_pictures.h"
 #include "tests/player/test_asset.h"
@@ -194,6 +195,8 @@ TEST_P(GlossPictures, AreOfLitSurfacesAlone) {
 // Where no gloss is shown none is computed, and what has changed meanwhile is made up for.
 TEST_P(GlossPictures, GlossThatIsNotShownIsNotComputed) {
     const auto asset = std::make_shared<const Asset>(glossy_asset(true));
+    const gl::Target target(8, 8);  // shaders that write vertices need one
+    target.bind();
     const DecodeLimits all;
     std::string note;
     const auto source = make_vertex_source(asset, all, all, GetParam().decoder, note);

@@ -90,7 +90,8 @@ class GlossStage : public testing::Test {
         const TransferFiles files{directory_ / "diffuse.paim", directory_ / "gloss.paim"};
         encode(bake, options, files.diffuse);
         encode(bake.gloss(), options, files.gloss);
-        join_transfer_files(bake, files, directory_ / "x.paim");
+        const BandPower flat = BandPower::flat(bake.gloss().identity().layout.in_bands);
+        join_transfer_files(bake, files, flat, directory_ / "x.paim");
         return Playback(std::make_shared<const Asset>(read_paim(directory_ / "x.paim")));
     }
 
