@@ -131,7 +131,7 @@ Stage::Stage(const BakeReader& bake, std::vector<NamedLight> lights, const Stage
         topology_.append(still.topology);
         still_positions_ = from_planes(scaled(still.pose.positions, scale_));
         if (bake.identity().layout.kind == TransferKind::glossy) {
-            still_frames_ = BakedFrames(still.topology, still.pose.positions).at(still.pose);
+            still_frames_ = BakedFrames(bake, 1).at(0);
         }
     }
     const uint32_t count = std::min(options.num_poses, bake.num_poses());
@@ -250,9 +250,7 @@ DecodedPose baked_pose(const BakeReader& bake, uint32_t p, BakedPose pose) {
     const BakeIdentity& identity = bake.identity();
     std::vector<Eigen::Matrix3f> frames;
     if (identity.layout.kind == TransferKind::glossy) {
-        std::vector<float> first_pose(pose.positions.size());
-        bake.read_position_rows(0, 0, first_pose.size(), first_pose.data());
-        frames = BakedFrames(bake.topology(), first_pose).at(pose);
+        frames = BakedFrames(bake, 0).at(p);
     }
     return {identity.layout,   std::move(pose.positions),        std::move(pose.transfer),
             std::move(frames), root_at(identity.root_motion, p), identity.num_following};

@@ -2,6 +2,7 @@
 #include "paim/codec/gloss_player.h"
 
 #include "paim/codec/rebuild_planes.h"
+#include "paim/mesh/planes.h"
 #include "paim/shade/exit_radiance.h"
 #include "paim/shade/turn_exit.h"
 
@@ -19,23 +20,12 @@ GlossPlayer::GlossPlayer(const CodedMesh& mesh)
     std::vector<float> first_pose;
     PositionDecoder().decode(mesh.positions, 0.0, mesh.positions.num_components, first_pose);
     frames_ = std::make_unique<GlossFrames>(faces_of_gloss(mesh.topology, gloss_.vertices),
-                                            at_rows(first_pose), turn_vectors(gloss_.frame_turns));
-}
-
-std::vector<float> GlossPlayer::at_rows(std::span<const float> positions) const {
-    const size_t num_vertices = positions.size() / 3;
-    std::vector<float> at_rows;
-    at_rows.reserve(size_t{3} * gloss_.num_rows);
-    for (size_t axis = 0; axis < 3; ++axis) {
-        for (uint32_t r = 0; r < gloss_.num_rows; ++r) {
-            at_rows.push_back(positions[axis * num_vertices + gloss_.vertex(r)]);
-        }
-    }
-    return at_rows;
+                                            planes_at(first_pose, gloss_.vertices),
+                                            turn_vectors(gloss_.frame_turns));
 }
 
 void GlossPlayer::place(std::span<const float> positions) {
-    positions_ = at_rows(positions);
+    positions_ = planes_at(positions, gloss_.vertices);
     placed_ = frames_->at(positions_);
 }
 

@@ -38,8 +38,6 @@ class GlossPlayer {
     std::span<const Vec3f> towards(const Vec3d& eye);
 
   private:
-    std::vector<float> at_rows(std::span<const float> positions) const;
-
     const CodedGloss& gloss_;
     std::unique_ptr<TransferPlayer> player_;
     std::unique_ptr<GlossFrames> frames_;

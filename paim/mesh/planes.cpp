@@ -19,6 +19,17 @@ std::vector<float> to_planes(std::span<const Vec3f> points) {
     return planes;
 }
 
+std::vector<float> planes_at(std::span<const float> planes, std::span<const uint32_t> points) {
+    if (points.empty()) return {planes.begin(), planes.end()};
+    const size_t num_points = planes.size() / 3;
+    std::vector<float> chosen;
+    chosen.reserve(3 * points.size());
+    for (size_t axis = 0; axis < 3; ++axis) {
+        for (const uint32_t j : points) chosen.push_back(planes[axis * num_points + j]);
+    }
+    return chosen;
+}
+
 std::vector<Vec3f> from_planes(std::span<const float> planes) {
     PAIM_CHECK_EQ(planes.size() % 3, size_t{0});
     const size_t count = planes.size() / 3;

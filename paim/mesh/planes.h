@@ -1,6 +1,7 @@
 // Points as planes x, y, z of V values each, which is how files and data matrices hold them.
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
@@ -11,6 +12,9 @@ namespace paim {
 
 // [V] to [3][V].
 std::vector<float> to_planes(std::span<const Vec3f> points);
+
+// [3][V] to [3][R]: those of these points, R of them; of all, if there are none.
+std::vector<float> planes_at(std::span<const float> planes, std::span<const uint32_t> points);
 
 // [3][V] to [V]; the size is a multiple of three (checked).
 std::vector<Vec3f> from_planes(std::span<const float> planes);

@@ -20,13 +20,8 @@ namespace {
 
 constexpr size_t kRowsPerPiece = 64;
 
-const Topology& topology_of(const BakeReader& gloss, size_t part) {
-    return part == 0 ? gloss.topology() : gloss.still_mesh()->topology;
-}
-
-BakedPose read_pose(const BakeReader& gloss, size_t part, uint32_t p) {
-    return part == 0 ? gloss.read_pose(p) : gloss.still_mesh()->pose;
-}
+// Transfer is read for so many rows at a time.
+constexpr size_t kRowsInMemory = size_t{1} << 16;
 
 // |R t − t|² of the outgoing coefficients of a row, summed over light with its weights, and Σ |t|².
 struct TurnedRow {
@@ -67,80 +62,97 @@ TurnedRow error_of_turn(const TransferLayout& layout, const BandPower& power,
     return sums;
 }
 
-std::vector<float> gathered(std::span<const float> planes, std::span<const uint32_t> vertices) {
-    const size_t num_vertices = planes.size() / 3;
-    std::vector<float> rows;
-    rows.reserve(3 * vertices.size());
-    for (size_t axis = 0; axis < 3; ++axis) {
-        for (const uint32_t v : vertices) rows.push_back(planes[axis * num_vertices + v]);
-    }
-    return rows;
-}
-
 // [R] rotation vectors, in the order of the bake.
-std::vector<Vec3f> turns_to_baked(const BakeReader& gloss, size_t part) {
-    const Topology& topology = topology_of(gloss, part);
-    const BakedPose first = read_pose(gloss, part, 0);
-    const std::vector<Vec3f> positions = from_planes(first.positions);
-    const auto of_positions = TangentFrames(topology, positions).at(positions);
-    const auto of_bake = BakedFrames(topology, first.positions).at(first);
+std::vector<Vec3f> turns_to_baked(const BakedFrames& frames) {
+    const auto by_faces = frames.by_faces(0), of_bake = frames.at(0);
     std::vector<Vec3f> turns;
-    for (size_t r = 0; r < positions.size(); ++r) {
+    for (size_t r = 0; r < of_bake.size(); ++r) {
         const Eigen::Matrix3d turn =
-            of_positions[r].transpose().cast<double>() * of_bake[r].cast<double>();
+            by_faces[r].transpose().cast<double>() * of_bake[r].cast<double>();
         turns.push_back(rotation_vector(Eigen::Quaterniond(turn).normalized()).cast<float>());
     }
     return turns;
 }
 
-// turns  [R] in the order of the bake
-FrameError compare_frames(const BakeReader& gloss, size_t part, const LowRank& positions,
-                          std::span<const uint32_t> vertices, std::span<const Vec3f> turns,
-                          const BandPower& power) {
-    const Topology& topology = topology_of(gloss, part);
-    const size_t num_rows = topology.num_vertices;
-    PAIM_CHECK_EQ(vertices.size(), num_rows);
-    const TransferLayout& layout = gloss.identity().layout;
-    PositionDecoder decoder;
-    std::vector<float> decoded;
-    decoder.decode(positions, 0.0, positions.num_components, decoded);
-    const GlossFrames of_file(topology, gathered(decoded, vertices), turns);
-    const BakedFrames of_bake(topology, read_pose(gloss, part, 0).positions);
-    std::vector<TurnedRow> sums(num_rows);
-    const uint32_t num_poses = part == 0 ? gloss.num_poses() : 1;
-    for (uint32_t p = 0; p < num_poses; ++p) {
-        const BakedPose pose = read_pose(gloss, part, p);
-        decoder.decode(positions, p, positions.num_components, decoded);
-        const auto got = of_file.at(gathered(decoded, vertices));
-        const auto wanted = of_bake.at(pose);
-        parallel_for(num_rows, kRowsPerPiece, [&](size_t begin, size_t end) {
-            for (size_t r = begin; r < end; ++r) {
-                const Eigen::Matrix3d turn =
-                    wanted[r].transpose().cast<double>() * got[r].cast<double>();
-                const TurnedRow of_row =
-                    error_of_turn(layout, power, turn, pose.transfer, num_rows, r);
-                sums[r].error += of_row.error;
-                sums[r].energy += of_row.energy;
+// Compares the frames of a file with those of the bake.
+class FrameComparison {
+  public:
+    // part, positions, vertices  of measure_frames()
+    // turns                      [R] in the order of the bake, or empty
+    FrameComparison(const BakeReader& gloss, size_t part, const LowRank& positions,
+                    std::span<const uint32_t> vertices, std::span<const Vec3f> turns,
+                    const BandPower& power)
+        : layout_(gloss.identity().layout),
+          part_(gloss, part),
+          of_bake_(gloss, part),
+          positions_(positions),
+          vertices_(vertices),
+          of_file_(part_.topology(), decoded_rows(0), turns),
+          power_(power),
+          sums_(part_.num_vertices()) {
+        PAIM_CHECK_EQ(vertices.size(), size_t{part_.num_vertices()});
+        for (uint32_t p = 0; p < part_.num_poses(); ++p) add(p);
+    }
+
+    FrameError error() const {
+        TurnedRow total;
+        double worst = 0.0;
+        for (const TurnedRow& of_row : sums_) {
+            total.error += of_row.error;
+            total.energy += of_row.energy;
+            worst = std::max(worst, of_row.error);
+        }
+        if (total.energy == 0.0) return {};
+        return {std::sqrt(std::max(0.0, total.error) / total.energy),
+                std::sqrt(worst * static_cast<double>(sums_.size()) / total.energy)};
+    }
+
+  private:
+    std::vector<float> decoded_rows(uint32_t p) {
+        std::vector<float> decoded;
+        decoder_.decode(positions_, p, positions_.num_components, decoded);
+        return planes_at(decoded, vertices_);
+    }
+
+    void add(uint32_t p) {
+        const auto got = of_file_.at(decoded_rows(p)), wanted = of_bake_.at(p);
+        std::vector<float> planes;
+        for (size_t first = 0; first < sums_.size(); first += kRowsInMemory) {
+            const size_t count = std::min(kRowsInMemory, sums_.size() - first);
+            planes.resize(layout_.num_planes() * count);
+            for (uint32_t plane = 0; plane < layout_.num_planes(); ++plane) {
+                part_.read_transfer_rows(p, plane * uint64_t{sums_.size()} + first, count,
+                                         planes.data() + plane * count);
             }
-        });
+            parallel_for(count, kRowsPerPiece, [&](size_t begin, size_t end) {
+                for (size_t j = begin; j < end; ++j) {
+                    const size_t r = first + j;
+                    const Eigen::Matrix3d turn =
+                        wanted[r].transpose().cast<double>() * got[r].cast<double>();
+                    const TurnedRow row = error_of_turn(layout_, power_, turn, planes, count, j);
+                    sums_[r].error += row.error;
+                    sums_[r].energy += row.energy;
+                }
+            });
+        }
     }
-    TurnedRow total;
-    double worst = 0.0;
-    for (const TurnedRow& of_row : sums) {
-        total.error += of_row.error;
-        total.energy += of_row.energy;
-        worst = std::max(worst, of_row.error);
-    }
-    if (total.energy == 0.0) return {};
-    return {std::sqrt(std::max(0.0, total.error) / total.energy),
-            std::sqrt(worst * static_cast<double>(num_rows) / total.energy)};
-}
+
+    const TransferLayout layout_;
+    const BakedPart part_;
+    const BakedFrames of_bake_;
+    const LowRank& positions_;
+    std::span<const uint32_t> vertices_;
+    PositionDecoder decoder_;
+    const GlossFrames of_file_;
+    const BandPower& power_;
+    std::vector<TurnedRow> sums_;  // [R]
+};
 
 }  // namespace
 
 void set_frame_turns(const BakeReader& gloss, Asset& asset) {
     for (size_t part = 0; part < asset.parts.size(); ++part) {
-        const std::vector<Vec3f> baked = turns_to_baked(gloss, part);
+        const std::vector<Vec3f> baked = turns_to_baked(BakedFrames(gloss, part));
         std::vector<Vec3f> turns;
         for (const uint32_t row : match_part(asset, part, gloss)) turns.push_back(baked[row]);
         asset.parts[part].frame_turns = frame_turns(turns);
@@ -149,8 +161,8 @@ void set_frame_turns(const BakeReader& gloss, Asset& asset) {
 
 FrameError measure_frames(const BakeReader& gloss, size_t part, const LowRank& positions,
                           std::span<const uint32_t> vertices, const BandPower& power) {
-    const LowRank turns = frame_turns(turns_to_baked(gloss, part));
-    return compare_frames(gloss, part, positions, vertices, turn_vectors(turns), power);
+    const LowRank turns = frame_turns(turns_to_baked(BakedFrames(gloss, part)));
+    return FrameComparison(gloss, part, positions, vertices, turn_vectors(turns), power).error();
 }
 
 FrameError measure_frames(const BakeReader& gloss, const Asset& asset, const BandPower& power) {
@@ -164,7 +176,7 @@ FrameError measure_frames(const BakeReader& gloss, const Asset& asset, const Ban
         for (uint32_t v = 0; v < rows.size(); ++v) vertices[rows[v]] = v;
         for (size_t v = 0; v < of_file.size(); ++v) turns[rows[v]] = of_file[v];
         const FrameError error =
-            compare_frames(gloss, part, mesh.positions, vertices, turns, power);
+            FrameComparison(gloss, part, mesh.positions, vertices, turns, power).error();
         if (error.relative_rms >= worst.relative_rms) worst = error;
     }
     return worst;

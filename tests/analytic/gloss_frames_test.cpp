@@ -176,11 +176,11 @@ TEST_F(GlossFramesOfBakes, HaveTheErrorOfTurnedTransfer) {
     const TransferLayout layout = gloss.identity().layout;
     const size_t num_rows = gloss.identity().num_vertices;
     const GlossFrames of_file(gloss.topology(), moved[0], {});
-    const BakedFrames of_bake(gloss.topology(), moved[0]);
+    const BakedFrames of_bake(gloss, 0);
     double squared = 0.0, energy = 0.0;
     for (uint32_t p = 0; p < kPoses; ++p) {
         const BakedPose pose = gloss.read_pose(p);
-        const auto got = of_file.at(moved[p]), wanted = of_bake.at(pose);
+        const auto got = of_file.at(moved[p]), wanted = of_bake.at(p);
         for (size_t r = 0; r < num_rows; ++r) {
             const sh::Rotation one(4, got[r].cast<double>()), other(4, wanted[r].cast<double>());
             for (uint32_t i = 0; i < 9; ++i) {

@@ -190,14 +190,17 @@ class BakeReader {
     // Checks the checksums of all poses. Call it once before rows are read.
     void verify_all() const;
 
-    // Rows [first, first + count) of positions (3 · V rows), transfer or noise (planes · V rows) of
-    // pose p.
+    // Rows [first, first + count) of positions or normals (3 · V rows), transfer or noise (planes · V
+    // rows) of pose p.
     void read_position_rows(uint32_t p, uint64_t first, uint64_t count, float* out) const;
+    void read_normal_rows(uint32_t p, uint64_t first, uint64_t count, float* out) const;
     void read_transfer_rows(uint32_t p, uint64_t first, uint64_t count, float* out) const;
     void read_noise_rows(uint32_t p, uint64_t first, uint64_t count, float* out) const;
 
   private:
     BakedPose read_gloss_pose(uint32_t p) const;
+    // Of positions or normals.
+    void read_vector_rows(uint32_t p, Tag tag, uint64_t first, uint64_t count, float* out) const;
     void read_rows(uint32_t p, Tag tag, uint32_t num_planes, uint64_t first, uint64_t count,
                    float* out, ScalarType type = ScalarType::f32) const;
 

@@ -256,16 +256,25 @@ void BakeReader::read_rows(uint32_t p, Tag tag, uint32_t num_planes, uint64_t fi
 }
 
 void BakeReader::read_position_rows(uint32_t p, uint64_t first, uint64_t count, float* out) const {
-    if (whole_ == nullptr) return read_rows(p, section::kPositions, 3, first, count, out);
+    read_vector_rows(p, section::kPositions, first, count, out);
+}
+
+void BakeReader::read_normal_rows(uint32_t p, uint64_t first, uint64_t count, float* out) const {
+    read_vector_rows(p, section::kNormals, first, count, out);
+}
+
+void BakeReader::read_vector_rows(uint32_t p, Tag tag, uint64_t first, uint64_t count,
+                                  float* out) const {
+    if (whole_ == nullptr) return read_rows(p, tag, 3, first, count, out);
     const std::vector<uint32_t>& rows = whole_->gloss_rows_;
     const uint64_t num_vertices = whole_->identity_.num_vertices;
-    if (rows.size() == num_vertices) return whole_->read_position_rows(p, first, count, out);
+    if (rows.size() == num_vertices) return whole_->read_vector_rows(p, tag, first, count, out);
     std::vector<float> plane(num_vertices);
     for (uint64_t done = 0; done < count;) {
         const uint64_t axis = (first + done) / rows.size();
         const uint64_t begin = (first + done) % rows.size();
         const uint64_t end = std::min<uint64_t>(rows.size(), begin + count - done);
-        whole_->read_position_rows(p, axis * num_vertices, num_vertices, plane.data());
+        whole_->read_vector_rows(p, tag, axis * num_vertices, num_vertices, plane.data());
         for (uint64_t r = begin; r < end; ++r) *out++ = plane[rows[r]];
         done += end - begin;
     }

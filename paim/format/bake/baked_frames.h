@@ -4,26 +4,41 @@
 #include <span>
 #include <vector>
 
-#include "paim/format/bake/bake_directory.h"
+#include "paim/format/bake/baked_part.h"
 #include "paim/mesh/planes.h"
 #include "paim/mesh/tangent_frames.h"
 
 namespace paim {
 
-// Of the rows of a bake of glossy transfer alone (BakeReader::gloss()) or of its still mesh: frames of
-// its faces (mesh/tangent_frames.h), whose z axes are the baked normals.
+// Of a part of a bake of glossy transfer alone (BakeReader::gloss()): frames of its faces
+// (mesh/tangent_frames.h), whose z axes are the baked normals.
 class BakedFrames {
   public:
-    // first_pose  [3][R] positions
-    BakedFrames(const Topology& topology, std::span<const float> first_pose)
-        : frames_(topology, from_planes(first_pose)) {}
+    // Keeps a reference to the bake.
+    // part  0: the moving part; 1: the still part, which must exist (checked)
+    BakedFrames(const BakeReader& gloss, size_t part)
+        : part_(gloss, part), frames_(part_.topology(), positions(0)) {}
 
-    // returns  [R] rotations from the frames to local axes
-    std::vector<Eigen::Matrix3f> at(const BakedPose& pose) const {
-        return frames_.at(from_planes(pose.positions), from_planes(pose.normals));
+    // [R] of pose p, in local axes.
+    std::vector<Vec3f> positions(uint32_t p) const {
+        return read(&BakedPart::read_position_rows, p);
     }
+    // returns  [R] rotations from the frames of pose p to local axes
+    std::vector<Eigen::Matrix3f> at(uint32_t p) const {
+        return frames_.at(positions(p), read(&BakedPart::read_normal_rows, p));
+    }
+    // The same with the normals of the faces as z axes.
+    std::vector<Eigen::Matrix3f> by_faces(uint32_t p) const { return frames_.at(positions(p)); }
 
   private:
+    using ReadRows = void (BakedPart::*)(uint32_t, uint64_t, uint64_t, float*) const;
+    std::vector<Vec3f> read(ReadRows rows, uint32_t p) const {
+        std::vector<float> planes(size_t{3} * part_.num_vertices());
+        (part_.*rows)(p, 0, planes.size(), planes.data());
+        return from_planes(planes);
+    }
+
+    BakedPart part_;
     TangentFrames frames_;
 };
 

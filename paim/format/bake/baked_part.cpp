@@ -49,6 +49,11 @@ void BakedPart::read_position_rows(uint32_t p, uint64_t first, uint64_t count, f
     copy_rows(still_->pose.positions, first, count, out);
 }
 
+void BakedPart::read_normal_rows(uint32_t p, uint64_t first, uint64_t count, float* out) const {
+    if (still_ == nullptr) return bake_.read_normal_rows(p, first, count, out);
+    copy_rows(still_->pose.normals, first, count, out);
+}
+
 void BakedPart::read_transfer_rows(uint32_t p, uint64_t first, uint64_t count, float* out) const {
     if (still_ == nullptr) return bake_.read_transfer_rows(p, first, count, out);
     copy_rows(still_->pose.transfer, first, count, out);

@@ -23,9 +23,10 @@ class BakedPart {
     uint32_t num_vertices() const { return topology().num_vertices; }
     uint32_t num_poses() const { return still_ == nullptr ? bake_.num_poses() : 1; }
 
-    // Rows [first, first + count) of positions (3 · V rows), transfer or noise (planes · V rows) of
-    // pose p. May be called from several threads.
+    // Rows [first, first + count) of positions or normals (3 · V rows), transfer or noise (planes · V
+    // rows) of pose p. May be called from several threads.
     void read_position_rows(uint32_t p, uint64_t first, uint64_t count, float* out) const;
+    void read_normal_rows(uint32_t p, uint64_t first, uint64_t count, float* out) const;
     void read_transfer_rows(uint32_t p, uint64_t first, uint64_t count, float* out) const;
     void read_noise_rows(uint32_t p, uint64_t first, uint64_t count, float* out) const;
 

@@ -6,6 +6,7 @@
 #include "paim/codec/gloss_player.h"
 #include "paim/codec/playback.h"
 #include "paim/codec/rebuild_planes.h"
+#include "paim/mesh/planes.h"
 #include "paim/sh/basis.h"
 #include "paim/sh/rotate.h"
 #include "tests/gloss_example.h"
@@ -38,18 +39,6 @@ std::vector<Vec3d> expected_in_frames(const CodedGloss& gloss, double time,
     return exit;
 }
 
-// Those of rows among the vertices.
-std::vector<float> of_rows(const CodedGloss& gloss, std::span<const float> positions) {
-    const size_t num_vertices = positions.size() / 3;
-    std::vector<float> rows;
-    for (size_t axis = 0; axis < 3; ++axis) {
-        for (uint32_t r = 0; r < gloss.num_rows; ++r) {
-            rows.push_back(positions[axis * num_vertices + gloss.vertex(r)]);
-        }
-    }
-    return rows;
-}
-
 // The same in local axes, [O][R]. Turned by matrices of rotation.
 // positions  of the pose
 std::vector<Vec3d> expected_exit(const CodedMesh& mesh, std::span<const float> positions,
@@ -59,9 +48,10 @@ std::vector<Vec3d> expected_exit(const CodedMesh& mesh, std::span<const float> p
     const std::vector<Vec3d> in_frames = expected_in_frames(gloss, time, limits, light);
     std::vector<float> first_pose;
     PositionDecoder().decode(mesh.positions, 0.0, 100, first_pose);
-    const auto frames = GlossFrames(faces_of_gloss(mesh.topology, gloss.vertices),
-                                    of_rows(gloss, first_pose), turn_vectors(gloss.frame_turns))
-                            .at(of_rows(gloss, positions));
+    const auto frames =
+        GlossFrames(faces_of_gloss(mesh.topology, gloss.vertices),
+                    planes_at(first_pose, gloss.vertices), turn_vectors(gloss.frame_turns))
+            .at(planes_at(positions, gloss.vertices));
     const auto out_bands = static_cast<int>(gloss.layout.out_bands);
     std::vector<Vec3d> exit(static_cast<size_t>(out_bands * out_bands) * gloss.num_rows,
                             Vec3d::Zero());
