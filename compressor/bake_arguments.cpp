@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "compressor/material/brdfs.h"
+#include "compressor/material/gloss_bands.h"
 #include "compressor/scene/root_motion.h"
 #include "paim/base/error.h"
 #include "paim/cli/help.h"
@@ -96,10 +97,12 @@ void add_gloss_options(CLI::App& app, CompressOptions& options, BakeArguments& a
         ->allow_extra_args(false)
         ->type_name("[NAME=]SPEC")
         ->group(kGroup);
-    app.add_option("--gloss-bands", arguments.gloss_bands,
-                   fmt::format("Bands of glossy transfer: of the light, 1 to {}, and of the light "
-                               "that leaves, 1 to {}. Default: as many as the materials need",
-                               sh::kMaxBands, kMaxOutBands))
+    app.add_option(
+           "--gloss-bands", arguments.gloss_bands,
+           fmt::format("Bands of glossy transfer: of the light, 1 to {}, and of the light "
+                       "that leaves, 1 to {}. Default: as many as the materials need, at most "
+                       "{} and {}",
+                       sh::kMaxBands, kMaxOutBands, kMostChosenInBands, kMostChosenOutBands))
         ->type_name("IN,OUT")
         ->group(kGroup);
 }

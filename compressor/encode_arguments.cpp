@@ -241,8 +241,8 @@ Precision precision_of(PrecisionChoice choice, bool has_target) {
 void add_everyday_encode_options(CLI::App& app, CompressOptions& options,
                                  EncodeArguments& arguments) {
     app.add_option("--max-error", arguments.max_error,
-                   "Largest error of the transfer, such as 5%. The smallest file that meets it is "
-                   "found, measured and written (docs/metrics.md)")
+                   "Largest error of the transfer, and of the gloss by itself, such as 5%. The "
+                   "smallest file that meets it is found, measured and written (docs/metrics.md)")
         ->type_name("ERROR");
     app.add_option("--max-size", arguments.max_size,
                    "Largest size of the file, such as 300K or 2M. The file with the smallest error "

@@ -24,6 +24,9 @@ nlohmann::ordered_json report_json(const EncodeReport& report);
 
 // Lines, each with a line feed.
 std::string report_text(const EncodeReport& report);
+inline std::string gloss_text(const EncodeReport& report) {
+    return report_text(report);
+}
 
 // The numbers of named_errors(), by name.
 nlohmann::ordered_json errors_json(const AssetError& error);

@@ -49,7 +49,7 @@ std::string report_text(const GlossReport<Report>& report) {
                "{}: {:.1f} kB, {:.2f} bits per vertex and pose, with gloss\n", report.paim.string(),
                static_cast<double>(report.size_bytes) / 1e3,
                bits_per_vertex_per_pose(report.size_bytes, report.num_vertices, report.num_poses)) +
-           report_text(report.diffuse) + report_text(report.gloss) +
+           report_text(report.diffuse) + gloss_text(report.gloss) +
            fmt::format(
                "  frames of the gloss, from decoded positions: {:.3g} %, worst row {:.3g} %{}\n",
                100.0 * report.frames.relative_rms, 100.0 * report.frames.worst_row,

@@ -140,15 +140,29 @@ ordered_json report_json(const TargetReport& report) {
     return json;
 }
 
-std::string report_text(const TargetReport& report) {
+namespace {
+
+std::string report_text(const TargetReport& report, bool has_positions) {
     const TargetSummary& summary = report.summary;
     std::string text = fmt::format(
-        "{}: {:.1f} kB, {:.2f} bits per vertex and pose\n", report.paim.string(),
+        "{}: {:.1f} kB, {:.2f} bits per vertex and pose{}\n", report.paim.string(),
         static_cast<double>(summary.size_bytes) / 1e3,
-        bits_per_vertex_per_pose(summary.size_bytes, summary.num_vertices, summary.num_poses));
-    text += candidates_text(summary.candidates) + transfer_text(summary) + geometry_text(summary);
-    if (summary.error.still) text += still_mesh_text(*summary.error.still);
+        bits_per_vertex_per_pose(summary.size_bytes, summary.num_vertices, summary.num_poses),
+        has_positions ? "" : " by itself");
+    text += candidates_text(summary.candidates) + transfer_text(summary);
+    if (has_positions) text += geometry_text(summary);
+    if (summary.error.still && has_positions) text += still_mesh_text(*summary.error.still);
     return text;
+}
+
+}  // namespace
+
+std::string report_text(const TargetReport& report) {
+    return report_text(report, true);
+}
+
+std::string gloss_text(const TargetReport& report) {
+    return report_text(report, false);
 }
 
 }  // namespace paim

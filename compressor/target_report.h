@@ -20,4 +20,7 @@ nlohmann::ordered_json report_json(const TargetReport& report);
 // Lines, each with a line feed: the candidates, which of them was chosen, and the measured errors.
 std::string report_text(const TargetReport& report);
 
+// The same of glossy transfer, whose positions are those of the diffuse file.
+std::string gloss_text(const TargetReport& report);
+
 }  // namespace paim

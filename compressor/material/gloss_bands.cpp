@@ -103,10 +103,15 @@ GlossBands given_gloss_bands(const GlossEnergy& energy, uint32_t in, uint32_t ou
 
 std::string gloss_bands_note(const std::string& brdf, const GlossBands& bands, double max_error) {
     if (bands.error_in <= max_error && bands.error_out <= max_error) return {};
+    // Of a lobe whose energy is mostly left out, harmonics show rings about a blurred highlight.
+    constexpr double kMostlyLeftOut = 0.5;
+    const bool is_mostly_left_out = std::max(bands.error_in, bands.error_out) > kMostlyLeftOut;
     return fmt::format(
         "{}: {} bands of light leave out {:.0f} % and {} bands of outgoing radiance {:.0f} % of the "
-        "energy of the reflection, so that it will look blurred",
-        brdf, bands.in, 100.0 * bands.error_in, bands.out, 100.0 * bands.error_out);
+        "energy of the reflection: {} (more: --gloss-bands; wider lobes need fewer)",
+        brdf, bands.in, 100.0 * bands.error_in, bands.out, 100.0 * bands.error_out,
+        is_mostly_left_out ? "its highlights will be blurred, with dark rings around them"
+                           : "its highlights will be somewhat blurred");
 }
 
 }  // namespace paim

@@ -12,6 +12,7 @@
 
 #include "compressor/encode/search/feasibility.h"
 #include "compressor/encode/search/frame_fit.h"
+#include "compressor/encode/search/less_noise.h"
 #include "compressor/encode/search/size_search.h"
 #include "paim/base/check.h"
 #include "paim/base/error.h"
@@ -76,7 +77,23 @@ GlossySummary encode_both(const BakeReader& bake, const BakeReader& gloss,
         });
     EncodeTarget of_gloss = target.gloss;
     of_gloss.transfer_error = std::sqrt(error * error - framed.frame_error * framed.frame_error);
-    GlossySummary summary{framed.diffuse, encode_gloss(of_gloss, files.gloss), {}};
+    const auto encode_coefficients = [&] {
+        const auto with_frames = [&](const Error& failure) {
+            return fmt::format(
+                "{} (of {:.3g} %, frames from decoded positions take {:.3g} %: squares add "
+                "up)",
+                failure.what(), 100.0 * error, 100.0 * framed.frame_error);
+        };
+        try {
+            return encode_gloss(of_gloss, files.gloss);
+        } catch (const TooNoisy& noisy) {
+            throw TooNoisy(with_frames(noisy), noisy.rays());
+        } catch (const Error& failure) {
+            if (failure.code() != ExitCode::threshold_exceeded) throw;
+            throw Error(failure.code(), with_frames(failure));
+        }
+    };
+    GlossySummary summary{framed.diffuse, encode_coefficients(), {}};
     summary.both = join_transfer_files(bake, files, target.gloss.spectrum, output);
     return summary;
 }
@@ -213,6 +230,9 @@ JoinedFile join_transfer_files(const BakeReader& bake, const TransferFiles& file
     auto provenance = nlohmann::ordered_json::parse(gloss.provenance_json);
     provenance["frames"] = {{"relative_rms", joined.frames.relative_rms},
                             {"worst_row", joined.frames.worst_row}};
+    for (const GlossMaterial& material : bake.identity().gloss->materials) {
+        provenance["brdfs"].push_back(material.brdf);
+    }
     gloss.provenance_json = json_text(provenance);
     const std::vector<uint32_t> vertices = rows_in_whole(0);
     const std::vector<uint32_t> still =

@@ -259,7 +259,8 @@ std::string first_difference(const BakeIdentity& there, const BakeIdentity& want
     };
     const auto or_none = [](const std::string& text) { return text.empty() ? "none" : text; };
     for (const std::string& difference :
-         {differ("baker", there.baker, wanted.baker),
+         {differ("gloss", shown(there.gloss), shown(wanted.gloss)),
+          differ("baker", there.baker, wanted.baker),
           differ("bounces", there.bounces, wanted.bounces),
           differ("bands", there.layout.in_bands, wanted.layout.in_bands),
           differ("channels", there.layout.channels, wanted.layout.channels),
@@ -269,7 +270,6 @@ std::string first_difference(const BakeIdentity& there, const BakeIdentity& want
           differ("rays", there.rays, wanted.rays),
           differ("seed", there.seed, wanted.seed),
           differ("normals", there.normals, wanted.normals),
-          differ("gloss", shown(there.gloss), shown(wanted.gloss)),
           differ("floor", or_none(there.floor), or_none(wanted.floor)),
           differ("vertices", there.num_vertices, wanted.num_vertices),
           differ("triangles", there.num_triangles, wanted.num_triangles),
