@@ -52,6 +52,9 @@ uint64_t GlossPlan::memory_bytes() const {
 namespace {
 
 std::string what_it_takes(const GlossPlan& plan, uint64_t num_poses) {
+    if (plan.num_rows == 0 && plan.num_still_rows == 0) {
+        return "gloss: no vertex has it: vertices have the material that most of their faces have";
+    }
     if (plan.num_rows == 0) {
         return "gloss: no vertex of the poses is glossy, and the gloss of still meshes alone is not "
                "encoded: it is kept " +

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "paim/base/check.h"
-#include "paim/base/orthonormal_basis.h"
+#include "paim/mesh/mesh_report.h"
 #include "paim/mesh/normals.h"
 
 namespace paim {
@@ -28,15 +28,13 @@ Vec3d unit_in_plane(const Vec3d& direction, const Vec3d& normal) {
     return projected.norm() > kShortest ? Vec3d(projected.normalized()) : Vec3d(Vec3d::Zero());
 }
 
+// A tangent of zero: the guide's direction in the plane of the normal.
 Eigen::Matrix3d frame_of(const Vec3d& tangent, const Vec3d& normal) {
-    Vec3d x = tangent, y;
-    if (x.isZero(0.0)) {
-        orthonormal_basis(normal, x, y);
-    } else {
-        y = normal.cross(x);
-    }
+    Vec3d x = tangent;
+    if (x.isZero(0.0)) x = unit_in_plane(kGuide, normal);
+    if (x.isZero(0.0)) x = unit_in_plane(Vec3d::UnitY(), normal);
     Eigen::Matrix3d frame;
-    frame << x, y, normal;
+    frame << x, normal.cross(x), normal;
     return frame;
 }
 
@@ -45,10 +43,8 @@ std::vector<Eigen::Matrix3d> reference_frames(std::span<const Vec3f> normals) {
     std::vector<Eigen::Matrix3d> frames;
     for (const Vec3f& n : normals) {
         const Vec3d normal = n.cast<double>();
-        Vec3d tangent = unit_in_plane(kGuide, normal);
-        if (tangent.isZero(0.0)) tangent = unit_in_plane(Vec3d::UnitY(), normal);
         frames.push_back(normal.isZero(0.0) ? Eigen::Matrix3d(Eigen::Matrix3d::Zero())
-                                            : frame_of(tangent, normal));
+                                            : frame_of(Vec3d::Zero(), normal));
     }
     return frames;
 }
@@ -56,10 +52,10 @@ std::vector<Eigen::Matrix3d> reference_frames(std::span<const Vec3f> normals) {
 }  // namespace
 
 TangentFrames::TangentFrames(const Topology& topology, std::span<const Vec3f> reference)
-    : topology_(topology), weights_(topology.triangles.size()) {
+    : topology_(without_duplicate_faces(topology)), weights_(topology_.triangles.size()) {
     PAIM_CHECK_EQ(reference.size(), topology.num_vertices);
     const std::vector<Eigen::Matrix3d> frames =
-        reference_frames(vertex_normals(topology, reference));
+        reference_frames(vertex_normals(topology_, reference));
     const auto for_each_edge = [&](const auto& use) {
         for (size_t f = 0; f < topology_.triangles.size(); ++f) {
             for (size_t corner = 0; corner < 3; ++corner) {

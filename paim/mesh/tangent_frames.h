@@ -20,13 +20,15 @@ namespace paim {
 // to the reference's x axis, and does not depend on the order of faces.
 class TangentFrames {
   public:
+    // topology   of faces with the same vertices, only the first one counts
     // reference  [V] positions
     TangentFrames(const Topology& topology, std::span<const Vec3f> reference);
 
     // The z axes are the normals of the faces around the vertices (vertex_normals()).
     // positions  [V] of a pose
-    // returns    [V] columns x, y, z, right-handed. Where the edges say nothing (none has a length, or
-    //            t is along the normal), x is any direction. The identity where the normal is zero
+    // returns    [V] columns x, y, z, right-handed. Where the edges say nothing (none has a length, there
+    //            or in the reference, or t is along the normal), x is that of the reference's rule.
+    //            The identity where the normal is zero
     std::vector<Eigen::Matrix3f> at(std::span<const Vec3f> positions) const;
 
     // The same with other z axes, into whose planes the x axes are projected.

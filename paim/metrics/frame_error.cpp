@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "paim/base/check.h"
 #include "paim/base/parallel.h"
@@ -62,35 +63,46 @@ TurnedRow error_of_turn(const TransferLayout& layout, const BandPower& power,
     return sums;
 }
 
-// [R] rotation vectors, in the order of the bake.
-std::vector<Vec3f> turns_to_baked(const BakedFrames& frames) {
-    const auto by_faces = frames.by_faces(0), of_bake = frames.at(0);
+// [R] rotation vectors of rows of a file.
+// faces  of the file, whose order decides which of two faces with the same vertices counts
+// rows   [R] the row of the bake for each
+std::vector<Vec3f> turns_to_baked(const BakedFrames& bake, const Topology& faces,
+                                  std::span<const uint32_t> rows) {
+    const std::vector<Vec3f> baked = bake.positions(0);
+    std::vector<Vec3f> positions;
+    for (const uint32_t row : rows) positions.push_back(baked[row]);
+    const auto by_faces = TangentFrames(faces, positions).at(positions), of_bake = bake.at(0);
     std::vector<Vec3f> turns;
-    for (size_t r = 0; r < of_bake.size(); ++r) {
+    for (size_t r = 0; r < rows.size(); ++r) {
         const Eigen::Matrix3d turn =
-            by_faces[r].transpose().cast<double>() * of_bake[r].cast<double>();
+            by_faces[r].transpose().cast<double>() * of_bake[rows[r]].cast<double>();
         turns.push_back(rotation_vector(Eigen::Quaterniond(turn).normalized()).cast<float>());
     }
     return turns;
 }
 
+// Rows of a file, in any order.
+struct FileRows {
+    const Topology& faces;
+    std::span<const uint32_t> rows;      // [R] the row of the bake for each
+    std::span<const uint32_t> vertices;  // [R] the point of the positions for each; empty: the same
+    std::span<const Vec3f> turns;        // [R] or empty
+};
+
 // Compares the frames of a file with those of the bake.
 class FrameComparison {
   public:
-    // part, positions, vertices  of measure_frames()
-    // turns                      [R] in the order of the bake, or empty
     FrameComparison(const BakeReader& gloss, size_t part, const LowRank& positions,
-                    std::span<const uint32_t> vertices, std::span<const Vec3f> turns,
-                    const BandPower& power)
+                    const FileRows& file, const BandPower& power)
         : layout_(gloss.identity().layout),
           part_(gloss, part),
           of_bake_(gloss, part),
           positions_(positions),
-          vertices_(vertices),
-          of_file_(part_.topology(), decoded_rows(0), turns),
+          file_(file),
+          of_file_(file.faces, decoded_rows(0), file.turns),
           power_(power),
           sums_(part_.num_vertices()) {
-        PAIM_CHECK_EQ(vertices.size(), size_t{part_.num_vertices()});
+        PAIM_CHECK_EQ(file.rows.size(), size_t{part_.num_vertices()});
         for (uint32_t p = 0; p < part_.num_poses(); ++p) add(p);
     }
 
@@ -111,11 +123,13 @@ class FrameComparison {
     std::vector<float> decoded_rows(uint32_t p) {
         std::vector<float> decoded;
         decoder_.decode(positions_, p, positions_.num_components, decoded);
-        return planes_at(decoded, vertices_);
+        return planes_at(decoded, file_.vertices);
     }
 
     void add(uint32_t p) {
-        const auto got = of_file_.at(decoded_rows(p)), wanted = of_bake_.at(p);
+        const auto of_rows = of_file_.at(decoded_rows(p)), wanted = of_bake_.at(p);
+        std::vector<Eigen::Matrix3f> got(of_rows.size());  // in the order of the bake
+        for (size_t r = 0; r < got.size(); ++r) got[file_.rows[r]] = of_rows[r];
         std::vector<float> planes;
         for (size_t first = 0; first < sums_.size(); first += kRowsInMemory) {
             const size_t count = std::min(kRowsInMemory, sums_.size() - first);
@@ -141,7 +155,7 @@ class FrameComparison {
     const BakedPart part_;
     const BakedFrames of_bake_;
     const LowRank& positions_;
-    std::span<const uint32_t> vertices_;
+    const FileRows file_;
     PositionDecoder decoder_;
     const GlossFrames of_file_;
     const BandPower& power_;
@@ -152,17 +166,21 @@ class FrameComparison {
 
 void set_frame_turns(const BakeReader& gloss, Asset& asset) {
     for (size_t part = 0; part < asset.parts.size(); ++part) {
-        const std::vector<Vec3f> baked = turns_to_baked(BakedFrames(gloss, part));
-        std::vector<Vec3f> turns;
-        for (const uint32_t row : match_part(asset, part, gloss)) turns.push_back(baked[row]);
-        asset.parts[part].frame_turns = frame_turns(turns);
+        CodedMesh& mesh = asset.parts[part];
+        const std::vector<uint32_t> rows = match_part(asset, part, gloss);
+        mesh.frame_turns =
+            frame_turns(turns_to_baked(BakedFrames(gloss, part), mesh.topology, rows));
     }
 }
 
 FrameError measure_frames(const BakeReader& gloss, size_t part, const LowRank& positions,
                           std::span<const uint32_t> vertices, const BandPower& power) {
-    const LowRank turns = frame_turns(turns_to_baked(BakedFrames(gloss, part)));
-    return FrameComparison(gloss, part, positions, vertices, turn_vectors(turns), power).error();
+    const Topology& faces = BakedPart(gloss, part).topology();
+    std::vector<uint32_t> rows(faces.num_vertices);
+    std::iota(rows.begin(), rows.end(), 0u);
+    const std::vector<Vec3f> turns =
+        turn_vectors(frame_turns(turns_to_baked(BakedFrames(gloss, part), faces, rows)));
+    return FrameComparison(gloss, part, positions, {faces, rows, vertices, turns}, power).error();
 }
 
 FrameError measure_frames(const BakeReader& gloss, const Asset& asset, const BandPower& power) {
@@ -170,13 +188,10 @@ FrameError measure_frames(const BakeReader& gloss, const Asset& asset, const Ban
     for (size_t part = 0; part < asset.parts.size(); ++part) {
         const CodedMesh& mesh = asset.parts[part];
         const std::vector<uint32_t> rows = match_part(asset, part, gloss);
-        const std::vector<Vec3f> of_file = turn_vectors(mesh.frame_turns);
-        std::vector<uint32_t> vertices(rows.size());
-        std::vector<Vec3f> turns(of_file.size());
-        for (uint32_t v = 0; v < rows.size(); ++v) vertices[rows[v]] = v;
-        for (size_t v = 0; v < of_file.size(); ++v) turns[rows[v]] = of_file[v];
+        const std::vector<Vec3f> turns = turn_vectors(mesh.frame_turns);
         const FrameError error =
-            FrameComparison(gloss, part, mesh.positions, vertices, turns, power).error();
+            FrameComparison(gloss, part, mesh.positions, {mesh.topology, rows, {}, turns}, power)
+                .error();
         if (error.relative_rms >= worst.relative_rms) worst = error;
     }
     return worst;

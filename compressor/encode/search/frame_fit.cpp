@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "compressor/encode/search/feasibility.h"
 #include "paim/base/error.h"
@@ -33,10 +34,15 @@ FramedSummary encode_for_frames(const EncodeTarget& target, double most,
                                           summary.diffuse.targets.surface.normal_angle_deg);
         next.normal_angle_deg = kLess * angle_deg * most / summary.frame_error;
     }
+    // Rounded up, as positions are coded otherwise for another error.
+    const double enough = std::ceil(102.0 * summary.frame_error / kFrameShare);
     throw_infeasible(fmt::format(
-        "normals of the decoded positions leave an error of {:.3g} % of the gloss, expected at most "
-        "{:.3g} %: allow a --max-gloss-error of {:.3g} % or more",
-        100.0 * summary.frame_error, 100.0 * most, 100.0 * summary.frame_error / kFrameShare));
+        "frames of the gloss, from decoded positions, leave an error of {:.3g} %, expected at most {:.3g} %: {}. "
+        "Where seams bend, normals of files are used, or the first pose has no area, frames are "
+        "worse than positions",
+        100.0 * summary.frame_error, 100.0 * most,
+        enough < 100.0 ? fmt::format("allow a --max-gloss-error of {:.0f} % or more", enough)
+                       : "no --max-gloss-error allows that"));
 }
 
 }  // namespace paim

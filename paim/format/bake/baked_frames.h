@@ -27,8 +27,6 @@ class BakedFrames {
     std::vector<Eigen::Matrix3f> at(uint32_t p) const {
         return frames_.at(positions(p), read(&BakedPart::read_normal_rows, p));
     }
-    // The same with the normals of the faces as z axes.
-    std::vector<Eigen::Matrix3f> by_faces(uint32_t p) const { return frames_.at(positions(p)); }
 
   private:
     using ReadRows = void (BakedPart::*)(uint32_t, uint64_t, uint64_t, float*) const;

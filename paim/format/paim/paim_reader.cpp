@@ -115,6 +115,15 @@ LowRank start_still_matrix(uint32_t num_planes, uint32_t num_points) {
     return matrix;
 }
 
+// Whether frames are turned, by this member.
+bool has_turns(const Metadata& metadata, const char* member) {
+    const auto found = metadata.root().find(member);
+    if (found == metadata.root().end()) return false;
+    if (*found == true) return true;
+    throw_bad_input("{}: metadata: '{}': expected true, or no such member", metadata.file(),
+                    member);
+}
+
 // The gloss of the file's moving part, without values; nothing if it has none.
 std::optional<CodedGloss> start_gloss(const Metadata& metadata, uint32_t num_vertices,
                                       uint32_t num_poses) {
@@ -125,8 +134,7 @@ std::optional<CodedGloss> start_gloss(const Metadata& metadata, uint32_t num_ver
     gloss.layout = read_layout(part, TransferKind::glossy);
     if (num_vertices == 0) throw_bad_input("{}: gloss without vertices", metadata.file());
     gloss.num_rows = part.integer("rows", 1, num_vertices);
-    if (part.root().contains("frame_turns"))
-        gloss.frame_turns = start_still_matrix(3, gloss.num_rows);
+    if (has_turns(part, "frame_turns")) gloss.frame_turns = start_still_matrix(3, gloss.num_rows);
     gloss.transfer = start_transfer(part);
     const uint32_t num_points = gloss.transfer->start(gloss.num_rows);
     gloss.transfer->matrix =
@@ -183,7 +191,7 @@ CodedMesh start_still(const ContainerReader& reader, const Metadata& metadata,
     gloss.layout = moving.gloss->layout;
     gloss.num_rows = part.integer("still_rows", 1, num_vertices);
     gloss.transfer = plain_transfer(start_still_matrix(gloss.layout.num_planes(), gloss.num_rows));
-    if (part.root().contains("still_frame_turns")) {
+    if (has_turns(part, "still_frame_turns")) {
         gloss.frame_turns = start_still_matrix(3, gloss.num_rows);
     }
     return mesh;

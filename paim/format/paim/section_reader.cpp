@@ -2,6 +2,7 @@
 #include "paim/format/paim/section_reader.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -259,6 +260,25 @@ void read_vertex_numbers(const ContainerReader& reader, const Section& section,
     }
 }
 
+// Error (bad input) unless they are 0 … 1.
+void check_tints(const ContainerReader& reader, Tag tag, const Albedo& tints) {
+    for (const Vec3f& tint : tints.values) {
+        if (tint.minCoeff() >= 0.0f && tint.maxCoeff() <= 1.0f) continue;
+        throw_bad_input("{}: section {}: a tint of {}, {}, {}, expected 0 to 1", reader.name(),
+                        tag.str(), tint.x(), tint.y(), tint.z());
+    }
+}
+
+// Error (bad input) if a frame turns by more than π about an axis.
+void check_turns(const ContainerReader& reader, const CodedMesh& mesh) {
+    if (!mesh.gloss) return;
+    for (const float radians : mesh.gloss->frame_turns.mean_floats()) {
+        if (std::abs(radians) <= 3.15f) continue;
+        throw_bad_input("{}: a frame of gloss turns by {} radians, expected at most pi",
+                        reader.name(), radians);
+    }
+}
+
 void read_meshes(const ContainerReader& reader, const std::vector<FoundRow>& found, Asset& asset) {
     for (const FoundRow& row : found) {
         CodedMesh& mesh = asset.parts[row.row.part];
@@ -268,6 +288,7 @@ void read_meshes(const ContainerReader& reader, const std::vector<FoundRow>& fou
             const bool of_rows = mesh.gloss && *colours == &mesh.gloss->tint;
             **colours = read_albedo(
                 reader, of_rows ? mesh.gloss->num_rows : mesh.topology.num_vertices, row.row.tag);
+            if (of_rows) check_tints(reader, row.row.tag, **colours);
         } else if (const auto* numbers = std::get_if<VertexNumbers>(&row.row.values)) {
             read_vertex_numbers(reader, *row.section, *numbers);
         }
@@ -321,7 +342,10 @@ void read_sections(const ContainerReader& reader, const ComponentCounts& counts,
     read_values(reader, jobs);
     check_smoothing(reader, moving.positions);
     smooth_stored(moving.positions, moving.topology);
-    for (const CodedMesh& mesh : asset.parts) check_magnitudes(mesh, reader.name() + ": ");
+    for (const CodedMesh& mesh : asset.parts) {
+        check_turns(reader, mesh);
+        check_magnitudes(mesh, reader.name() + ": ");
+    }
 }
 
 }  // namespace paim

@@ -67,11 +67,11 @@ TEST(FrameFit, SaysWhatItCannotReach) {
     Encoder bent;
     bent.floor = 0.03;
     const std::string text = bent.complaint(0.01);
-    EXPECT_NE(text.find("an error of 3 % of the gloss"), std::string::npos) << text;
-    EXPECT_NE(text.find("--max-gloss-error of 6 %"), std::string::npos) << text;
+    EXPECT_NE(text.find("leave an error of 3 %"), std::string::npos) << text;
+    EXPECT_NE(text.find("--max-gloss-error of 7 %"), std::string::npos) << text;
     Encoder coarse;
     coarse.smallest_angle_deg = 2.0;
-    EXPECT_NE(coarse.complaint(0.01).find("an error of 5 % of the gloss"), std::string::npos);
+    EXPECT_NE(coarse.complaint(0.01).find("leave an error of 5 %"), std::string::npos);
     // A target that cannot be met without gloss either is refused as it is.
     Encoder impossible;
     impossible.smallest_angle_deg = 9.0;
