@@ -8,7 +8,8 @@ MeshDecoder::MeshDecoder(const CodedMesh& mesh)
     if (mesh.layout.kind != TransferKind::glossy) return;
     std::vector<float> first_pose;
     positions_.decode(mesh.positions, 0.0, mesh.positions.num_components, first_pose);
-    frames_ = std::make_unique<GlossFrames>(mesh.topology, first_pose, turn_vectors(mesh.frame_turns));
+    frames_ =
+        std::make_unique<GlossFrames>(mesh.topology, first_pose, turn_vectors(mesh.frame_turns));
 }
 
 void MeshDecoder::decode(double time, const DecodeLimits& limits, DecodedPose& out) {
