@@ -86,7 +86,7 @@ Check check(const AnalyzeOptions& options, const Asset& asset, const ErrorStatem
     return check;
 }
 
-// The errors of the frames, which stand beside the statement of the coefficients.
+// Adds the errors of the frames. Files state them apart from those of the coefficients.
 void add_frames(const Asset& asset, const BakeReader& gloss, const ErrorStatement& statement,
                 Check& check) {
     const FrameError frames = measure_frames(gloss, asset, check.spectrum);

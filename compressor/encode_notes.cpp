@@ -32,12 +32,15 @@ void say_more_rays_help() {
                "components (bake again with more --rays, into another .bake)\n");
 }
 
+void say_gloss_error_is_unused(const char* why) {
+    fmt::print(stderr, "note: --max-gloss-error is not used: {}\n", why);
+}
+
 void say_if_without_gloss(bool asks_for_gloss, const BakeReader& reader) {
     const bool still_meshes_have_gloss = reader.identity().gloss.has_value();
     if (asks_for_gloss) {
-        fmt::print(
-            stderr, "note: --max-gloss-error is not used: {}\n",
-            still_meshes_have_gloss ? "no vertex of the poses is glossy" : "the bake has no gloss");
+        say_gloss_error_is_unused(still_meshes_have_gloss ? "no vertex of the poses is glossy"
+                                                          : "the bake has no gloss");
     }
     if (!still_meshes_have_gloss) return;
     fmt::print(stderr,

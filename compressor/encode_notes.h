@@ -14,6 +14,9 @@ void say_if_fewer_bands(const EncodeOptions& asked, const BakeReader& reader);
 
 void say_more_rays_help();
 
+// That an error of the gloss was given in vain, and why.
+void say_gloss_error_is_unused(const char* why);
+
 // That still meshes have gloss that is not encoded, and that an error of the gloss is not used.
 // reader          of poses without gloss
 // asks_for_gloss  whether an error of the gloss was given

@@ -216,7 +216,7 @@ GlossReport<TargetReport> encode_glossy_target(const CompressOptions& options,
 // Forgets the option, so that it is said once.
 void say_if_no_gloss_error(CompressOptions& options, bool has_gloss) {
     if (!options.gloss_error || has_gloss) return;
-    print_notes({"--max-gloss-error is not used: the bake has no gloss"});
+    say_gloss_error_is_unused("the bake has no gloss");
     options.gloss_error.reset();
 }
 

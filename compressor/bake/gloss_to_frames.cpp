@@ -4,6 +4,7 @@
 #include "paim/base/check.h"
 #include "paim/base/parallel.h"
 #include "paim/mesh/face_vertices.h"
+#include "paim/mesh/planes.h"
 #include "paim/sh/rotate.h"
 
 namespace paim {
@@ -18,12 +19,10 @@ std::vector<uint32_t> rows_of(const Topology& topology, const Materials& materia
 
 // [3][V] to [R].
 std::vector<Vec3f> chosen(std::span<const float> planes, const std::vector<uint32_t>& rows) {
-    const size_t num_vertices = planes.size() / 3;
-    std::vector<Vec3f> of_rows;
-    for (const uint32_t v : rows) {
-        of_rows.emplace_back(planes[v], planes[num_vertices + v], planes[2 * num_vertices + v]);
-    }
-    return of_rows;
+    if (rows.empty()) return {};
+    std::vector<float> of_rows(planes.begin(), planes.end());
+    keep_vertices(of_rows, static_cast<uint32_t>(planes.size() / 3), rows);
+    return from_planes(of_rows);
 }
 
 // [channels · O · C][R] in the axes of the pose to [channels · K · C][R].

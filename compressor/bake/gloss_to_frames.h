@@ -17,7 +17,6 @@ class RowFrames {
     RowFrames(const Topology& topology, const Materials& materials,
               std::span<const float> first_pose);
 
-    bool empty() const { return rows_.empty(); }
     // The z axes are the normals of the pose.
     // pose     its positions and normals, as they are stored
     // returns  [R] rotations from the frames to the axes of these

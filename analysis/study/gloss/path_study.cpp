@@ -1,4 +1,4 @@
-// paim-path-study: pictures of a file beside traced paths of its bake: pictures of docs/results/gloss.md.
+// paim-path-study compares pictures of a file with traced paths of its bake, for docs/results/gloss.md.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "analysis/reference/path/path_picture.h"
+#include "analysis/study/gloss/picture_distance.h"
 #include "compressor/bake/bake_options.h"
 #include "compressor/material/brdfs.h"
 #include "paim/base/error.h"
@@ -28,6 +29,7 @@
 namespace {
 
 using namespace paim;
+using namespace paim::study;
 
 struct Options {
     std::filesystem::path file, bake, env, picture;
@@ -139,21 +141,6 @@ Image draw_file(const Playback& playback, const Camera& camera, int size) {
     return image;
 }
 
-double squared_sum(const Image& image) {
-    double sum = 0.0;
-    for (const Vec3f& pixel : image.pixels) sum += pixel.cast<double>().squaredNorm();
-    return sum;
-}
-
-double squared_distance(const Image& image, const Image& reference) {
-    double sum = 0.0;
-    for (size_t j = 0; j < image.pixels.size(); ++j) {
-        if (reference.pixels[j].isZero(0.0f) || image.pixels[j].isZero(0.0f)) continue;
-        sum += (image.pixels[j] - reference.pixels[j]).cast<double>().squaredNorm();
-    }
-    return sum;
-}
-
 // Two pictures, left and right, below those that are there.
 void append_row(const Image& left, const Image& right, Image& all) {
     Image more(2 * left.width, all.height + left.height);
@@ -215,7 +202,7 @@ void study(const Options& options) {
         const Image drawn = draw_file(playback, camera, options.size);
         const double squared = squared_sum(reference.mean);
         fmt::print("{},{:g},{},{:.5f},{:.5f}\n", options.pose, turn_deg, paths.bounces,
-                   std::sqrt(squared_distance(drawn, reference.mean) / squared),
+                   std::sqrt(squared_distance(drawn, reference.mean, LitBy::both) / squared),
                    std::sqrt(squared_sum(reference.standard_error) / squared));
         if (all.height == 0) exposure = exposure_of(reference.mean);
         append_row(reference.mean, drawn, all);

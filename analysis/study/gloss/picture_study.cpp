@@ -13,6 +13,7 @@
 
 #include "analysis/reference/path/path_picture.h"
 #include "analysis/study/gloss/frame_transfer.h"
+#include "analysis/study/gloss/picture_distance.h"
 #include "analysis/study/open_source.h"
 #include "compressor/bake/bake_options.h"
 #include "compressor/material/brdfs.h"
@@ -118,21 +119,6 @@ Image draw(const Scene& scene, const std::vector<Vec3f>& radiance, uint32_t most
     return image;
 }
 
-double squared_sum(const Image& image) {
-    double sum = 0.0;
-    for (const Vec3f& pixel : image.pixels) sum += pixel.cast<double>().squaredNorm();
-    return sum;
-}
-
-double squared_distance(const Image& image, const Image& reference) {
-    double sum = 0.0;
-    for (size_t j = 0; j < image.pixels.size(); ++j) {
-        if (reference.pixels[j].isZero(0.0f)) continue;
-        sum += (image.pixels[j] - reference.pixels[j]).cast<double>().squaredNorm();
-    }
-    return sum;
-}
-
 void measure(const Scene& scene, const std::string& text, const Options& options) {
     PathMaterials materials;
     materials.brdfs.push_back(parse_brdf(text));
@@ -157,7 +143,8 @@ void measure(const Scene& scene, const std::string& text, const Options& options
             const Image image = draw(scene, radiance, options.most_out, out);
             fmt::print("{},\"{}\",{},{},{},{:.5f},{:.5f}\n", options.name, text,
                        options.light_bands, in, out,
-                       std::sqrt(squared_distance(image, reference.mean) / all), noise);
+                       std::sqrt(squared_distance(image, reference.mean, LitBy::reference) / all),
+                       noise);
         }
     }
     std::fflush(stdout);
